@@ -212,7 +212,7 @@ class Adaptive {
       const Vec2 here = xy(w.at());
       w.line({here.x, here.y, above}, MoveRole::kLink);
       for (const Vec2 q : p.way) w.line({q.x, q.y, above}, MoveRole::kLink);
-      w.line({p.track.start.x, p.track.start.y, z}, MoveRole::kLink);
+      w.line({p.track.start.x, p.track.start.y, z}, MoveRole::kApproach);
     }
     w.follow(p.track, z, MoveRole::kCut);
   }

@@ -33,12 +33,17 @@ constexpr double kIdleLength = 3.0;       // radii without contact, after which 
 constexpr double kIdleTurn = kPi;         // likewise
 constexpr double kOwnSweep = 8.0;         // radii of length after which the ground is taken anew
 constexpr double kOwnTurn = 2.0;          // rad, likewise
+constexpr std::size_t kVisitedEvery = 3;  // steps
 constexpr std::size_t kMostPlaces = 1'000'000;
 
 Vec2 turned(Vec2 v, double rad) {
   const double c = std::cos(rad);
   const double s = std::sin(rad);
   return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+std::size_t cell_of(double v, double lo, double cell, std::size_t n) {
+  return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell), 0.0, static_cast<double>(n - 1)));
 }
 
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
@@ -53,13 +58,11 @@ Walls::Walls(const geometry::Region& centres) : inside_(centres) {
   const auto box = geometry::bounds(centres);
   lo_ = box.lo;
   const Vec2 size = box.hi - box.lo;
-  cell_ = std::max({std::max(size.x, size.y) / 64.0, 1e-6});
+  cell_ = std::max({size.x / 64.0, size.y / 64.0, 1e-6});
   columns_ = static_cast<std::size_t>(std::max(0.0, size.x / cell_)) + 1;
   rows_ = static_cast<std::size_t>(std::max(0.0, size.y / cell_)) + 1;
   cells_.resize(columns_ * rows_);
-  const auto index = [&](double v, double lo, std::size_t n) {
-    return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell_), 0.0, static_cast<double>(n - 1)));
-  };
+  const auto index = [&](double v, double lo, std::size_t n) { return cell_of(v, lo, cell_, n); };
   for (const auto& loop : centres.loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Edge e{loop[i], loop[(i + 1) % loop.size()]};
@@ -75,9 +78,7 @@ Walls::Walls(const geometry::Region& centres) : inside_(centres) {
 }
 
 Walls::Place Walls::nearest(Vec2 p, double within_mm) const {
-  const auto index = [&](double v, double lo, std::size_t n) {
-    return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell_), 0.0, static_cast<double>(n - 1)));
-  };
+  const auto index = [&](double v, double lo, std::size_t n) { return cell_of(v, lo, cell_, n); };
   Place best;
   for (std::size_t y = index(p.y - within_mm, lo_.y, rows_); y <= index(p.y + within_mm, lo_.y, rows_); ++y) {
     for (std::size_t x = index(p.x - within_mm, lo_.x, columns_); x <= index(p.x + within_mm, lo_.x, columns_);
@@ -143,7 +144,7 @@ Tracer::Step Tracer::best(ContactMeter& ground) const {
   double over = right.possible ? right.contact : kPi;
   Step good;
   double at = right_;
-  for (double turn = right_ - 0.5 * right_; !good.possible || good.contact > limit_;) {
+  for (double turn = 0.5 * right_; !good.possible || good.contact > limit_;) {
     if (turn < -kMostLeft) return {};
     good = step(ground, turn);
     at = turn;
@@ -172,8 +173,7 @@ Tracer::Step Tracer::best(ContactMeter& ground) const {
 Tracer::End Tracer::run(ContactMeter& ground) {
   double length = 0.0;
   double turn = 0.0;
-  const Vec2 first = heading_;
-  std::size_t spread = 0;
+  std::size_t steps = 0;
   while (line_.size() < kMostPlaces) {
     tick();
     const Step s = best(ground);
@@ -183,7 +183,7 @@ Tracer::End Tracer::run(ContactMeter& ground) {
     length += norm(s.to - line_.back());
     line_.push_back(s.to);
     heading_ = s.heading;
-    if (++spread % 3 == 0) ground.visited(s.to);
+    if (++steps % kVisitedEvery == 0) ground.visited(s.to);
     if (s.contact > kNoContact * limit_) {
       idle_mm_ = idle_turn_ = 0.0;
       cut_ = line_.size();
@@ -194,7 +194,6 @@ Tracer::End Tracer::run(ContactMeter& ground) {
     }
     if (length > kOwnSweep * bite_.radius_mm || std::abs(turn) > kOwnTurn) return End::kFurther;
   }
-  (void)first;
   return End::kAir;
 }
 

@@ -25,7 +25,7 @@ class Walls {
   [[nodiscard]] bool contains(geometry::Vec2 a, geometry::Vec2 b) const { return inside_.contains(a, b); }
   /// p itself within the region, else the nearest place of its boundary.
   [[nodiscard]] geometry::Vec2 kept(geometry::Vec2 p) const;
-  /// Nearest place of the boundary and its distance; cells of up to `within_mm` round p are looked at.
+  /// The nearest place of the boundary and its distance; none within `within_mm`: any, or a distance of 1e300.
   struct Place {
     geometry::Vec2 point;
     double distance_mm = 1e300;
