@@ -54,7 +54,8 @@ void expect_constant(const PathJob& task, const std::string& name) {
   const double straight = std::acos((radius - task.radial_depth_mm) / (radius - kBlind));
   // A degree is a ray of the raster. Where the last strip between two cleared places breaks, the cutter turns
   // into it, for less than half a millimetre.
-  EXPECT_LE(r.held_arc_rad, 1.10 * straight + kPi / 180) << name << " at " << r.held_at.x << ", " << r.held_at.y;
+  EXPECT_LE(r.held_arc_rad, 1.10 * straight + kPi / 180)
+      << name << " at " << r.held_at.x << ", " << r.held_at.y;
   EXPECT_LE(r.peak_arc_rad, 1.35 * straight + kPi / 180) << name;
   EXPECT_LE(r.most_on_link_rad, 0.0) << name;
   // Square corners keep a tip, as deep as a twentieth of the radius.
@@ -149,12 +150,15 @@ std::string refusal(const PathJob& t) {
 }
 
 TEST(AdaptivePath, IsRefusedWhereACutterCannotTurn) {
-  EXPECT_EQ(refusal(job_of(geometry::rounded_rectangle({0, 0}, {70, 12}, 6.0), 10.0, 1.0)), "TPA-UNSUPPORTED");
+  EXPECT_EQ(refusal(job_of(geometry::rounded_rectangle({0, 0}, {70, 12}, 6.0), 10.0, 1.0)),
+            "TPA-UNSUPPORTED");
   // Two chambers and a neck 11 mm wide.
-  const Region chambers = geometry::unite(geometry::rectangle({0, 0}, {40, 40}), geometry::rectangle({70, 0}, {110, 40}));
+  const Region chambers =
+      geometry::unite(geometry::rectangle({0, 0}, {40, 40}), geometry::rectangle({70, 0}, {110, 40}));
   EXPECT_EQ(refusal(job_of(geometry::unite(chambers, geometry::rectangle({30, 10}, {80, 21})), 10.0, 1.0)),
             "TPA-UNSUPPORTED");
-  EXPECT_EQ(refusal(job_of(geometry::unite(chambers, geometry::rectangle({30, 10}, {80, 26})), 10.0, 1.0)), "none");
+  EXPECT_EQ(refusal(job_of(geometry::unite(chambers, geometry::rectangle({30, 10}, {80, 26})), 10.0, 1.0)),
+            "none");
 }
 
 TEST(AdaptivePath, IsRefusedForWallsThatAreNotUprightAndForFinishing) {

@@ -20,8 +20,8 @@ namespace {
 constexpr double kLift = 0.3;
 /// Inner corners of the centres are rounded by this part of the cutter's radius: a front of radius p that
 /// advances by k makes an arc of contact of about sqrt(2 k (r + p) / (r p)), which for the layer left to the
-/// last pass (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square corner is
-/// at most a twentieth of the radius deep. In a narrower place a cutter does not turn.
+/// last pass (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square
+/// corner is at most a twentieth of the radius deep. In a narrower place a cutter does not turn.
 constexpr double kLeastTurn = 0.125;
 /// A helix below this part of the radius leaves a hole in which a cutter cannot begin to wind out.
 constexpr double kLeastHelix = 0.2;
@@ -88,7 +88,8 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
     const double length = model::move_length(path, i);
     const bool arc = model::is_arc(path.kind[i]);
     const int n = arc ? std::max(1, static_cast<int>(std::ceil(length / (0.02 * radius)))) : 1;
-    for (int k = 1; k <= n; ++k) line.push_back(xy(model::point_on_move(path, i, static_cast<double>(k) / n)));
+    for (int k = 1; k <= n; ++k)
+      line.push_back(xy(model::point_on_move(path, i, static_cast<double>(k) / n)));
   }
   flush();
   return out;
@@ -97,7 +98,10 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
 class Adaptive {
  public:
   Adaptive(LevelCutter& cutter, const Level& level, Clearings& known)
-      : c_(cutter), level_(level), known_(known), bite_(bite_of(cutter.task)),
+      : c_(cutter),
+        level_(level),
+        known_(known),
+        bite_(bite_of(cutter.task)),
         mirror_(!walls_on_right(cutter.task)) {}
 
   Status run() {
@@ -137,6 +141,12 @@ class Adaptive {
 
   /// Down the helix in the middle of the piece; `cleared` grows by what it has cleared at this height.
   Result<ClearingStart> enter(const Region& piece, Region& cleared) {
+    // Other ways in leave no hole to wind out of: the circle round it would be a slot at the full depth.
+    const Approach::Kind asked = c_.task.approach.kind;
+    if (asked == Approach::Kind::kPlunge || asked == Approach::Kind::kZigzag)
+      return unknown(c_.task, "the way in that is given is no helix and no ramp round a hole");
+    if (!(c_.task.cutter.maximum_ramp_angle_rad > 0.0))
+      return unknown(c_.task, "cutter " + c_.task.cutter.id + " does not ramp");
     const Deepest d = deepest(piece);
     const double flat = std::max(bite_.radius_mm - c_.task.cutter.corner_radius_mm, 0.5 * bite_.radius_mm);
     const double turn = std::min(0.9 * flat, d.distance_mm);
@@ -191,8 +201,12 @@ class Adaptive {
         for (Vec2& q : p.way) q.x = -q.x;
       }
     }
-    LevelClearing k{.centres = piece, .cleared = cleared, .entered = start.has_value(), .at = {}, .heading = {},
-                .passes = std::move(*passes)};
+    LevelClearing k{.centres = piece,
+                    .cleared = cleared,
+                    .entered = start.has_value(),
+                    .at = {},
+                    .heading = {},
+                    .passes = std::move(*passes)};
     if (start) {
       k.at = start->at;
       k.heading = start->heading;

@@ -132,8 +132,7 @@ double ContactMeter::arc(Vec2 p, Vec2 direction) {
       const Vec2 q = a + t * d;
       // Cleared ground lies left of the edge; the first crossing leads into the circle along the edge.
       const Vec2 round{-q.y, q.x};
-      crossings_.push_back(
-          {std::atan2(cross(direction, q), dot(direction, q)), cross(d, round) > 0.0});
+      crossings_.push_back({std::atan2(cross(direction, q), dot(direction, q)), cross(d, round) > 0.0});
     }
   }
   if (crossings_.empty()) return 0.0;

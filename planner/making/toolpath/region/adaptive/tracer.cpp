@@ -6,12 +6,13 @@
 
 #include "planner/ground/base/stopping.h"
 
-// A pass turns at each step as far towards the material as the arc of contact allows: the new direction is the
-// root of (arc of contact - that of the straight cut), found by halving and secants within the turns that a
-// step may make. On a straight or curved front this is the curve whose foremost contact runs along the front
-// at a constant angle to the travel, a tractrix of the front. Where the step would leave the centres, it
-// slides along their boundary; if it then touches too much, it turns away. Without contact the cutter curls
-// towards the material.
+// The arc of contact of a straight cut is acos(1 - ae / r) (WIDIA, Trochoidal Milling, page 7: 36.87 degrees
+// at a tenth of the diameter). A pass turns at each step as far towards the material as the arc of contact
+// allows: the new direction is the root of (arc of contact - that of the straight cut), found by halving and
+// secants within the turns that a step may make. On a straight or curved front this is the curve whose
+// foremost contact runs along the front at a constant angle to the travel, a tractrix of the front. Where the
+// step would leave the centres, it slides along their boundary; if it then touches too much, it turns away.
+// Without contact the cutter curls towards the material.
 
 namespace capstan::toolpath {
 
@@ -33,6 +34,7 @@ constexpr double kIdleLength = 3.0;       // radii without contact, after which 
 constexpr double kIdleTurn = kPi;         // likewise
 constexpr double kOwnSweep = 8.0;         // radii of length after which the ground is taken anew
 constexpr double kOwnTurn = 2.0;          // rad, likewise
+constexpr double kOwnFront = 0.2;         // rad
 constexpr std::size_t kVisitedEvery = 3;  // steps
 constexpr std::size_t kMostPlaces = 1'000'000;
 
@@ -81,8 +83,8 @@ Walls::Place Walls::nearest(Vec2 p, double within_mm) const {
   const auto index = [&](double v, double lo, std::size_t n) { return cell_of(v, lo, cell_, n); };
   Place best;
   for (std::size_t y = index(p.y - within_mm, lo_.y, rows_); y <= index(p.y + within_mm, lo_.y, rows_); ++y) {
-    for (std::size_t x = index(p.x - within_mm, lo_.x, columns_); x <= index(p.x + within_mm, lo_.x, columns_);
-         ++x) {
+    for (std::size_t x = index(p.x - within_mm, lo_.x, columns_);
+         x <= index(p.x + within_mm, lo_.x, columns_); ++x) {
       for (const Edge& e : cells_[y * columns_ + x]) {
         const Vec2 d = e.b - e.a;
         const double l2 = dot(d, d);
@@ -174,6 +176,7 @@ Tracer::End Tracer::run(ContactMeter& ground) {
   double length = 0.0;
   double turn = 0.0;
   std::size_t steps = 0;
+  std::vector<Vec2> held;
   while (line_.size() < kMostPlaces) {
     tick();
     const Step s = best(ground);
@@ -183,7 +186,12 @@ Tracer::End Tracer::run(ContactMeter& ground) {
     length += norm(s.to - line_.back());
     line_.push_back(s.to);
     heading_ = s.heading;
-    if (++steps % kVisitedEvery == 0) ground.visited(s.to);
+    // Its own sweep lies before it only once it has turned.
+    if (++steps % kVisitedEvery == 0) held.push_back(s.to);
+    if (std::abs(turn) > kOwnFront) {
+      for (const Vec2 p : held) ground.visited(p);
+      held.clear();
+    }
     if (s.contact > kNoContact * limit_) {
       idle_mm_ = idle_turn_ = 0.0;
       cut_ = line_.size();
