@@ -15,6 +15,8 @@ class PathWriter {
 
   [[nodiscard]] bool begun() const { return out_.path.size() > 0; }
   [[nodiscard]] geometry::Vec3 at() const { return out_.path.point(out_.path.size() - 1); }
+  /// The moves so far.
+  [[nodiscard]] const model::CutterPath& path() const { return out_.path; }
   /// Lowest height of rapids.
   [[nodiscard]] double rapid_z_mm() const { return rapid_z_; }
 

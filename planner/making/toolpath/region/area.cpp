@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/region/adaptive/adaptive.h"
 #include "planner/making/toolpath/region/area/rest.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/region/region_paths.h"
@@ -124,10 +125,12 @@ void warn_of_rest(LevelCutter& c, const WorkArea& w, const Region& centres) {
 Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
   const auto w = work_area(task);
   if (!w) return tl::unexpected(w.error());
-  if (task.constant_engagement)
-    return fail("TPA-UNSUPPORTED", about(task) + "no path of constant engagement is known for this area");
+  if (task.constant_engagement) {
+    if (auto ok = known_at_constant_engagement(task, *w); !ok) return tl::unexpected(ok.error());
+  }
   PathWriter writer(task);
   LevelCutter c(task, *w, writer, job);
+  Clearings clearings;
   const bool finish = model::has(task.operation, model::OperationTrait::kFinishes);
   const bool floor = task.operation != TypeId::kSideFinishMilling;
   const bool plane = model::has(task.operation, model::OperationTrait::kPlane);
@@ -171,7 +174,9 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
           centres_at(*w, task.cutter, z, *task.left_on_side_mm + 0.02, task.allowance_bottom_mm));
     }
     Status ok;
-    if (whole) {
+    if (task.constant_engagement) {
+      ok = cut_at_constant_engagement(c, level, clearings);
+    } else if (whole) {
       ok = cut_level(c, level, finish);
     } else {
       ok = cut_contours(c, level, {.lead_arcs = true, .wall_only = true});

@@ -1,0 +1,249 @@
+#include "planner/making/toolpath/region/adaptive/adaptive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/making/toolpath/region/patterns.h"
+
+namespace capstan::toolpath {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::MoveRole;
+
+namespace {
+
+/// Lift of the cutter over a floor that it moves across without cutting, mm; default, unsourced.
+constexpr double kLift = 0.3;
+/// On a front as narrow as the cutter and w, a pass of arc acos(1 - ae/r) advances by ae (w/2)/(r + w/2): at
+/// this part of the radius by a tenth of ae. Narrower, there is no turning.
+constexpr double kLeastTurn = 1.0 / 9.0;
+/// A helix below this part of the radius leaves a hole in which a cutter cannot begin to wind out.
+constexpr double kLeastHelix = 0.2;
+/// More than this part of the radius is slotting, not clearing.
+constexpr double kMostRadial = 0.95;
+constexpr double kSameHeight = 1e-9;
+
+Bite bite_of(const PathJob& task) {
+  Bite b;
+  b.radius_mm = 0.5 * task.cutter.cutting_diameter_mm;
+  b.radial_mm = std::min(stepover_of(task), kMostRadial * b.radius_mm);
+  // A corner radius leaves ridges between passes further apart than the flat of the end.
+  const double flat = b.radius_mm - task.cutter.corner_radius_mm;
+  if (flat > 0.1 * b.radius_mm) b.radial_mm = std::min(b.radial_mm, flat);
+  b.blind_mm = std::clamp(0.02 * b.radial_mm, 0.002, 0.01);
+  b.chord_mm = 0.5 * b.blind_mm;
+  return b;
+}
+
+tl::unexpected<Diagnostic> unknown(const PathJob& task, const std::string& why) {
+  return fail("TPA-UNSUPPORTED", about(task) + "no path of constant engagement: " + why);
+}
+
+Region mirrored(const Region& r) {
+  Region out = r;
+  for (auto& loop : out.loops) {
+    for (Vec2& p : loop) p.x = -p.x;
+    std::reverse(loop.begin(), loop.end());
+  }
+  return out;
+}
+
+Track mirrored(Track t) {
+  t.start.x = -t.start.x;
+  for (Segment& s : t.segments) {
+    s.to.x = -s.to.x;
+    s.centre.x = -s.centre.x;
+    if (s.bend != Bend::kStraight) s.bend = s.bend == Bend::kCw ? Bend::kCcw : Bend::kCw;
+  }
+  return t;
+}
+
+/// What the moves from `first` on have swept at this height.
+Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, double radius, double chord) {
+  Region out;
+  std::vector<Vec2> line;
+  const auto flush = [&] {
+    if (line.size() == 1) out = geometry::unite(out, geometry::disc(line.front(), radius, chord));
+    if (line.size() > 1) out = geometry::unite(out, geometry::stroke(line, radius, true, chord));
+    line.clear();
+  };
+  const auto down = [&](std::size_t i) { return std::abs(path.z[i] - z_mm) < kSameHeight; };
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < path.size(); ++i) {
+    if (!down(i)) {
+      flush();
+      continue;
+    }
+    if (!down(i - 1)) {
+      flush();
+      line.push_back(xy(path.point(i)));
+      continue;
+    }
+    if (line.empty()) line.push_back(xy(path.point(i - 1)));
+    const double length = model::move_length(path, i);
+    const bool arc = model::is_arc(path.kind[i]);
+    const int n = arc ? std::max(1, static_cast<int>(std::ceil(length / (0.02 * radius)))) : 1;
+    for (int k = 1; k <= n; ++k) line.push_back(xy(model::point_on_move(path, i, static_cast<double>(k) / n)));
+  }
+  flush();
+  return out;
+}
+
+class Adaptive {
+ public:
+  Adaptive(LevelCutter& cutter, const Level& level, Clearings& known)
+      : c_(cutter), level_(level), known_(known), bite_(bite_of(cutter.task)),
+        mirror_(!walls_on_right(cutter.task)) {}
+
+  Status run() {
+    for (const Region& piece : geometry::pieces(level_.centres)) {
+      if (auto ok = cut(piece); !ok) return ok;
+    }
+    return {};
+  }
+
+ private:
+  /// Air beside the material, as far as this piece goes.
+  [[nodiscard]] Region air(const Region& piece) const {
+    if (!c_.area.open) return {};
+    const auto box = geometry::bounds(piece);
+    const double far = 3.0 * bite_.radius_mm;
+    return geometry::subtract(geometry::rectangle(box.lo - Vec2{far, far}, box.hi + Vec2{far, far}),
+                              c_.area.material);
+  }
+
+  Status cut(const Region& piece) {
+    Region cleared = air(piece);
+    std::optional<ClearingStart> start;
+    const Region outside = geometry::intersect(
+        geometry::offset(cleared, -(bite_.radius_mm + kBesideWay), bite_.chord_mm), piece);
+    if (geometry::area(outside) < 0.01 * bite_.radius_mm * bite_.radius_mm) {
+      auto entered = enter(piece, cleared);
+      if (!entered) return tl::unexpected(entered.error());
+      start = *entered;
+    }
+    const auto* passes = passes_of(piece, cleared, start);
+    if (passes == nullptr) return unknown(c_.task, "the passes into a narrow place find no end");
+    for (const ClearingPass& p : *passes) write(p);
+    return {};
+  }
+
+  /// Down the helix in the middle of the piece; `cleared` grows by what it has cleared at this height.
+  Result<ClearingStart> enter(const Region& piece, Region& cleared) {
+    const Deepest d = deepest(piece);
+    const double flat = std::max(bite_.radius_mm - c_.task.cutter.corner_radius_mm, 0.5 * bite_.radius_mm);
+    const double turn = std::min(0.9 * flat, d.distance_mm);
+    const double least = (c_.task.cutter.centre_cutting ? kLeastHelix : 0.5) * bite_.radius_mm;
+    if (turn < least) {
+      return unknown(c_.task, "a helix of " + trimmed(turn, 2) + " mm is the largest that fits, " +
+                                  trimmed(least, 2) + " mm is the least for cutter " + c_.task.cutter.id);
+    }
+    Track circle{.start = d.point + Vec2{turn, 0.0}, .segments = {}, .closed = true};
+    const Bend bend = mirror_ ? Bend::kCw : Bend::kCcw;
+    circle.segments.push_back({.to = d.point - Vec2{turn, 0.0}, .centre = d.point, .bend = bend});
+    circle.segments.push_back({.to = circle.start, .centre = d.point, .bend = bend});
+    const std::size_t before = c_.writer.path().size();
+    auto in = c_.enter(level_, circle, &piece);
+    if (!in) return tl::unexpected(in.error());
+    const auto swept = [&] {
+      return swept_at(c_.writer.path(), before, level_.z_mm, bite_.radius_mm, bite_.chord_mm);
+    };
+    Region hole = swept();
+    const Region full = geometry::disc(d.point, turn + bite_.radius_mm - 0.05, 0.01);
+    if (geometry::area(geometry::subtract(full, hole)) > 0.01) {
+      c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
+      hole = swept();
+    }
+    cleared = geometry::unite(cleared, hole);
+    const Vec2 at = xy(c_.writer.at());
+    const Vec2 out = at - d.point;
+    const double l = norm(out);
+    Vec2 heading = l > 1e-9 ? Vec2{-out.y / l, out.x / l} : Vec2{1.0, 0.0};
+    if (mirror_) heading = -1.0 * heading;
+    return ClearingStart{at, heading};
+  }
+
+  const std::vector<ClearingPass>* passes_of(const Region& piece, const Region& cleared,
+                                             const std::optional<ClearingStart>& start) {
+    for (const LevelClearing& k : known_) {
+      if (k.centres.loops == piece.loops && k.cleared.loops == cleared.loops &&
+          k.entered == start.has_value() && (!start || (k.at == start->at && k.heading == start->heading)))
+        return &k.passes;
+    }
+    std::optional<ClearingStart> from = start;
+    if (from && mirror_) {
+      from->at.x = -from->at.x;
+      from->heading.x = -from->heading.x;
+    }
+    auto passes = mirror_ ? clearing_passes(mirrored(piece), bite_, mirrored(cleared), from)
+                          : clearing_passes(piece, bite_, cleared, from);
+    if (!passes) return nullptr;
+    if (mirror_) {
+      for (ClearingPass& p : *passes) {
+        p.track = mirrored(std::move(p.track));
+        for (Vec2& q : p.way) q.x = -q.x;
+      }
+    }
+    LevelClearing k{.centres = piece, .cleared = cleared, .entered = start.has_value(), .at = {}, .heading = {},
+                .passes = std::move(*passes)};
+    if (start) {
+      k.at = start->at;
+      k.heading = start->heading;
+    }
+    known_.push_back(std::move(k));
+    return &known_.back().passes;
+  }
+
+  void write(const ClearingPass& p) {
+    PathWriter& w = c_.writer;
+    const double z = level_.z_mm;
+    if (p.over) {
+      w.over(p.track.start);
+      w.descend(z, z);
+    } else if (!p.way.empty()) {
+      const double above = std::min(z + kLift, w.rapid_z_mm());
+      const Vec2 here = xy(w.at());
+      w.line({here.x, here.y, above}, MoveRole::kLink);
+      for (const Vec2 q : p.way) w.line({q.x, q.y, above}, MoveRole::kLink);
+      w.line({p.track.start.x, p.track.start.y, z}, MoveRole::kLink);
+    }
+    w.follow(p.track, z, MoveRole::kCut);
+  }
+
+  LevelCutter& c_;
+  const Level& level_;
+  Clearings& known_;
+  Bite bite_;
+  bool mirror_;
+};
+
+}  // namespace
+
+Status known_at_constant_engagement(const PathJob& task, const WorkArea& w) {
+  if (model::has(task.operation, model::OperationTrait::kFinishes)) return unknown(task, "the step finishes");
+  if (task.cleared_by) return unknown(task, "only a rest of the area is cut");
+  if (w.slope_rad != 0.0) return unknown(task, "the walls are drafted");
+  if (w.bottom_radius_mm > task.cutter.corner_radius_mm + 1e-6)
+    return unknown(task, "a round leads from the walls to the bottom");
+  return {};
+}
+
+Status cut_at_constant_engagement(LevelCutter& cutter, const Level& level, Clearings& known) {
+  const double least = kLeastTurn * cutter.radius_mm;
+  const Region wide = geometry::offset(geometry::offset(level.centres, -least, 0.01), least + 0.02, 0.01);
+  for (const Region& neck : geometry::pieces(geometry::subtract(level.centres, wide))) {
+    const auto box = geometry::bounds(neck);
+    // The tips of corners are small.
+    if (std::max(box.hi.x - box.lo.x, box.hi.y - box.lo.y) < 6.0 * least) continue;
+    return unknown(cutter.task, "the cutter of " + trimmed(cutter.task.cutter.cutting_diameter_mm, 3) +
+                                    " mm cannot turn in a place less than " +
+                                    trimmed(2.0 * (least + cutter.radius_mm + level.allowance_mm), 2) +
+                                    " mm wide");
+  }
+  return Adaptive(cutter, level, known).run();
+}
+
+}  // namespace capstan::toolpath

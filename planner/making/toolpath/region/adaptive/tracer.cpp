@@ -1,0 +1,197 @@
+#include "planner/making/toolpath/region/adaptive/tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/ground/base/stopping.h"
+
+// A pass turns at each step as far towards the material as the arc of contact allows: the new direction is the
+// root of (arc of contact - that of the straight cut), found by halving and secants within the turns that a
+// step may make. On a straight or curved front this is the curve whose foremost contact runs along the front
+// at a constant angle to the travel, a tractrix of the front. Where the step would leave the centres, it
+// slides along their boundary; if it then touches too much, it turns away. Without contact the cutter curls
+// towards the material.
+
+namespace capstan::toolpath {
+
+using geometry::Vec2;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+// Length of a step as a part of the radius: its sagitta on a circle of half the radius is a hundredth of it.
+constexpr double kStepPart = 0.06;
+// Radius of a curl towards the material, as a part of the cutter's: a machine follows it at feed; default,
+// unsourced.
+constexpr double kCurlPart = 0.5;
+constexpr double kMostLeft = 1.2;         // rad; more is a pass of its own
+constexpr double kContactFound = 0.005;   // of the limit: accuracy of the root
+constexpr double kNoContact = 0.01;       // of the limit
+constexpr double kIdleLength = 3.0;       // radii without contact, after which a pass has ended
+constexpr double kIdleTurn = kPi;         // likewise
+constexpr double kOwnSweep = 4.0;         // radii of length after which the ground is taken anew
+constexpr double kOwnTurn = 2.0;          // rad, likewise
+constexpr std::size_t kMostPlaces = 1'000'000;
+
+Vec2 turned(Vec2 v, double rad) {
+  const double c = std::cos(rad);
+  const double s = std::sin(rad);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+double angle_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
+
+}  // namespace
+
+double Bite::arc_rad() const {
+  return std::acos(std::clamp((radius_mm - radial_mm) / (radius_mm - blind_mm), -1.0, 1.0));
+}
+
+Walls::Walls(const geometry::Region& centres) : inside_(centres) {
+  const auto box = geometry::bounds(centres);
+  lo_ = box.lo;
+  const Vec2 size = box.hi - box.lo;
+  cell_ = std::max({std::max(size.x, size.y) / 64.0, 1e-6});
+  columns_ = static_cast<std::size_t>(std::max(0.0, size.x / cell_)) + 1;
+  rows_ = static_cast<std::size_t>(std::max(0.0, size.y / cell_)) + 1;
+  cells_.resize(columns_ * rows_);
+  const auto index = [&](double v, double lo, std::size_t n) {
+    return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell_), 0.0, static_cast<double>(n - 1)));
+  };
+  for (const auto& loop : centres.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Edge e{loop[i], loop[(i + 1) % loop.size()]};
+      for (std::size_t y = index(std::min(e.a.y, e.b.y), lo_.y, rows_);
+           y <= index(std::max(e.a.y, e.b.y), lo_.y, rows_); ++y) {
+        for (std::size_t x = index(std::min(e.a.x, e.b.x), lo_.x, columns_);
+             x <= index(std::max(e.a.x, e.b.x), lo_.x, columns_); ++x) {
+          cells_[y * columns_ + x].push_back(e);
+        }
+      }
+    }
+  }
+}
+
+Walls::Place Walls::nearest(Vec2 p, double within_mm) const {
+  const auto index = [&](double v, double lo, std::size_t n) {
+    return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell_), 0.0, static_cast<double>(n - 1)));
+  };
+  Place best;
+  for (std::size_t y = index(p.y - within_mm, lo_.y, rows_); y <= index(p.y + within_mm, lo_.y, rows_); ++y) {
+    for (std::size_t x = index(p.x - within_mm, lo_.x, columns_); x <= index(p.x + within_mm, lo_.x, columns_);
+         ++x) {
+      for (const Edge& e : cells_[y * columns_ + x]) {
+        const Vec2 d = e.b - e.a;
+        const double l2 = dot(d, d);
+        const double t = l2 > 0.0 ? std::clamp(dot(p - e.a, d) / l2, 0.0, 1.0) : 0.0;
+        const Vec2 q = e.a + t * d;
+        const double distance = norm(p - q);
+        if (distance < best.distance_mm - 1e-12) best = {q, distance};
+      }
+    }
+  }
+  return best;
+}
+
+Vec2 Walls::kept(Vec2 p) const {
+  if (inside_.contains(p)) return p;
+  for (double within = cell_; within < 1e6; within *= 4.0) {
+    const Place place = nearest(p, within);
+    if (place.distance_mm <= within) return place.point;
+  }
+  return p;
+}
+
+Tracer::Tracer(const Walls& walls, const Bite& bite, Vec2 start, Vec2 heading)
+    : walls_(walls),
+      bite_(bite),
+      limit_(bite.arc_rad()),
+      length_(kStepPart * bite.radius_mm),
+      right_(kStepPart / kCurlPart),
+      heading_(heading),
+      line_({start}) {}
+
+Tracer::Step Tracer::step(ContactMeter& ground, double right_rad) const {
+  Step out;
+  const Vec2 from = line_.back();
+  out.heading = turned(heading_, -right_rad);
+  out.to = from + length_ * out.heading;
+  if (!walls_.contains(out.to)) {
+    out.to = walls_.kept(out.to);
+    const Vec2 d = out.to - from;
+    const double l = norm(d);
+    // Straight into the wall: hardly a step.
+    if (l < 0.4 * length_) return out;
+    out.heading = (1.0 / l) * d;
+    if (angle_between(heading_, out.heading) > kMostLeft) return out;
+  }
+  out.contact = ground.arc(out.to, out.heading);
+  out.possible = true;
+  return out;
+}
+
+Tracer::Step Tracer::best(ContactMeter& ground) const {
+  Step right = step(ground, right_);
+  if (right.possible && right.contact <= limit_) return right;
+  // Leftwards in growing turns until a step is allowed; then back towards the limit.
+  double bad = right_;
+  double over = right.possible ? right.contact : kPi;
+  Step good;
+  double at = right_;
+  for (double turn = right_ - 0.5 * right_; !good.possible || good.contact > limit_;) {
+    if (turn < -kMostLeft) return {};
+    good = step(ground, turn);
+    at = turn;
+    if (good.possible && good.contact <= limit_) break;
+    bad = turn;
+    over = good.possible ? good.contact : kPi;
+    turn -= turn > -right_ ? right_ : 0.15;
+  }
+  for (int i = 0; i < 8; ++i) {
+    if (good.contact >= (1.0 - kContactFound) * limit_ || bad - at < 1e-3) break;
+    double t = (limit_ - good.contact) / std::max(over - good.contact, 1e-12);
+    t = std::clamp(t, 0.1, 0.9);
+    const double turn = at + t * (bad - at);
+    const Step s = step(ground, turn);
+    if (s.possible && s.contact <= limit_) {
+      good = s;
+      at = turn;
+    } else {
+      bad = turn;
+      over = s.possible ? s.contact : kPi;
+    }
+  }
+  return good;
+}
+
+Tracer::End Tracer::run(ContactMeter& ground) {
+  double length = 0.0;
+  double turn = 0.0;
+  const Vec2 first = heading_;
+  std::size_t spread = 0;
+  while (line_.size() < kMostPlaces) {
+    tick();
+    const Step s = best(ground);
+    if (!s.possible) return End::kBlocked;
+    const double by = angle_between(heading_, s.heading);
+    turn += by;
+    length += norm(s.to - line_.back());
+    line_.push_back(s.to);
+    heading_ = s.heading;
+    if (++spread % 3 == 0) ground.visited(s.to);
+    if (s.contact > kNoContact * limit_) {
+      idle_mm_ = idle_turn_ = 0.0;
+      cut_ = line_.size();
+    } else {
+      idle_mm_ += length_;
+      idle_turn_ += by;
+      if (idle_mm_ > kIdleLength * bite_.radius_mm || std::abs(idle_turn_) > kIdleTurn) return End::kAir;
+    }
+    if (length > kOwnSweep * bite_.radius_mm || std::abs(turn) > kOwnTurn) return End::kFurther;
+  }
+  (void)first;
+  return End::kAir;
+}
+
+}  // namespace capstan::toolpath

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+#include "planner/making/toolpath/path_job.h"
+#include "tests/making/toolpath/front_raster.h"
+#include "tests/making/toolpath/path_helpers.h"
+
+namespace capstan::toolpath {
+namespace {
+
+using geometry::Region;
+using geometry::Vec2;
+using model::MoveRole;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kBlind = 0.05;  // mm: what a raster of 0.04 mm cannot tell
+
+PathJob job_of(const Region& area, double diameter_mm, double radial_mm) {
+  PathJob t = area_job(area, 10.0, diameter_mm);
+  t.constant_engagement = true;
+  t.radial_depth_mm = radial_mm;
+  t.axial_depth_mm = 10.0;
+  t.allowance_side_mm = 0.2;
+  return t;
+}
+
+/// The first move after the way into the material: after the last ramp, and a turn at the bottom.
+std::size_t after_entry(const GeneratedPath& g) {
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < g.path.size(); ++i) {
+    if (g.path.role[i] == MoveRole::kRamp) last = i;
+  }
+  return last == 0 ? 0 : last + 3;
+}
+
+void expect_constant(const PathJob& task, const std::string& name) {
+  Job job;
+  const auto g = generate(task, job);
+  ASSERT_TRUE(g) << name << ": " << g.error().message;
+  plot(*g, task.shape.reach, "adaptive_" + name);
+  EXPECT_THAT(rule_breaks(task, *g), testing::IsEmpty()) << name;
+  const double radius = 0.5 * task.cutter.cutting_diameter_mm;
+  const double margin = radius + task.allowance_side_mm;
+  const Region reach = task.shape.reach.empty() ? task.shape.area : task.shape.reach;
+  EXPECT_LE(gouge_mm(*g, reach, margin, task.start_z_mm - 1e-6), 0.003) << name;
+  const auto box = geometry::bounds(reach);
+  FrontRaster map(box.lo - Vec2{2, 2}, box.hi + Vec2{2, 2}, 0.04);
+  if (!task.stock.empty()) map.only(task.stock);
+  const auto r = map.run(*g, radius, -task.shape.depth_mm + 0.5, after_entry(*g), kBlind);
+  const double straight = std::acos((radius - task.radial_depth_mm) / (radius - kBlind));
+  std::printf("%-14s arc %5.1f of %5.1f deg at (%.2f, %.2f), link arc %.1f; cut %.0f mm idle %.0f link %.0f, %d retracts, %zu moves, least length %.0f\n",
+              name.c_str(), r.most_arc_rad * 180 / kPi, straight * 180 / kPi, r.most_at.x, r.most_at.y,
+              r.most_on_link_rad * 180 / kPi, r.cut_mm, r.idle_mm, r.link_mm, r.retracts, g->path.size(), geometry::area(reach)/task.radial_depth_mm);
+  EXPECT_LE(r.most_arc_rad, 1.10 * straight + kPi / 180) << name << " at " << r.most_at.x << ", " << r.most_at.y;
+  EXPECT_LE(r.most_on_link_rad, 0.0) << name;
+  const Region can = geometry::offset(geometry::offset(reach, -margin), radius - 0.06);
+  const Region material = task.stock.empty() ? can : geometry::intersect(can, task.stock);
+  EXPECT_LE(map.left_mm2(material), 1e-3 * geometry::area(material)) << name;
+}
+
+TEST(AdaptivePath, KeepsTheArcOfContactInARectangle) {
+  expect_constant(job_of(geometry::rounded_rectangle({0, 0}, {100, 80}, 6.0), 10.0, 1.0), "rectangle");
+}
+
+TEST(AdaptivePath, KeepsTheArcOfContactInAnL) {
+  const Region l = geometry::subtract(geometry::rounded_rectangle({0, 0}, {90, 70}, 5.5),
+                                      geometry::rectangle({40, 30}, {120, 90}));
+  expect_constant(job_of(l, 10.0, 1.5), "l");
+}
+
+TEST(AdaptivePath, KeepsTheArcOfContactAroundBosses) {
+  Region r = geometry::rounded_rectangle({0, 0}, {100, 70}, 8.0);
+  r = geometry::subtract(r, geometry::disc({30, 35}, 9.0));
+  r = geometry::subtract(r, geometry::rectangle({60, 20}, {76, 36}));
+  expect_constant(job_of(r, 8.0, 0.8), "bosses");
+  PathJob conventional = job_of(r, 8.0, 1.6);
+  conventional.climb = false;
+  expect_constant(conventional, "bosses_conv");
+}
+
+TEST(AdaptivePath, KeepsTheArcOfContactInACircle) {
+  expect_constant(job_of(geometry::disc({0, 0}, 30.0), 12.0, 1.2), "circle");
+}
+
+TEST(AdaptivePath, KeepsTheArcOfContactInANarrowSlot) {
+  expect_constant(job_of(geometry::rounded_rectangle({0, 0}, {70, 16}, 8.0), 10.0, 1.0), "slot");
+  expect_constant(job_of(geometry::rounded_rectangle({0, 0}, {70, 25}, 12.5), 16.0, 1.0), "slot25");
+}
+
+TEST(AdaptivePath, EntersAnOpenPocketFromOutside) {
+  PathJob t = job_of(geometry::rectangle({0, 0}, {60, 40}), 10.0, 1.5);
+  t.shape.open = true;
+  t.shape.reach = geometry::rectangle({-40, 0}, {60, 40});
+  t.stock = geometry::rectangle({0, -30}, {90, 70});
+  expect_constant(t, "open");
+}
+
+TEST(AdaptivePath, ClearsSharpCorners) {
+  expect_constant(job_of(geometry::rectangle({0, 0}, {60, 40}), 10.0, 2.0), "sharp");
+  expect_constant(job_of(geometry::clean({{{0, 0}, {80, 0}, {30, 50}}}), 8.0, 1.0), "triangle");
+}
+
+TEST(AdaptivePath, ClearsRandomStars) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> radius(20.0, 45.0);
+    geometry::Loop loop;
+    const int n = 5 + static_cast<int>(seed % 7);
+    for (int i = 0; i < n; ++i) {
+      const double a = 2.0 * kPi * i / n;
+      const double r = radius(random);
+      loop.push_back({r * std::cos(a), r * std::sin(a)});
+    }
+    PathJob t = job_of(geometry::clean({loop}), 6.0 + seed % 3, 0.5 + 0.25 * (seed % 4));
+    expect_constant(t, "star" + std::to_string(seed));
+  }
+}
+
+}  // namespace
+}  // namespace capstan::toolpath
