@@ -44,6 +44,9 @@ constexpr int kMostThinner = 3;
 constexpr double kThinnerAim = 0.9;      // default, unsourced
 constexpr double kThinnerUnknown = 0.5;  // if no formula gives the excess; default, unsourced
 constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
+/// Constant engagement is taken where its path takes less than this share of the rings' time: the spindle
+/// comes up to its speed, and its program is longer. Default, unsourced.
+constexpr double kWorthwhile = 0.98;
 constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
 /// Depth and width of a cut, for people.
@@ -262,11 +265,12 @@ class PathMaker {
     auto said_of_rings = job_.take_diagnostics();
     const auto of_rings = seconds(rings);
     const double volume = of_rings ? rings->removed_mm3.value_or(0.0) : 0.0;
-    const double least = step::least_seconds(*other, volume);
+    const double about = step::estimated_seconds(other->question, other->answer, volume, other->walled);
     step::StrategyChoice choice;
-    if (of_rings && least >= *of_rings) {
-      choice.lost.push_back({step::words_of(true, *other), "takes at least " + motion::duration_text(least) + " against " +
-                                                               motion::duration_text(*of_rings)});
+    if (of_rings && about >= kWorthwhile * *of_rings) {
+      choice.lost.push_back({step::words_of(true, other->answer),
+                             "takes about " + motion::duration_text(about) + " by its rate and entry against " +
+                                 motion::duration_text(*of_rings)});
       rings->strategy = std::move(choice);
       tell(std::move(said_of_rings));
       return rings;
@@ -275,7 +279,7 @@ class PathMaker {
     step.constant_engagement = true;
     auto constant = with_strategy(step, i);
     const auto of_constant = seconds(constant);
-    if (of_constant && (!of_rings || *of_constant < *of_rings)) {
+    if (of_constant && (!of_rings || *of_constant < kWorthwhile * *of_rings)) {
       choice.constant_engagement = true;
       choice.taken = step::words_of(true, constant->made.answer) + ": " + motion::duration_text(*of_constant);
       if (of_rings) {
@@ -299,7 +303,7 @@ class PathMaker {
                                   ? "takes " + motion::duration_text(*of_constant) + " against " + motion::duration_text(*of_rings)
                               : constant ? excess_text(*constant)
                                          : constant.error().message;
-      choice.lost.push_back({step::words_of(true, constant ? constant->made.answer : *other), why});
+      choice.lost.push_back({step::words_of(true, constant ? constant->made.answer : other->answer), why});
       rings->strategy = std::move(choice);
     }
     tell(std::move(said_of_rings));

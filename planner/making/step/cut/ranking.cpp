@@ -10,6 +10,7 @@
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/path/job_of.h"
+#include "planner/making/step/path/strategy_choice.h"
 #include "planner/model/nouns/all.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -73,14 +74,20 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
     trial.cutter = step.candidates[i].cutter;
     auto job = job_of(p, trial, step.shapes.front());
     progress.prepare(trial, stocks.of(trial.setup), job);
-    const auto q = question_of(p, trial, &step.candidates[i], job);
-    const auto a = cuts.answer(q);
+    auto q = question_of(p, trial, &step.candidates[i], job);
     double t = kNever * static_cast<double>(i + 1);
-    if (a && a->feasible) {
-      const double volume = geometry::area(job.shape.area) * q.depth_mm;
-      t = volume / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
-      if (!is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
+    const double volume = geometry::area(job.shape.area) * q.depth_mm;
+    const bool walled = model::has(job.shape.kind, model::ShapeTrait::kWalled);
+    const auto by = [&](const Result<optimise::CutAnswer>& a) {
+      if (a && a->feasible) t = std::min(t, estimated_seconds(q, *a, volume, walled));
+    };
+    by(cuts.answer(q));
+    // Constant engagement may want another cutter: a longer edge, more teeth.
+    if (may_engage_constantly(p, trial, job) && !q.slot && !q.constant_engagement) {
+      q.constant_engagement = true;
+      by(cuts.answer(q));
     }
+    if (t < kNever && !is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
     times.emplace_back(t, i);
   }
   in_order(plan, steps, step, std::move(times));

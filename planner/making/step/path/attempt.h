@@ -61,9 +61,14 @@ struct Means {
                                                 const model::Candidate* candidate, double share,
                                                 const Means& means);
 
-/// The cut that constant engagement would be asked for, without a path; nothing where the step may not have
-/// it or no such cut keeps the limits.
-[[nodiscard]] std::optional<optimise::CutAnswer> constant_cut(const PlanSoFar& p, draft::StepDraft step,
+/// The cut that constant engagement would be asked for, without a path.
+struct ConstantCut {
+  optimise::CutQuestion question;
+  optimise::CutAnswer answer;
+  bool walled = false;  ///< it is entered between walls
+};
+/// Nothing where the step may not have it or no such cut keeps the limits.
+[[nodiscard]] std::optional<ConstantCut> constant_cut(const PlanSoFar& p, draft::StepDraft step,
                                                               const model::Candidate* candidate,
                                                               const Means& means);
 

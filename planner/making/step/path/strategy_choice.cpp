@@ -1,5 +1,8 @@
 #include "planner/making/step/path/strategy_choice.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "planner/ground/base/number.h"
@@ -72,9 +75,19 @@ bool may_engage_constantly(const PlanSoFar& p, const StepDraft& step, const tool
          is_rings(m, strategy);
 }
 
-double least_seconds(const optimise::CutAnswer& cut, double volume_mm3) {
+double estimated_seconds(const optimise::CutQuestion& q, const optimise::CutAnswer& cut, double volume_mm3,
+                         bool walled) {
   const double rate = cut.ap_mm * cut.ae_mm * cut.feed_mm_min;
-  return rate > 0.0 ? 60.0 * volume_mm3 / rate : 0.0;
+  if (!(rate > 0.0)) return 0.0;
+  const model::Cutter& c = q.cutter;
+  constexpr double kTurns = 2.0;  // of the diameter
+  const bool crescents = q.constant_engagement && q.width_mm < kTurns * c.cutting_diameter_mm;
+  double out = volume_mm3 / rate * (crescents ? 0.5 * std::numbers::pi : 1.0);
+  const double wide =
+      q.fz_start_mm * std::max(1, c.teeth) * cut.n_rpm / optimise::speed_by_arc(q, cut.ae_mm);
+  const double slope = std::tan(c.maximum_ramp_angle_rad);
+  if (walled && slope > 0.0 && wide > 0.0) out += q.depth_mm / slope / std::min(wide, cut.feed_mm_min);
+  return 60.0 * out;
 }
 
 std::string words_of(bool constant_engagement, const optimise::CutAnswer& cut) {

@@ -32,8 +32,12 @@ struct StrategyChoice {
 [[nodiscard]] bool may_engage_constantly(const PlanSoFar& p, const draft::StepDraft& step,
                                          const toolpath::PathJob& job);
 
-/// The least time of removing a volume by a cut, s: entry, links and returns not counted.
-[[nodiscard]] double least_seconds(const optimise::CutAnswer& cut, double volume_mm3);
+/// About how long a cut takes to remove a volume, s: the volume by the removal rate and, between walls, the ramp
+/// down to the bottom at the feed of a slot and the cutter's steepest slope. In an area less than two cutters
+/// wide passes of constant engagement are crescents, whose mean width is 2 / pi of their largest (derived).
+/// Returns, links and corners are not in it.
+[[nodiscard]] double estimated_seconds(const optimise::CutQuestion& question, const optimise::CutAnswer& cut,
+                                       double volume_mm3, bool walled);
 
 /// "constant engagement 1.2 mm wide, 10 mm deep"
 [[nodiscard]] std::string words_of(bool constant_engagement, const optimise::CutAnswer& cut);
