@@ -16,8 +16,9 @@ class FrontRaster {
   void only(const geometry::Region& region);
 
   struct Report {
-    double most_arc_rad = 0.0;     ///< of cuts after `from_move`
-    geometry::Vec2 most_at;
+    double held_arc_rad = 0.0;  ///< of cuts after `from_move`: the most that lasts for half a millimetre
+    geometry::Vec2 held_at;
+    double peak_arc_rad = 0.0;  ///< the most at any place
     double most_on_link_rad = 0.0;
     double cut_mm = 0.0, link_mm = 0.0, idle_mm = 0.0;  ///< cuts, links, cuts without contact
     int retracts = 0;
@@ -36,6 +37,7 @@ class FrontRaster {
   double cell_;
   std::size_t nx_, ny_;
   std::vector<std::uint8_t> solid_;
+  std::vector<geometry::Vec2> late_;
 };
 
 }  // namespace capstan::toolpath

@@ -14,7 +14,8 @@ using geometry::Vec2;
 namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kRays = 180;  // of the front half
-constexpr double kLag = 1.0;  // mm
+constexpr double kLag = 1.0;   // mm
+constexpr double kHeld = 0.5;  // mm
 }  // namespace
 
 FrontRaster::FrontRaster(Vec2 lo, Vec2 hi, double cell_mm)
@@ -78,7 +79,9 @@ double FrontRaster::arc(Vec2 p, Vec2 direction, double radius) const {
     const double t = kPi * ((i + 0.5) / kRays - 0.5);
     const double c = std::cos(t);
     const double s = std::sin(t);
-    if (solid(p + radius * Vec2{c * direction.x - s * direction.y, s * direction.x + c * direction.y})) ++hits;
+    const Vec2 q = p + radius * Vec2{c * direction.x - s * direction.y, s * direction.x + c * direction.y};
+    if (!solid(q)) continue;
+    if (std::none_of(late_.begin(), late_.end(), [&](Vec2 at) { return norm(q - at) < radius - 1e-6; })) ++hits;
   }
   return hits * kPi / kRays;
 }
@@ -87,12 +90,15 @@ FrontRaster::Report FrontRaster::run(const GeneratedPath& g, double radius_mm, d
                                      std::size_t from_move, double blind_mm) {
   Report out;
   const auto& p = g.path;
-  // Places not yet cleared: the disc a short way behind would cover what the smaller circle touches abeam.
-  std::vector<Vec2> late;
-  std::size_t next = 0;
+  // Places not yet cleared on the cells: the whole disc a short way behind would cover what the smaller circle
+  // touches abeam. Up to then their smaller discs count.
+  late_.clear();
+  std::vector<double> held;
   const auto clear_late = [&](double keep_mm) {
-    while (next < late.size() && (keep_mm == 0.0 || static_cast<double>(late.size() - next) * 2.0 * cell_ > keep_mm))
-      clear(late[next++], radius_mm);
+    std::size_t n = 0;
+    while (n < late_.size() && static_cast<double>(late_.size() - n) * 2.0 * cell_ > keep_mm)
+      clear(late_[n++], radius_mm);
+    late_.erase(late_.begin(), late_.begin() + static_cast<std::ptrdiff_t>(n));
   };
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (p.role[i] == model::MoveRole::kRetract && i > from_move) ++out.retracts;
@@ -108,19 +114,26 @@ FrontRaster::Report FrontRaster::run(const GeneratedPath& g, double radius_mm, d
       const Vec2 d = at - last;
       const double l = norm(d);
       if (l > 1e-9) {
-        const double a = arc(at, (1.0 / l) * d, radius_mm - blind_mm);
+        const Vec2 heading = (1.0 / l) * d;
+        clear_late(link ? 0.0 : kLag);
+        const double a = arc(at, heading, radius_mm - blind_mm);
         if (link) {
           out.most_on_link_rad = std::max(out.most_on_link_rad, a);
         } else if (i >= from_move) {
           if (a == 0.0) out.idle_mm += l;
-          if (a > out.most_arc_rad) {
-            out.most_arc_rad = a;
-            out.most_at = at;
+          out.peak_arc_rad = std::max(out.peak_arc_rad, a);
+          held.push_back(a);
+          if (static_cast<double>(held.size()) * 2.0 * cell_ > kHeld) {
+            const double least = *std::min_element(held.begin(), held.end());
+            held.erase(held.begin());
+            if (least > out.held_arc_rad) {
+              out.held_arc_rad = least;
+              out.held_at = at;
+            }
           }
         }
+        if (!link) late_.push_back(at);
       }
-      if (!link) late.push_back(at);
-      clear_late(link ? 0.0 : kLag);
       last = at;
     }
   }
@@ -153,10 +166,10 @@ GeneratedPath at_y(double y, double z) {
 TEST(FrontRaster, CountsTheArcOfAStraightCutAndOfASlot) {
   FrontRaster r({0, 0}, {60, 30}, 0.02);
   const auto slot = r.run(at_y(5.0, 0.0), 5.0, 0.0, 0, 0.02);
-  EXPECT_NEAR(slot.most_arc_rad, kPi, 0.04);
+  EXPECT_NEAR(slot.held_arc_rad, kPi, 0.04);
   r.run(at_y(7.0, 0.0), 5.0, 0.0, 0, 0.02);
   const auto side = r.run(at_y(8.5, 0.0), 5.0, 0.0, 0, 0.02);
-  EXPECT_NEAR(side.most_arc_rad, std::acos(3.5 / 4.98), 0.04);
+  EXPECT_NEAR(side.held_arc_rad, std::acos(3.5 / 4.98), 0.04);
 }
 
 }  // namespace

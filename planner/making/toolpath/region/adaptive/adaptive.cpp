@@ -18,9 +18,11 @@ namespace {
 
 /// Lift of the cutter over a floor that it moves across without cutting, mm; default, unsourced.
 constexpr double kLift = 0.3;
-/// On a front as narrow as the cutter and w, a pass of arc acos(1 - ae/r) advances by ae (w/2)/(r + w/2): at
-/// this part of the radius by a tenth of ae. Narrower, there is no turning.
-constexpr double kLeastTurn = 1.0 / 9.0;
+/// Inner corners of the centres are rounded by this part of the cutter's radius: a front of radius p that
+/// advances by k makes an arc of contact of about sqrt(2 k (r + p) / (r p)), which for the layer left to the
+/// last pass (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square corner is
+/// at most a twentieth of the radius deep. In a narrower place a cutter does not turn.
+constexpr double kLeastTurn = 0.125;
 /// A helix below this part of the radius leaves a hole in which a cutter cannot begin to wind out.
 constexpr double kLeastHelix = 0.2;
 /// More than this part of the radius is slotting, not clearing.
@@ -99,7 +101,9 @@ class Adaptive {
         mirror_(!walls_on_right(cutter.task)) {}
 
   Status run() {
-    for (const Region& piece : geometry::pieces(level_.centres)) {
+    const double turn = kLeastTurn * bite_.radius_mm;
+    const Region rounded = inset(inset(level_.centres, turn, kWallChord), -turn, kWallChord);
+    for (const Region& piece : geometry::pieces(rounded)) {
       if (auto ok = cut(piece); !ok) return ok;
     }
     return {};

@@ -28,6 +28,7 @@ constexpr double kCurlPart = 0.5;
 constexpr double kMostLeft = 1.2;         // rad; more is a pass of its own
 constexpr double kContactFound = 0.005;   // of the limit: accuracy of the root
 constexpr double kNoContact = 0.01;       // of the limit
+constexpr double kTurnedInto = 0.05;      // of the limit: what a turn on the spot may add
 constexpr double kIdleLength = 3.0;       // radii without contact, after which a pass has ended
 constexpr double kIdleTurn = kPi;         // likewise
 constexpr double kOwnSweep = 4.0;         // radii of length after which the ground is taken anew
@@ -128,6 +129,9 @@ Tracer::Step Tracer::step(ContactMeter& ground, double right_rad) const {
   }
   out.contact = ground.arc(out.to, out.heading);
   out.possible = true;
+  // A turn to the right turns the front half into what its side just left, before the step is made.
+  if (-angle_between(heading_, out.heading) > kTurnedInto * limit_)
+    out.contact = std::max(out.contact, ground.arc(from, out.heading) - kTurnedInto * limit_);
   return out;
 }
 
