@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/ground/base/stopping.h"
 #include "planner/making/toolpath/region/adaptive/way.h"
@@ -50,20 +51,20 @@ class Clearing {
         wall_(centres),
         centres_(inset(centres, kOffWall, 0.25 * kOffWall)),
         walls_(centres_),
-        ground_(cleared) {}
+        ground_(cleared),
+        fresh_(geometry::bounds(cleared)) {}
 
   std::optional<std::vector<ClearingPass>> run(const std::optional<ClearingStart>& start) {
     if (centres_.empty()) return out_;
     if (start) {
       at_ = start->at;
       stands_ = true;
-      free_ = free_now();
       (void)pass({start->at, start->heading});
     }
     for (std::size_t n = 0;; ++n) {
       poll();
       if (n > kMostPasses) return std::nullopt;
-      free_ = free_now();
+      refresh();
       if (free_.empty()) return std::nullopt;
       if (!next()) break;
     }
@@ -72,19 +73,53 @@ class Clearing {
   }
 
  private:
-  [[nodiscard]] Region free_now() const {
-    return geometry::intersect(geometry::offset(ground_, -(bite_.radius_mm + kBesideWay), bite_.chord_mm),
-                               centres_);
+  /// Brings `free_` and `done_` up to the ground. Both only grow, and only near what was swept since: there
+  /// they are made anew, of the ground about it.
+  void refresh() {
+    if (fresh_.lo.x > fresh_.hi.x) return;
+    const double r = bite_.radius_mm;
+    const auto grown = [&](double by) {
+      return geometry::rectangle(fresh_.lo - Vec2{by, by}, fresh_.hi + Vec2{by, by});
+    };
+    const auto shrunk = [&](double by) {
+      const Region about = geometry::intersect(ground_, grown(2.0 * (r + by)));
+      const Region inner = geometry::intersect(geometry::offset(about, -by, bite_.chord_mm), centres_);
+      return geometry::intersect(inner, grown(r + by));
+    };
+    free_ = simplified(geometry::unite(free_, shrunk(r + kBesideWay)), 0.1 * bite_.chord_mm);
+    done_ = geometry::unite(done_, shrunk(r - left_mm_));
+    fresh_ = {};
   }
 
-  /// Places where ways begin and end: a little within, so that no rounding puts them outside.
-  [[nodiscard]] Walls stand() const { return Walls(geometry::offset(free_, -0.2 * kBesideWay, 0.1 * kBesideWay)); }
+  /// The place of `free_` that is nearest, a little within, so that no rounding puts it outside.
+  [[nodiscard]] static Vec2 stand(const Walls& free, Vec2 p) {
+    const double within = 0.2 * kBesideWay;
+    const Vec2 q = free.kept(p);
+    if (free.nearest(q, within).distance_mm >= within) return q;
+    Vec2 best = q;
+    double most = 0.0;
+    for (int i = 0; i < 16; ++i) {
+      const double t = i * std::numbers::pi / 8.0;
+      const Vec2 c = q + within * Vec2{std::cos(t), std::sin(t)};
+      if (!free.contains(c)) continue;
+      const double d = std::min(free.nearest(c, within).distance_mm, within);
+      if (d > most) {
+        most = d;
+        best = c;
+      }
+    }
+    return best;
+  }
 
   void grow(const std::vector<Vec2>& line) {
     if (line.empty()) return;
     const Region swept = line.size() == 1 ? geometry::disc(line.front(), bite_.radius_mm, bite_.chord_mm)
                                           : geometry::stroke(line, bite_.radius_mm, true, bite_.chord_mm);
     ground_ = simplified(geometry::unite(ground_, swept), 0.5 * bite_.chord_mm);
+    for (const Vec2 p : line) {
+      fresh_.lo = {std::min(fresh_.lo.x, p.x), std::min(fresh_.lo.y, p.y)};
+      fresh_.hi = {std::max(fresh_.hi.x, p.x), std::max(fresh_.hi.y, p.y)};
+    }
   }
 
   void grow(const Track& t) { grow(points_of(t, bite_.chord_mm)); }
@@ -138,7 +173,7 @@ class Clearing {
     if (!stands_) {
       p.over = true;
     } else if (norm(track.start - at_) > 1e-9) {
-      const Vec2 from = stand().kept(at_);
+      const Vec2 from = stand(Walls(free_), at_);
       auto way = Ways(free_).between(from, track.start);
       if (way) {
         p.way = std::move(*way);
@@ -222,13 +257,12 @@ class Clearing {
 
   /// The next pass; false: no front is left that a pass could take.
   bool next() {
-    const Region done = geometry::intersect(
-        geometry::offset(ground_, -(bite_.radius_mm - left_mm_), bite_.chord_mm), centres_);
+    const Region& done = done_;
     auto all = fronts(done);
     std::stable_sort(all.begin(), all.end(), [&](const Front& a, const Front& b) {
       return norm(done.loops[a.loop][a.first] - at_) < norm(done.loops[b.loop][b.first] - at_);
     });
-    const Walls free = stand();
+    const Walls free(free_);
     for (const Front& f : all) {
       const Vec2 begin = done.loops[f.loop][f.first];
       for (;;) {
@@ -237,7 +271,7 @@ class Clearing {
         }));
         if (tried > 1) break;
         Aim aim = aim_at(done, f, tried);
-        aim.at = free.kept(aim.at);
+        aim.at = stand(free, aim.at);
         if (pass(aim)) return true;
         failed_.push_back(begin);
       }
@@ -287,7 +321,7 @@ class Clearing {
 
   /// The whole loop, met and left on quarter arcs; false: they fit nowhere.
   bool ring(const Track& track) {
-    const Walls free = stand();
+    const Walls free(free_);
     Vec2 from = track.start;
     std::vector<std::pair<double, Spot>> spots;
     for (std::size_t i = 0; i < track.segments.size(); ++i) {
@@ -324,9 +358,9 @@ class Clearing {
   }
 
   void stretch(const Track& t) {
-    const Walls free = stand();
-    const Vec2 in = free.kept(t.start);
-    const Vec2 off = free.kept(t.end());
+    const Walls free(free_);
+    const Vec2 in = stand(free, t.start);
+    const Vec2 off = stand(free, t.end());
     Track whole{.start = in, .segments = {}, .closed = false};
     whole.segments.push_back({.to = t.start, .centre = {}, .bend = Bend::kStraight});
     whole.segments.insert(whole.segments.end(), t.segments.begin(), t.segments.end());
@@ -340,7 +374,9 @@ class Clearing {
   Region wall_, centres_;
   Walls walls_;
   Region ground_;
-  Region free_;  ///< centres at which the cutter stands free of everything
+  geometry::Box2 fresh_;  ///< about the centres swept since the last refresh
+  Region free_;           ///< centres at which the cutter stands free of everything
+  Region done_;           ///< centres at which it reaches no deeper than `left_mm_`
   Vec2 at_;
   bool stands_ = false;  ///< whether the cutter is at `at_`, down on the level
   std::vector<Vec2> failed_;

@@ -31,7 +31,7 @@ constexpr double kNoContact = 0.01;       // of the limit
 constexpr double kTurnedInto = 0.05;      // of the limit: what a turn on the spot may add
 constexpr double kIdleLength = 3.0;       // radii without contact, after which a pass has ended
 constexpr double kIdleTurn = kPi;         // likewise
-constexpr double kOwnSweep = 4.0;         // radii of length after which the ground is taken anew
+constexpr double kOwnSweep = 8.0;         // radii of length after which the ground is taken anew
 constexpr double kOwnTurn = 2.0;          // rad, likewise
 constexpr std::size_t kMostPlaces = 1'000'000;
 

@@ -18,20 +18,29 @@ constexpr double kCoarse = 0.08;  // mm; less than kAway
 constexpr std::size_t kMostCorners = 250;
 }  // namespace
 
-Ways::Ways(const geometry::Region& free) : free_(free) {
-  const geometry::Region coarse = simplified(geometry::offset(free, -kAway, 0.02), kCoarse);
-  for (const auto& loop : coarse.loops) {
+Ways::Ways(const geometry::Region& free) : free_(free), region_(free) {}
+
+void Ways::find_corners() {
+  searched_ = true;
+  for (const auto& loop : simplified(region_, kCoarse).loops) {
     const std::size_t n = loop.size();
     for (std::size_t i = 0; i < n; ++i) {
       const Vec2 in = loop[i] - loop[(i + n - 1) % n];
       const Vec2 out = loop[(i + 1) % n] - loop[i];
-      if (cross(in, out) < 0.0) corners_.push_back(loop[i]);
+      const double a = norm(in);
+      const double b = norm(out);
+      if (a < 1e-9 || b < 1e-9 || cross(in, out) >= 0.0) continue;
+      // Away from both edges, to their left.
+      const Vec2 normal = (1.0 / a) * Vec2{-in.y, in.x} + (1.0 / b) * Vec2{-out.y, out.x};
+      const double l = norm(normal);
+      if (l > 0.1) corners_.push_back(loop[i] + (kAway / l) * normal);
     }
   }
 }
 
-std::optional<std::vector<Vec2>> Ways::between(Vec2 a, Vec2 b) const {
+std::optional<std::vector<Vec2>> Ways::between(Vec2 a, Vec2 b) {
   if (free_.contains(a, b)) return std::vector<Vec2>{a, b};
+  if (!searched_) find_corners();
   if (corners_.size() > kMostCorners) return std::nullopt;
   std::vector<Vec2> nodes = {a, b};
   nodes.insert(nodes.end(), corners_.begin(), corners_.end());
