@@ -31,6 +31,9 @@ void take_cutter(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& st
 namespace {
 
 constexpr std::size_t kCompared = 5;
+/// What returns and links add to the time of a cut of constant engagement, and how sure an estimate has to be
+/// before another cutter is taken for it. Default, unsourced.
+constexpr double kReturns = 1.25;
 constexpr double kNever = 1e12;  // s: no path, or no path within the limits
 
 bool is_used(const std::vector<std::string>& used, const model::Cutter& c) {
@@ -77,15 +80,15 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
     auto q = question_of(p, trial, &step.candidates[i], job);
     double t = kNever * static_cast<double>(i + 1);
     const double volume = geometry::area(job.shape.area) * q.depth_mm;
-    const bool walled = model::has(job.shape.kind, model::ShapeTrait::kWalled);
-    const auto by = [&](const Result<optimise::CutAnswer>& a) {
-      if (a && a->feasible) t = std::min(t, estimated_seconds(q, *a, volume, walled));
+    const auto take = [&](double factor) {
+      const auto a = cuts.answer(q);
+      if (a && a->feasible) t = std::min(t, factor * estimated_seconds(q, *a, volume, false));
     };
-    by(cuts.answer(q));
+    take(1.0);
     // Constant engagement may want another cutter: a longer edge, more teeth.
     if (may_engage_constantly(p, trial, job) && !q.slot && !q.constant_engagement) {
       q.constant_engagement = true;
-      by(cuts.answer(q));
+      take(kReturns);
     }
     if (t < kNever && !is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
     times.emplace_back(t, i);
