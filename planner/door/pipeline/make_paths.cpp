@@ -26,6 +26,7 @@
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
 #include "planner/model/plan/decision/condemned.h"
+#include "planner/physics/motion/time.h"
 #include "tooling/selection/select.h"
 
 // Step by step in order: depths, path, sections, feeds, with the stock carried on.
@@ -43,6 +44,9 @@ constexpr int kMostThinner = 3;
 constexpr double kThinnerAim = 0.9;      // default, unsourced
 constexpr double kThinnerUnknown = 0.5;  // if no formula gives the excess; default, unsourced
 constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
+/// Constant engagement is taken where its path takes less than this share of the rings' time: the spindle
+/// comes up to its speed, and its program is longer. Default, unsourced.
+constexpr double kWorthwhile = 0.98;
 constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
 /// Depth and width of a cut, for people.
@@ -238,10 +242,78 @@ class PathMaker {
     return step::seconds_of(plan_.machine, *tried->path, tried->feeds.schedule);
   }
 
-  /// Tries one of the candidates: with a thinner cut, up to kMostThinner times, if a limit is exceeded along
+  /// Tries one of the candidates: rings, and where the step may have it and it could be quicker constant
+  /// engagement; takes the quicker of those that keep the limits. Only that one is removed from the stock.
+  Result<step::MeasuredCut> with_cutter(StepDraft& step, std::size_t i) {
+    step.constant_engagement.reset();
+    const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
+    if (candidate != nullptr) step.cutter = candidate->cutter;
+    const auto other = step::constant_cut(p_, step, candidate, means_);
+    if (!other) return with_strategy(step, i);
+    const auto before = stocks_.before(step.setup);
+    auto said = job_.take_diagnostics();
+    const auto tell = [&](std::vector<Diagnostic> now) {
+      for (auto& d : said) job_.report(std::move(d));
+      for (auto& d : now) job_.report(std::move(d));
+    };
+    const auto seconds = [&](const Result<step::MeasuredCut>& t) -> std::optional<double> {
+      if (!t || exceeds(step, *t)) return std::nullopt;
+      return step::seconds_of(plan_.machine, *t->path, t->feeds.schedule);
+    };
+    step.constant_engagement = false;
+    auto rings = with_strategy(step, i);
+    auto said_of_rings = job_.take_diagnostics();
+    const auto of_rings = seconds(rings);
+    const double volume = of_rings ? rings->removed_mm3.value_or(0.0) : 0.0;
+    const double about = step::estimated_seconds(other->question, other->answer, volume, other->walled);
+    step::StrategyChoice choice;
+    if (of_rings && about >= kWorthwhile * *of_rings) {
+      choice.lost.push_back({step::words_of(true, other->answer),
+                             "takes about " + motion::duration_text(about) + " by its rate and entry against " +
+                                 motion::duration_text(*of_rings)});
+      rings->strategy = std::move(choice);
+      tell(std::move(said_of_rings));
+      return rings;
+    }
+    stocks_.put_back(step.setup, before);
+    step.constant_engagement = true;
+    auto constant = with_strategy(step, i);
+    const auto of_constant = seconds(constant);
+    if (of_constant && (!of_rings || *of_constant < kWorthwhile * *of_rings)) {
+      choice.constant_engagement = true;
+      choice.taken = step::words_of(true, constant->made.answer) + ": " + motion::duration_text(*of_constant);
+      if (of_rings) {
+        choice.lost.push_back({step::words_of(false, rings->made.answer),
+                               "takes " + motion::duration_text(*of_rings) + " against " + motion::duration_text(*of_constant)});
+      } else {
+        choice.lost.push_back({"rings", rings ? excess_text(*rings) : rings.error().message});
+      }
+      constant->strategy = std::move(choice);
+      tell(job_.take_diagnostics());
+      return constant;
+    }
+    (void)job_.take_diagnostics();
+    stocks_.put_back(step.setup, before);
+    // The same again, from what is remembered: the stock is to be cut by it.
+    step.constant_engagement = false;
+    rings = with_strategy(step, i);
+    said_of_rings = job_.take_diagnostics();
+    if (rings && (constant || constant.error().code != step::kNoSuchPath)) {
+      const std::string why = of_constant && of_rings
+                                  ? "takes " + motion::duration_text(*of_constant) + " against " + motion::duration_text(*of_rings)
+                              : constant ? excess_text(*constant)
+                                         : constant.error().message;
+      choice.lost.push_back({step::words_of(true, constant ? constant->made.answer : other->answer), why});
+      rings->strategy = std::move(choice);
+    }
+    tell(std::move(said_of_rings));
+    return rings;
+  }
+
+  /// Tries one of the candidates with the strategy that the step has: with a thinner cut, up to kMostThinner times, if a limit is exceeded along
   /// its path; takes the gentlest if none keeps the limits. Removes the cut from the stock, except for a
   /// proposed step that exceeds the limits.
-  Result<step::MeasuredCut> with_cutter(StepDraft& step, std::size_t i) {
+  Result<step::MeasuredCut> with_strategy(StepDraft& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto before = stocks_.before(step.setup);
@@ -316,6 +388,7 @@ class PathMaker {
     step::tell_rapids(plan_.model, step, tried.rapid_removed_mm3, job_);
     step::let_go(plan_.model, step, made.let_go, job_);
     step::turn_with_the_cutter(plan_, step, job_);
+    if (tried.strategy) step::record_strategy(plan_, step, *tried.strategy);
     step::record_cut(plan_, steps_, step, made.answer, made.depth_open, made.width_open, made.precedent);
     tell_thicker(step, made);
     progress_.done(step);

@@ -64,6 +64,8 @@ struct StepDraft {
   bool keep_speed = false;       ///< of an open technology: the stated speed stays, the feed is chosen for it
   bool keep_feed = false;        ///< the other way round
   bool open_tool = false;
+  /// Of a try at its path: passes of constant engagement, or rings; unset: as its strategy says.
+  std::optional<bool> constant_engagement = {};
   std::vector<std::size_t> after;            ///< indices of the steps that must come before; chain order
   std::string unreadable = {};               ///< what its file states wrongly of it or its feature: not made
   std::optional<ProbingDraft> probing = {};  ///< measured right before this step, if it can be

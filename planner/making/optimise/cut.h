@@ -65,6 +65,10 @@ struct CutQuestion {
   /// The largest diameter that cuts: of a ball or bull nose that is not in with all of its radius, and of a
   /// cone's point, the one that cutting speed is counted at. 0: the cutter's.
   double speed_diameter_mm = 0.0;
+  /// The path keeps the width of its cut, in corners too, and never cuts a slot but where it enters: as deep
+  /// as edge and stability allow, as wide as is quickest, faster where the edge is in the cut for a short arc
+  /// (mechanics/life/arc_speed.h), and no feed but the chip's bounds it.
+  bool constant_engagement = false;
   bool as_measured =
       false;  ///< depth and width are those of the path's sections: each may ask for its own feed
   double margin_deviations =
@@ -110,6 +114,9 @@ struct CutAnswer {
   std::vector<std::string> violated;  ///< when not feasible: by name, with the numbers
 };
 
+/// By how much a cut of this width may exceed the speed of the table: 1 unless the engagement is constant.
+[[nodiscard]] double speed_by_arc(const CutQuestion& q, double ae_mm);
+
 /// The diameter that cutting speed is counted at.
 [[nodiscard]] inline double speed_diameter_mm(const CutQuestion& q) {
   return q.speed_diameter_mm > 0.0 ? q.speed_diameter_mm : q.cutter.cutting_diameter_mm;
@@ -125,6 +132,9 @@ struct CutAnswer {
 /// Levels are whole: they are enumerated, and the other variables solved for each. Where the spindle's curve
 /// or the immersion has a corner, the pieces between are solved one by one: no smooth method shows an optimum
 /// at a corner.
+///
+/// Where the engagement is constant and the width is open, the best of a row of widths, each with its own
+/// fastest speed.
 ///
 /// Determinism  same question, same answer. Numbers are rounded towards the safe side: n and feed down,
 ///              depths down to 1 um. What is answered is measured again after rounding.

@@ -93,6 +93,11 @@ struct FeedAnswer {
 /// Source        sections: mechanics/loads/section.h; the braking bound: derived.
 [[nodiscard]] FeedAnswer feeds(const FeedQuestion& question, const model::CutterPath& path);
 
+/// Where the engagement is constant at this width, the entry cuts as a slot does: its moves, and any other
+/// that cuts half the diameter or more, get the speed and at most the feed of a wide cut, as factors of those
+/// of the step, which are of a narrow one.
+void enter_as_a_slot(FeedQuestion& question, double ae_mm, const model::CutterPath& path);
+
 /// Splits feed moves (lines and arcs) where the allowed feed of their sections changes. A move has one feed,
 /// so that without this a heavy corner at its end would slow all of it. The path itself does not change.
 /// Pieces are at least a fifth of the diameter long, and made only where they save time. A heavy place that

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "planner/ground/geometry/profile.h"
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/ground/vocabulary/noun_kind.h"
@@ -27,6 +29,9 @@ namespace capstan::verify {
 [[nodiscard]] bool finishes(model::TypeId operation);
 /// Makes a thread by a helix about its axis.
 [[nodiscard]] bool mills_threads(model::CutterClass c);
+/// How much faster than a table's speed an edge of carbide may be where its cut is this wide, over the
+/// diameter, for the same life; in a group of ISO 513. The copy of mechanics::speed_by_arc; source there.
+[[nodiscard]] double speed_by_arc(double width_ratio, const std::string& iso_group);
 /// What a cutter's edges sweep, by its class and its stated sizes: a cone to a point, a cone over a flat tip,
 /// a ball, else a flat end with rounded corners.
 [[nodiscard]] geometry::CutterProfile outline_of(const model::Cutter& c);

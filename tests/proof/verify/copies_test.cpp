@@ -7,6 +7,7 @@
 
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/ground/vocabulary/thread_mill.h"
+#include "planner/physics/mechanics/life/arc_speed.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -48,6 +49,17 @@ TEST(Copies, SweepTheOutlineThatThePlanHasOfEveryClass) {
     c.taper_angle_rad = 0.1;
     c.lead_angle_rad = 0.4;
     EXPECT_EQ(outline_of(c), model::profile_of(c)) << r.name;
+  }
+}
+
+TEST(Copies, TurnFasterInNarrowCutsAsPlanningDoes) {
+  for (const char* group : {"P", "M", "K", "N", "S", "H", ""}) {
+    for (int i = 0; i <= 120; ++i) {
+      const double width = 0.01 * i;
+      EXPECT_NEAR(speed_by_arc(width, group),
+                  mechanics::speed_by_arc(width, 1.0, model::Substrate::kCarbide, group), 1e-12)
+          << group << " " << width;
+    }
   }
 }
 

@@ -83,6 +83,57 @@ TEST(PredictedSpeed, ThatBurnsTheEdgeWithinItsStepIsAnError) {
   EXPECT_EQ(found[0].step, "pocket");
 }
 
+/// The pocket's step instead goes to and fro along the block's side, `width` further in with each pass, its
+/// first one from outside: all of its cuts are as wide.
+PlanMaker along_the_side(double card, double width) {
+  PlanMaker k = plan_in(25, card, model::Substrate::kCarbide);
+  model::CutterPath p;
+  p.start({-10, -6, 10});
+  p.rapid({-10, -6, 2});
+  for (int i = 1; i <= 6; ++i) {
+    const double y = -5.0 + i * width;
+    p.line({-10, y, 2}, model::MoveRole::kLink);
+    p.line({-10, y, -4}, model::MoveRole::kApproach);
+    p.line({110, y, -4}, model::MoveRole::kCut);
+    p.line({110, y, 2}, model::MoveRole::kLink);
+    p.line({-10, y, 2}, model::MoveRole::kLink);
+  }
+  p.rapid({-10, 0, 10}, model::MoveRole::kRetract);
+  k.plan.steps[0].schedule = std::make_shared<model::FeedSchedule>(
+      model::FeedSchedule{std::vector<double>(p.size(), 600.0), std::vector<double>(p.size(), 3000.0),
+                          std::vector<double>(p.size(), 0.0)});
+  k.plan.steps[0].path = std::make_shared<model::CutterPath>(std::move(p));
+  return k;
+}
+
+// A tenth of the diameter wide 1.35 times the speed wears as the table's does: 1.35 x 1.25 = 1.69.
+TEST(PredictedSpeed, AboveTheCardIsNoFindingWhereAllArcsOfContactAreShort) {
+  const auto k = along_the_side(kSpeed / 1.6, 1.0);
+  EXPECT_TRUE(of(k, "CHK-SPEED-MATERIAL").empty());
+  EXPECT_TRUE(of(k, "CHK-EDGE-LIFE").empty());
+}
+
+TEST(PredictedSpeed, IsToldOfWhereItIsMoreThanShortArcsBear) {
+  const auto found = of(along_the_side(kSpeed / 1.85, 1.0), "CHK-SPEED-MATERIAL");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("by its arcs of contact; 94.2 m/min are turned"));
+}
+
+TEST(PredictedSpeed, ThatShortArcsBearIsToldOfInASlot) {
+  EXPECT_EQ(of(along_the_side(kSpeed / 1.6, 10.0), "CHK-SPEED-MATERIAL").size(), 1u);
+  EXPECT_EQ(of(plan_in(25, kSpeed / 1.6, model::Substrate::kCarbide), "CHK-SPEED-MATERIAL").size(), 1u);
+}
+
+TEST(PredictedSpeed, ThatShortArcsOfCarbideBearIsToldOfWithHssAndInAluminium) {
+  auto hss = along_the_side(60, 1.0);
+  hss.plan.material.vc_hss_m_min = kSpeed / 1.6;
+  hss.plan.cutters[0].substrate = model::Substrate::kHss;
+  EXPECT_FALSE(of(hss, "CHK-SPEED-MATERIAL").empty() && of(hss, "CHK-EDGE-LIFE").empty());
+  auto aluminium = along_the_side(kSpeed / 1.6, 1.0);
+  aluminium.plan.material.iso_group = "N";
+  EXPECT_FALSE(of(aluminium, "CHK-SPEED-MATERIAL").empty() && of(aluminium, "CHK-EDGE-LIFE").empty());
+}
+
 TEST(PredictedSpeed, WhatTheCardSaysIsNotCutWithHssIsAnError) {
   const auto found = of(plan_in(0, 60, model::Substrate::kHss), "CHK-SPEED-MATERIAL");
   ASSERT_EQ(found.size(), 1u);

@@ -1,1 +1,1 @@
-capstan_test(verify DEPENDS verify)
+capstan_test(verify DEPENDS verify mechanics)

@@ -1,6 +1,7 @@
 #include "planner/making/optimise/cut.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -387,7 +388,38 @@ Result<Level> best_level(const CutQuestion& q, const Options& options, Job& job)
   return *std::move(best);
 }
 
-Result<CutAnswer> answer(const CutQuestion& q, const Options& options, Job& job) {
+/// Widths of cut that are tried where the engagement is constant, over the diameter: those at which the speed
+/// is tabled (mechanics/life/arc_speed.h), and what lies between them where it changes most.
+constexpr std::array<double, 9> kWidths = {0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5};
+
+/// The question with the width at which a cut of constant engagement is best.
+Result<CutQuestion> with_best_width(const CutQuestion& q, const Options& options, Job& job) {
+  std::optional<CutQuestion> best;
+  bool feasible = false;
+  double least = 0.0;
+  for (const double share : kWidths) {
+    CutQuestion one = q;
+    one.ae_mm = rounded(share * q.cutter.cutting_diameter_mm, 3);
+    if (best && q.width_mm > 0.0 && *one.ae_mm > q.width_mm) break;
+    const auto level = best_level(one, options, job);
+    if (!level) return tl::unexpected(level.error());
+    const CutAnswer& a = level->answer;
+    const double objective = objective_of(one, {a.ap_mm, a.ae_mm, a.n_rpm, a.feed_mm_min});
+    if (best && !(a.feasible && !feasible) && !(a.feasible == feasible && objective < least)) continue;
+    best = std::move(one);
+    feasible = a.feasible;
+    least = objective;
+  }
+  return *std::move(best);
+}
+
+Result<CutAnswer> answer(const CutQuestion& question, const Options& options, Job& job) {
+  CutQuestion q = question;
+  if (q.constant_engagement && q.kind == CutKind::kRough && !q.ae_mm) {
+    auto one = with_best_width(q, options, job);
+    if (!one) return tl::unexpected(one.error());
+    q = *std::move(one);
+  }
   auto level = best_level(q, options, job);
   if (!level) return tl::unexpected(level.error());
   CutAnswer a = std::move(level->answer);

@@ -7,6 +7,7 @@
 #include "planner/model/plan/borne_feed.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/life/arc_speed.h"
 #include "planner/physics/mechanics/stability.h"
 #include "planner/physics/mechanics/surface.h"
 
@@ -124,6 +125,11 @@ double ease_of(const CutQuestion& q, std::string_view limit) {
   return q.eased.name == limit ? q.eased.factor : 1.0;
 }
 
+double speed_by_arc(const CutQuestion& q, double ae) {
+  if (!q.constant_engagement) return 1.0;
+  return mechanics::speed_by_arc(ae, q.cutter.cutting_diameter_mm, q.cutter.substrate, q.material.iso_group);
+}
+
 double slender_depth(const CutQuestion& q) {
   const model::Cutter& c = q.cutter;
   const bool speaks = q.kind == CutKind::kRough && !q.ap_mm && c.stick_out_mm > 0.0 &&
@@ -138,7 +144,7 @@ double deepest_level(const CutQuestion& q) {
                     ? q.cutter.maximum_depth_of_cut_mm * ease_of(q, "cutting_length")
                     : d;
   double level = most;
-  if (q.kind == CutKind::kRough) level = std::min(level, mechanics::kDeepestSlotRatio * d);
+  if (q.kind == CutKind::kRough && !q.constant_engagement) level = std::min(level, mechanics::kDeepestSlotRatio * d);
   if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
   level = std::min(level * ease_of(q, "level_depth"), slender_depth(q) * ease_of(q, "stable_depth"));
   return std::min(most, level);

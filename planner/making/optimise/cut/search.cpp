@@ -57,7 +57,8 @@ void Search::add_speed() {
   // A start value that was lowered to what spindle or cutter turn is what they turn: more of that is more
   // speed, up to what the table says.
   const double start = eased > 1.0 ? std::max(q_.vc_start_m_min, q_.vc_table_m_min) : q_.vc_start_m_min;
-  const double table = slot * start / speed_of(1.0) * ease_of(q_, kSpeed);
+  const double arc = q_.ae_mm ? speed_by_arc(q_, *q_.ae_mm) : 1.0;
+  const double table = arc * slot * start / speed_of(1.0) * ease_of(q_, kSpeed);
   constexpr double kSame = 1e-9;
   speed_by_spindle_ = rpm.hi > 0.0 && rpm.hi <= table * (1.0 + kSame);
   const double most = std::max(speed_by_spindle_ ? rpm.hi : table, rpm.lo);
@@ -74,7 +75,10 @@ void Search::add_feed() {
   } else {
     const double largest = largest_fz(q_);
     double most = largest * (is_milling(q_.kind) ? kMostThinning : 1.0);
-    if (const double borne = model::borne_feed_mm(q_.cutter, q_.material); borne > 0.0)
+    // What a cutter bears is a chip, stated as the feed of a wide cut. Where the width is kept, its own limit
+    // holds the chip.
+    const double borne = model::borne_feed_mm(q_.cutter, q_.material);
+    if (borne > 0.0 && !q_.constant_engagement)
       most = std::min(most, borne / feed_override(q_));
     most *= ease_of(q_, kFeed);
     const double ratio = q_.least_feed_ratio > 1e-3 && q_.least_feed_ratio <= 1.0 ? q_.least_feed_ratio : 0.1;

@@ -283,6 +283,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   q.width_mm = width_of(job.shape);
   q.slot = model::has(job.shape.kind, model::ShapeTrait::kWalled) && q.width_mm > 0.0 &&
            q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
+  q.constant_engagement = job.constant_engagement && q.kind == CutKind::kRough;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
   q.engaged_diameter_mm = engaged_diameter_mm(step.operation.type, step.cutter, job.cutting_depth_mm);
   start_at_point(q, start.wanted_vc_m_min);

@@ -11,6 +11,7 @@
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/path/job_of.h"
+#include "planner/making/step/path/strategy_choice.h"
 #include "planner/model/nouns/all.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -31,6 +32,9 @@ void take_cutter(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& st
 namespace {
 
 constexpr std::size_t kCompared = 5;
+/// What returns and links add to the time of a cut of constant engagement, and how sure an estimate has to be
+/// before another cutter is taken for it. Default, unsourced.
+constexpr double kReturns = 1.25;
 constexpr double kNever = 1e12;  // s: no path, or no path within the limits
 
 bool is_used(const std::vector<std::string>& used, const model::Cutter& c) {
@@ -82,15 +86,23 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
     trial.cutter = step.candidates[i].cutter;
     auto job = job_of(p, trial, step.shapes.front());
     progress.prepare(trial, stocks.of(trial.setup), job);
-    const auto q = question_of(p, trial, &step.candidates[i], job);
-    const auto a = cuts.answer(q);
+    auto q = question_of(p, trial, &step.candidates[i], job);
     double t = kNever * static_cast<double>(i + 1);
-    if (a && a->feasible) {
-      t = plane && q.width_mm > 0.0
-              ? face_s(job, q, cuts.in_one_pass(q, *a))
-              : geometry::area(job.shape.area) * q.depth_mm / (a->ap_mm * a->ae_mm * a->feed_mm_min) * 60.0;
-      if (!is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
+    const double volume = geometry::area(job.shape.area) * q.depth_mm;
+    const auto take = [&](double factor) {
+      const auto a = cuts.answer(q);
+      if (!a || !a->feasible) return;
+      const bool face = plane && q.width_mm > 0.0;
+      t = std::min(t, factor * (face ? face_s(job, q, cuts.in_one_pass(q, *a))
+                                     : estimated_seconds(q, *a, volume, false)));
+    };
+    take(1.0);
+    // Constant engagement may want another cutter: a longer edge, more teeth.
+    if (may_engage_constantly(p, trial, job) && !q.slot && !q.constant_engagement) {
+      q.constant_engagement = true;
+      take(kReturns);
     }
+    if (t < kNever && !is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
     times.emplace_back(t, i);
   }
   in_order(plan, steps, step, std::move(times));

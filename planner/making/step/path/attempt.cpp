@@ -225,6 +225,22 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
   return out;
 }
 
+std::optional<ConstantCut> constant_cut(const PlanSoFar& p, StepDraft step,
+                                                const model::Candidate* candidate, const Means& means) {
+  if (step.shapes.empty()) return std::nullopt;
+  step.constant_engagement = true;
+  auto job = job_of(p, step, step.shapes.front());
+  means.progress.prepare(step, means.stocks.of(step.setup), job);
+  auto q = question_of(p, step, candidate, job);
+  const bool walled = model::has(job.shape.kind, model::ShapeTrait::kWalled);
+  if (!may_engage_constantly(p, step, job) || !q.constant_engagement || q.slot || q.ap_mm || q.ae_mm)
+    return std::nullopt;
+  (void)start_from_case(p, step, step.shapes.front(), q);
+  auto answer = means.cuts.answer(q);
+  if (!answer || !answer->feasible) return std::nullopt;
+  return ConstantCut{std::move(q), *std::move(answer), walled};
+}
+
 MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, PathWithCut made,
                          const Means& means) {
   MeasuredCut out;
@@ -253,6 +269,7 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
     out.rapid_removed_mm3 = m->rapid_removed_mm3;
     fq.samples = samples_of(*m, *out.path, step.cutter);
     fq.known_to_mm = m->known_to_mm;
+    if (fq.cut.constant_engagement) optimise::enter_as_a_slot(fq, made.answer.ae_mm, *out.path);
     // One pass over a surface, not levels: as deep and as wide as what roughing left there.
     if (fq.cut.as_measured || plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
       for (const optimise::CutSample& sample : fq.samples) {

@@ -12,6 +12,7 @@
 #include "planner/making/step/cut/cuts.h"
 #include "planner/making/step/path/progress.h"
 #include "planner/making/step/path/stocks.h"
+#include "planner/making/step/path/strategy_choice.h"
 #include "planner/making/step/plan_so_far.h"
 #include "planner/making/toolpath/path_job.h"
 
@@ -40,6 +41,7 @@ struct MeasuredCut {
   optimise::FeedAnswer feeds;
   std::optional<double> removed_mm3;  ///< unset where nothing was measured
   double rapid_removed_mm3 = 0.0;
+  std::optional<StrategyChoice> strategy;  ///< set where rings and constant engagement were compared
 };
 
 /// What tries at steps share. Refers to what the caller keeps.
@@ -58,6 +60,17 @@ struct Means {
 [[nodiscard]] Result<PathWithCut> path_with_cut(const PlanSoFar& p, const draft::StepDraft& step,
                                                 const model::Candidate* candidate, double share,
                                                 const Means& means);
+
+/// The cut that constant engagement would be asked for, without a path.
+struct ConstantCut {
+  optimise::CutQuestion question;
+  optimise::CutAnswer answer;
+  bool walled = false;  ///< it is entered between walls
+};
+/// Nothing where the step may not have it or no such cut keeps the limits.
+[[nodiscard]] std::optional<ConstantCut> constant_cut(const PlanSoFar& p, draft::StepDraft step,
+                                                              const model::Candidate* candidate,
+                                                              const Means& means);
 
 /// Measures a path against the stock, which is cut by it, and schedules its feeds. `plan` is that of `p`.
 [[nodiscard]] MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const draft::StepDraft& step,

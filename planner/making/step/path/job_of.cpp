@@ -5,6 +5,7 @@
 
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/making/step/path/freeform.h"
+#include "planner/making/step/path/strategy_choice.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/ramp.h"
@@ -230,6 +231,15 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
   job.ramp_depth_mm = ramp.depth_mm;
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
+  job.constant_engagement = step.constant_engagement.value_or(engages_constantly(p.plan, step));
+  if (job.constant_engagement) {  // the same path whatever strategy it was chosen over
+    job.strategy = StrategyKind::kNone;
+    job.climb = true;
+    job.overlap.reset();
+    job.rotation_ccw.reset();
+    job.feed_direction.reset();
+    job.stepover_left.reset();
+  }
   // The noun's is that of the cutter that the step had: another may be tried.
   if (const auto depth = depth_with_its_cutter(step)) job.cutting_depth_mm = depth;
   if (m.holds<model::FreeformFinishMilling>(step.operation))

@@ -27,7 +27,6 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job) {
   check_limits(plan, steps, findings);
   check_coolant(plan, steps, findings);
   check_life(steps, findings);
-  check_predicted(plan, steps, findings);
   check_machine(plan, findings);
   check_holding(plan, findings);
   check_order(plan, findings);
@@ -35,7 +34,10 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job) {
   const PartShapes part = shapes_of_part(plan);
   check_meaning(plan, findings);
   check_within(plan, part, findings);
-  if (!check_removal(plan, steps, findings, job)) return false;
+  std::vector<double> speed_shares;
+  const bool swept = check_removal(plan, steps, findings, job, &speed_shares);
+  check_predicted(plan, steps, speed_shares, findings);
+  if (!swept) return false;
   job.progress("check", 1.0);
   return true;
 }

@@ -56,8 +56,10 @@ void check_life(const std::vector<StepMoves>& steps, Findings& findings);
 
 /// What follows from each step's own numbers, whoever chose them: cutting speed against the material's card
 /// or the tool's own (16), the life of an edge at it against the step's time, edges that a tool takes in all
-/// (30); bending that the plan states against the feature's tolerance (21).
-void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
+/// (30); bending that the plan states against the feature's tolerance (21). `speed_shares`: of each step's
+/// speed, what its arcs of contact leave of it (check_removal).
+void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& steps,
+                     const std::vector<double>& speed_shares, Findings& findings);
 
 /// What the plan or the part's file says that a machine must have (its_minimum_machine_params): 16, 17,
 /// 18, 22; and what follows from its steps: diameters of tools (4), tapping (22), accuracy (22, a warning).

@@ -139,8 +139,9 @@ std::string speed_text(double vc) { return trimmed(vc, 1) + " m/min"; }
 
 class Speed {
  public:
-  Speed(const model::Plan& plan, const StepMoves& s, Findings& findings)
-      : plan_(plan), s_(s), c_(*s.cutter), out_(findings), cut_(turned(s)) {}
+  /// `share` of the speed is what counts: edges are in the cut for shorter arcs than a table's.
+  Speed(const model::Plan& plan, const StepMoves& s, double share, Findings& findings)
+      : plan_(plan), s_(s), c_(*s.cutter), share_(share), out_(findings), cut_(turned(s)) {}
 
   /// Says what is wrong with the speed; else counts what the step takes of the tool's edge.
   void judge(Edges& worn) {
@@ -175,7 +176,7 @@ class Speed {
   }
 
   [[nodiscard]] double speed(double diameter_mm) const {
-    return std::numbers::pi * diameter_mm * cut_.rpm / 1000.0;
+    return std::numbers::pi * diameter_mm * cut_.rpm / 1000.0 * share_;
   }
 
   [[nodiscard]] bool freeform() const {
@@ -228,7 +229,7 @@ class Speed {
     const Reference& by = assumed ? *carbide : ref;
     const double rpm = std::floor(cut_.rpm * ref.vc_m_min / vc_);
     std::string text = "an edge of " + c_.id + " lasts " + life_text(ref.life_at(vc_)) + " of the step's " +
-                       trimmed(cut_.minutes, 2) + " min: " + speed_text(vc_) + where_ + " in " +
+                       trimmed(cut_.minutes, 2) + " min: " + speed_text(vc_) + where_ + by_arcs() + " in " +
                        plan_.material.id + ", at most " + speed_text(kFaster * ref.vc_m_min) + " (" +
                        plain(kFaster) + " times " + ref.source + ", " + speed_text(ref.vc_m_min) + ")";
     if (assumed && vc_ <= kFaster * carbide->vc_m_min) {
@@ -246,6 +247,11 @@ class Speed {
       out_.warn(16, "CHK-SPEED-MATERIAL", at(), text, vc_);
   }
 
+  /// That the speed is one that counts, not the one that is turned at.
+  [[nodiscard]] std::string by_arcs() const {
+    constexpr double kTold = 0.995;
+    return share_ < kTold ? " (by its arcs of contact; " + speed_text(vc_ / share_) + " are turned)" : "";
+  }
   static std::string life_text(double minutes) {
     if (minutes >= 0.1) return trimmed(minutes, 1) + " min";
     return minutes >= 2e-3 ? trimmed(60.0 * minutes, 1) + " s" : "less than 0.1 s";
@@ -256,6 +262,7 @@ class Speed {
   const model::Plan& plan_;
   const StepMoves& s_;
   const model::Cutter& c_;
+  double share_;
   Findings& out_;
   Turned cut_;
   double vc_ = 0.0;
@@ -390,13 +397,15 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
 
 }  // namespace
 
-void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
+void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& steps,
+                     const std::vector<double>& speed_shares, Findings& findings) {
   const PartShapes part = shapes_of_part(plan);
   std::map<std::string, Edges> worn;
-  for (const StepMoves& s : steps) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const StepMoves& s = steps[i];
     if (s.planned == nullptr || s.cutter == nullptr || !(s.cutter->cutting_diameter_mm > 0.0)) continue;
     if (s.cutter->cutter_class == CutterClass::kTouchProbe) continue;
-    Speed(plan, s, findings).judge(worn[s.cutter->id]);
+    Speed(plan, s, i < speed_shares.size() ? speed_shares[i] : 1.0, findings).judge(worn[s.cutter->id]);
     judge_bending(plan, part, s, findings);
   }
   for (const auto& [id, w] : worn) {

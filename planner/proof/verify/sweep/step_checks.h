@@ -28,6 +28,10 @@ class StepChecks {
   void run();
   /// Whether it cut anything: known after `run`.
   [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
+  /// After `run`: the speed at which an edge in the cut for half its turn would wear as the step's edges do, over
+  /// their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material whose
+  /// speed no heat bounds).
+  [[nodiscard]] double speed_share() const;
   /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
   /// and follows its surface.
   void nothing(bool begun);
@@ -46,6 +50,7 @@ class StepChecks {
   void spindle(const Move& m, const Bite& bite);
   void account(const Move& m, const Bite& bite);
   void settle();
+  void heat();
   void power(double volume, double minutes, double chip_mm);
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
   void chips(const Move& m, const Bite& bite, double fz);
@@ -99,6 +104,8 @@ class StepChecks {
     bool axial = false;
     long where = -1;
   } sum_;
+  bool arcs_count_ = false;  ///< a short arc of contact bears more speed
+  double heated_min_ = 0.0, heated_ = 0.0, fastest_rpm_ = 0.0;  ///< minutes; times speed to 1 / n; 1/min
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };
 

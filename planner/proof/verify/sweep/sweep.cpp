@@ -65,8 +65,9 @@ void check_left(const model::Plan& plan, const std::vector<std::unique_ptr<Scene
 
 }  // namespace
 
-bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings,
-                   Job& job) {
+bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job,
+                   std::vector<double>* speed_shares) {
+  if (speed_shares != nullptr) speed_shares->assign(steps.size(), 1.0);
   check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
   if (plan.stock.box.empty()) {
@@ -115,6 +116,7 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
     if (!sound(step.cutter)) continue;
     StepChecks checks(plan, step, scene->grid, scene->target, scene->earlier, findings);
     checks.run();
+    if (speed_shares != nullptr) (*speed_shares)[i] = checks.speed_share();
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(
         step.planned != nullptr ? step.planned->step : model::Ref<model::Executable>{});
     checks.nothing(ws != nullptr && begun.contains(ws->its_feature));

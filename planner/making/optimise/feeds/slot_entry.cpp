@@ -1,0 +1,29 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "planner/making/optimise/cut/limits.h"
+#include "planner/making/optimise/feeds.h"
+#include "planner/physics/mechanics/life/arc_speed.h"
+
+namespace capstan::optimise {
+
+void enter_as_a_slot(FeedQuestion& q, double ae_mm, const model::CutterPath& path) {
+  const double faster = speed_by_arc(q.cut, ae_mm);
+  const double wide = largest_fz(q.cut) * teeth_of(q.cut) * std::abs(q.n_rpm) / faster;
+  const double feed = wide > 0.0 && q.feed_mm_min > 0.0 ? std::min(1.0, wide / q.feed_mm_min) : 1.0;
+  std::vector<bool> as_slot(path.size(), false);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    as_slot[i] = path.role[i] == model::MoveRole::kRamp || path.role[i] == model::MoveRole::kPlunge;
+  const double widest = mechanics::kWholeSpeedWidth * q.cut.cutter.cutting_diameter_mm;
+  for (const CutSample& s : q.samples) {
+    if (s.move < as_slot.size() && s.ap_mm > 0.0 && s.ae_mm >= widest) as_slot[s.move] = true;
+  }
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!as_slot[i] || path.kind[i] == model::MoveKind::kRapid) continue;
+    if (i < q.speed_factor.size()) q.speed_factor[i] /= faster;
+    if (i < q.feed_factor.size()) q.feed_factor[i] *= feed;
+  }
+}
+
+}  // namespace capstan::optimise

@@ -1,0 +1,126 @@
+#include "planner/making/step/path/strategy_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/model/nouns/all.h"
+
+// Rings take wide cuts and begin each level with a slot, at which corners and bending hold depth and feed.
+// Constant engagement takes narrow ones as deep as the edge is long. At equal force rings remove more per
+// time, at equal chip and life a narrow cut is fed and turned faster. Neither wins everywhere, so both are
+// made and the quicker is kept (door/pipeline/make_paths.cpp).
+
+namespace capstan::step {
+namespace {
+
+using draft::StepDraft;
+using model::AnyRef;
+using model::Model;
+using model::Ref;
+
+constexpr const char* kStrategy = "its_machining_strategy";
+
+AnyRef strategy_of(const Model& m, const StepDraft& step) {
+  const auto* o = m.get<model::Two5dMillingOperation>(step.operation);
+  return o == nullptr ? AnyRef{} : AnyRef(o->its_machining_strategy);
+}
+
+/// Whether planning may choose it: nothing is stated, or it was chosen by planning and is open again.
+bool is_free(const model::Plan& plan, const StepDraft& step, AnyRef strategy) {
+  if (!strategy.set()) return true;
+  const auto* d = plan.ledger.find(step.operation, kStrategy);
+  if (d == nullptr || d->pinned) return false;
+  if (d->state == model::DecisionState::kOpen) return true;
+  return d->binder != model::Binder::kGiven && d->binder != model::Binder::kOperator;
+}
+
+/// Whether a strategy is one that rings follow, with the cutter climbing.
+bool is_rings(const Model& m, AnyRef strategy) {
+  const auto climbs = [](const auto& mode) {
+    return !mode.set() || mode.value() == model::CutmodeType::kClimb;
+  };
+  if (!strategy.set() || m.holds<model::ExplicitStrategy>(strategy)) return true;
+  if (const auto* c = m.get<model::ContourParallel>(strategy)) return climbs(c->cutmode);
+  if (const auto* s = m.get<model::ContourSpiral>(strategy)) return climbs(s->cutmode);
+  return false;
+}
+
+}  // namespace
+
+bool engages_constantly(const model::Plan& plan, const StepDraft& step) {
+  const AnyRef strategy = strategy_of(plan.model, step);
+  if (!strategy.set() || !plan.model.holds<model::ExplicitStrategy>(strategy)) return false;
+  const auto* d = plan.ledger.find(step.operation, kStrategy);
+  return d != nullptr && d->state == model::DecisionState::kBound && d->binder == model::Binder::kOptimiser;
+}
+
+bool may_engage_constantly(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job) {
+  const Model& m = p.plan.model;
+  const model::TypeId operation = step.operation.type;
+  const bool roughs = m.holds<model::Two5dMillingOperation>(step.operation) &&
+                      model::has(operation, model::OperationTrait::kRoughs) &&
+                      model::has(operation, model::OperationTrait::kWalls);
+  const model::Cutter& c = step.cutter;
+  const bool upright = model::has(c.cutter_class, model::CutterTrait::kEndMill) && c.taper_angle_rad == 0.0 &&
+                       c.lead_angle_rad == 0.0 && !model::has(c.cutter_class, model::CutterTrait::kBall);
+  const bool open = step.open_technology && !step.keep_speed && !step.keep_feed &&
+                    !(job.axial_depth_mm > 0.0) && !(job.radial_depth_mm > 0.0) &&
+                    job.multiple_passes.value_or(true);
+  const AnyRef strategy = strategy_of(m, step);
+  return roughs && upright && open && !job.cleared_by && is_free(p.plan, step, strategy) &&
+         is_rings(m, strategy);
+}
+
+double estimated_seconds(const optimise::CutQuestion& q, const optimise::CutAnswer& cut, double volume_mm3,
+                         bool walled) {
+  const double rate = cut.ap_mm * cut.ae_mm * cut.feed_mm_min;
+  if (!(rate > 0.0)) return 0.0;
+  const model::Cutter& c = q.cutter;
+  constexpr double kTurns = 2.0;  // of the diameter
+  const bool crescents = q.constant_engagement && q.width_mm < kTurns * c.cutting_diameter_mm;
+  double out = volume_mm3 / rate * (crescents ? 0.5 * std::numbers::pi : 1.0);
+  const double wide =
+      q.fz_start_mm * std::max(1, c.teeth) * cut.n_rpm / optimise::speed_by_arc(q, cut.ae_mm);
+  const double slope = std::tan(c.maximum_ramp_angle_rad);
+  if (walled && slope > 0.0 && wide > 0.0) out += q.depth_mm / slope / std::min(wide, cut.feed_mm_min);
+  return 60.0 * out;
+}
+
+std::string words_of(bool constant_engagement, const optimise::CutAnswer& cut) {
+  return std::string(constant_engagement ? "constant engagement " : "rings ") + trimmed(cut.ae_mm, 2) +
+         " mm wide, " + trimmed(cut.ap_mm, 2) + " mm deep";
+}
+
+void record_strategy(model::Plan& plan, const StepDraft& step, const StrategyChoice& choice) {
+  Model& m = plan.model;
+  const AnyRef now = strategy_of(m, step);
+  const bool was = now.set() && m.holds<model::ExplicitStrategy>(now);
+  if (choice.constant_engagement == was) {
+    // As the rules proposed it, or as it was chosen before: the other is told beside it.
+    auto* d = plan.ledger.find(step.operation, kStrategy);
+    if (!choice.constant_engagement && d != nullptr && d->state == model::DecisionState::kBound) {
+      for (const model::Rejected& r : choice.lost) d->rejected.push_back(r);
+      return;
+    }
+  }
+  Ref<model::Two5dMillingStrategy> made;
+  if (choice.constant_engagement) {
+    made = m.add(model::ExplicitStrategy{});
+  } else {
+    model::ContourParallel rings;
+    rings.cutmode = model::CutmodeType::kClimb;
+    made = m.add(rings);
+  }
+  m.get<model::Two5dMillingOperation>(step.operation)->its_machining_strategy = made;
+  plan.ledger.bind(step.operation, kStrategy, model::Binder::kOptimiser,
+                   {choice.constant_engagement ? "path.constant_engagement" : "path.rings",
+                    "the quicker of two paths at equal limits: " + choice.taken,
+                    "times of both paths along their feeds"},
+                   {{step.operation, "its_tool"}}, choice.lost);
+}
+
+}  // namespace capstan::step

@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "planner/door/pipeline/pipeline.h"
+#include "planner/ground/memo/memo.h"
+#include "planner/model/nouns/all.h"
+#include "tests/support/corpus.h"
+#include "tests/support/shop.h"
+
+// Rings or constant engagement: the quicker is planned, the other stands beside it, and a plan that is read
+// again keeps what was chosen. examples/reference_pocket.p21: 60 x 40 x 10 mm, corners of 6 mm.
+
+namespace capstan::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kSlowToCut = "X5CrNi18-10";
+constexpr const char* kFastToCut = "EN AW-6061";
+
+Inputs shop(const std::string& material) {
+  Job job;
+  ShopFiles names;
+  names.material = material;
+  auto in = load_shop(names, job);
+  EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
+  return in ? *std::move(in) : Inputs{};
+}
+
+model::Plan read(const std::string& text, const std::string& name = "part.p21") {
+  Job job;
+  auto plan = read_plan(text, name, job);
+  EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  return plan ? *std::move(plan) : model::Plan{};
+}
+
+std::string pocket() { return testing::slurp(testing::source_dir() + "/examples/reference_pocket.p21"); }
+
+model::Plan bound(model::Plan plan, const Inputs& in, unsigned threads = 1) {
+  Job job;
+  job.threads = threads;
+  auto made = bind(std::move(plan), in, {}, job);
+  EXPECT_TRUE(made) << (made ? "" : to_text(made.error()));
+  return made ? *std::move(made) : model::Plan{};
+}
+
+std::string written(const model::Plan& plan, Format format) {
+  Job job;
+  auto out = write_plan(plan, format, job);
+  EXPECT_TRUE(out) << (out ? "" : to_text(out.error()));
+  return out ? *std::move(out) : std::string();
+}
+
+/// The roughing operation of a plan's pocket.
+model::AnyRef roughing(const model::Plan& plan) {
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps.front().step);
+  return ws == nullptr ? model::AnyRef{} : model::AnyRef(ws->its_operation);
+}
+
+bool constant(const model::Plan& plan) {
+  const auto* o = plan.model.get<model::Two5dMillingOperation>(roughing(plan));
+  return o != nullptr && plan.model.holds<model::ExplicitStrategy>(o->its_machining_strategy);
+}
+
+const model::Decision* decided(const model::Plan& plan) {
+  return plan.ledger.find(roughing(plan), "its_machining_strategy");
+}
+
+TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTheRings) {
+  const auto plan = bound(read(pocket()), shop(kSlowToCut));
+  ASSERT_TRUE(constant(plan));
+  const auto* d = decided(plan);
+  ASSERT_NE(d, nullptr);
+  EXPECT_EQ(d->binder, model::Binder::kOptimiser);
+  const model::Reason& why = plan.ledger.reason(d->reason);
+  EXPECT_EQ(why.id, "path.constant_engagement");
+  EXPECT_THAT(why.text, HasSubstr("constant engagement "));
+  ASSERT_EQ(d->rejected.size(), 1u);
+  EXPECT_THAT(d->rejected[0].what, HasSubstr("rings "));
+  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+}
+
+TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThemWithItsTime) {
+  const auto plan = bound(read(pocket()), shop(kFastToCut));
+  ASSERT_FALSE(constant(plan));
+  const auto* d = decided(plan);
+  ASSERT_NE(d, nullptr);
+  ASSERT_EQ(d->rejected.size(), 1u);
+  EXPECT_THAT(d->rejected[0].what, HasSubstr("constant engagement "));
+  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+}
+
+TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
+  const auto plan = bound(read(pocket()), shop(kSlowToCut));
+  ASSERT_TRUE(constant(plan));
+  const auto& step = plan.steps.front();
+  double entering = 0.0, cutting = 0.0;
+  for (std::size_t i = 1; i < step.path->size(); ++i) {
+    const double rpm = step.schedule->spindle_rpm[i];
+    if (step.path->role[i] == model::MoveRole::kRamp) entering = std::max(entering, rpm);
+    if (step.path->role[i] == model::MoveRole::kCut) cutting = std::max(cutting, rpm);
+  }
+  ASSERT_GT(entering, 0.0);
+  EXPECT_GT(cutting, entering);
+}
+
+TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
+  const Inputs in = shop(kSlowToCut);
+  const auto plan = bound(read(pocket()), in);
+  ASSERT_TRUE(constant(plan));
+  const model::CutterPath& path = *plan.steps.front().path;
+  for (const auto& [format, name] : {std::pair(Format::kJson, "p.json"), std::pair(Format::kAp238, "p.stpnc"),
+                                     std::pair(Format::kIso14649, "p.p21")}) {
+    const auto again = bound(read(written(plan, format), name), in);
+    ASSERT_FALSE(again.steps.empty()) << name;
+    EXPECT_TRUE(constant(again)) << name;
+    const model::CutterPath& other = *again.steps.front().path;
+    ASSERT_EQ(other.size(), path.size()) << name;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      EXPECT_NEAR(other.x[i], path.x[i], 1e-6) << name << " " << i;
+      EXPECT_NEAR(other.y[i], path.y[i], 1e-6) << name << " " << i;
+    }
+    const auto* d = decided(again);
+    ASSERT_NE(d, nullptr) << name;
+    EXPECT_EQ(again.ledger.reason(d->reason).id, "path.constant_engagement") << name;
+  }
+}
+
+TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
+  Inputs in = shop(kSlowToCut);
+  const std::string one = written(bound(read(pocket()), in), Format::kJson);
+  EXPECT_EQ(written(bound(read(pocket()), in, 2), Format::kJson), one);
+  in.memo = std::make_shared<memo::Memo>(0);  // keeps nothing
+  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
+  in.memo = std::make_shared<memo::Memo>();
+  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
+  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
+}
+
+// A plan whose strategy the operator states, rings, with the technology open again.
+TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
+  const Inputs in = shop(kSlowToCut);
+  model::Plan plan = bound(read(pocket()), in);
+  ASSERT_TRUE(constant(plan));
+  const auto operation = roughing(plan);
+  model::ContourParallel rings;
+  rings.cutmode = model::CutmodeType::kClimb;
+  const auto made = plan.model.add(rings);
+  plan.model.get<model::Two5dMillingOperation>(operation)->its_machining_strategy = made;
+  Inputs again = in;
+  again.reopen = Reopen::kTools;
+  const auto kept = bound(read(written(plan, Format::kIso14649)), again);
+  ASSERT_FALSE(kept.steps.empty());
+  const auto* o = kept.model.get<model::Two5dMillingOperation>(roughing(kept));
+  ASSERT_NE(o, nullptr);
+  EXPECT_TRUE(kept.model.holds<model::ContourParallel>(o->its_machining_strategy));
+}
+
+}  // namespace
+}  // namespace capstan::pipeline

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include "planner/making/optimise/feeds.h"
+#include "planner/physics/mechanics/life/arc_speed.h"
+#include "tests/making/optimise/cut/questions.h"
+
+namespace capstan::optimise {
+namespace {
+
+constexpr double kNarrow = 1.0;  // a tenth of the diameter
+constexpr double kFaster = 1.35;
+
+/// A ramp, a narrow cut, a slot and a rapid.
+model::CutterPath path() {
+  model::CutterPath p;
+  p.start({0, 0, 10});
+  p.line({20, 0, -5}, model::MoveRole::kRamp);
+  p.line({40, 0, -5}, model::MoveRole::kCut);
+  p.line({60, 0, -5}, model::MoveRole::kCut);
+  p.rapid({60, 0, 10}, model::MoveRole::kRetract);
+  return p;
+}
+
+FeedQuestion asked() {
+  FeedQuestion q;
+  q.cut = questions::roughing();
+  q.cut.material.iso_group = "P";
+  q.cut.constant_engagement = true;
+  q.n_rpm = 5000.0;
+  q.feed_mm_min = 2000.0;
+  q.feed_factor.assign(5, 1.0);
+  q.speed_factor.assign(5, 1.0);
+  q.samples = {{.move = 2, .ap_mm = 5.0, .ae_mm = kNarrow}, {.move = 3, .ap_mm = 5.0, .ae_mm = 10.0}};
+  return q;
+}
+
+TEST(EntryAsASlot, TurnsAtTheTablesSpeedWhereTheCutIsWide) {
+  FeedQuestion q = asked();
+  enter_as_a_slot(q, kNarrow, path());
+  EXPECT_NEAR(q.speed_factor[1], 1.0 / kFaster, 1e-9);  // the ramp
+  EXPECT_EQ(q.speed_factor[2], 1.0);
+  EXPECT_NEAR(q.speed_factor[3], 1.0 / kFaster, 1e-9);  // the slot
+  EXPECT_EQ(q.speed_factor[4], 1.0);
+}
+
+TEST(EntryAsASlot, FeedsNoMoreThanTheTablesFeedPerTooth) {
+  FeedQuestion q = asked();
+  enter_as_a_slot(q, kNarrow, path());
+  const double wide = q.cut.fz_start_mm * q.cut.cutter.teeth * q.n_rpm / kFaster;
+  EXPECT_NEAR(q.feed_factor[1] * q.feed_mm_min, wide, 1e-6);
+  EXPECT_EQ(q.feed_factor[2], 1.0);
+}
+
+TEST(EntryAsASlot, ChangesNothingOfRings) {
+  FeedQuestion q = asked();
+  q.cut.constant_engagement = false;
+  q.feed_mm_min = 1000.0;
+  enter_as_a_slot(q, kNarrow, path());
+  EXPECT_EQ(q.speed_factor, std::vector<double>(5, 1.0));
+  EXPECT_EQ(q.feed_factor, std::vector<double>(5, 1.0));
+}
+
+}  // namespace
+}  // namespace capstan::optimise
