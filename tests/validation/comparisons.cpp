@@ -43,7 +43,8 @@ Comparison summary(const std::vector<Comparison>& all) {
       {"cycle-times", "9. Cycle times on a simulated machine"},
       {"edits", "10. Edited programs"},
       {"plan-edits", "11. Edited plans"},
-      {"productivity", "12. Productivity"}};
+      {"productivity", "12. Productivity"},
+      {"freecad", "13. Roughing against FreeCAD's paths"}};
   Comparison out{.name = "summary"};
   Table rows{{"comparison", "figure"}, {}};
   for (const auto& [name, title] : titles) {
@@ -74,6 +75,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(edits());
   out.push_back(plan_edits());
   out.push_back(productivity(corpus));
+  out.push_back(freecad(capstan::testing::source_dir() + "/docs/validation/freecad.csv"));
   out.push_back(summary(out));
   return out;
 }

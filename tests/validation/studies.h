@@ -39,6 +39,10 @@ namespace capstan::validation {
 /// Machining times against a good shop's estimates, and what holds the parts that take longer.
 [[nodiscard]] Comparison productivity(const std::string& corpus);
 
+/// Roughing of pockets against FreeCAD's paths at equal limits (freecad/rivals.h); `record`: the times on
+/// LinuxCNC's simulated machine, as `capstan_rival_times` recorded them.
+[[nodiscard]] Comparison freecad(const std::string& record);
+
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);
 
