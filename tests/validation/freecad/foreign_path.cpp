@@ -1,5 +1,6 @@
 #include "tests/validation/freecad/foreign_path.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -48,6 +49,30 @@ Result<model::CutterPath> path_of_program(std::string_view text, double top_z_mm
     }
   }
   if (out.size() < 2) return fail("VAL-PROGRAM", "the program moves nothing");
+  return out;
+}
+
+model::CutterPath in_pieces(const model::CutterPath& path, double most_mm) {
+  model::CutterPath out;
+  if (path.size() == 0) return out;
+  out.start(path.point(0));
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const model::MoveKind kind = path.kind[i];
+    if (kind == model::MoveKind::kDwell) {
+      out.dwell();
+    } else if (kind == model::MoveKind::kRapid) {
+      out.rapid(path.point(i), path.role[i]);
+    } else {
+      const int n = std::max(1, static_cast<int>(std::ceil(model::move_length(path, i) / most_mm)));
+      for (int k = 1; k <= n; ++k) {
+        const geometry::Vec3 to = k == n ? path.point(i) : point_on_move(path, i, double(k) / n);
+        if (is_arc(kind))
+          out.arc(to, {path.cx[i], path.cy[i]}, kind == model::MoveKind::kArcCw, path.role[i]);
+        else
+          out.line(to, path.role[i]);
+      }
+    }
+  }
   return out;
 }
 

@@ -18,6 +18,10 @@ namespace capstan::validation {
 /// Fails  VAL-PROGRAM for what the reader cannot follow, or a program without a move.
 [[nodiscard]] Result<model::CutterPath> path_of_program(std::string_view text, double top_z_mm);
 
+/// The same path in pieces of at most this length, so that a heavy corner slows its piece and not a long move:
+/// our own paths are split there, given ones are not.
+[[nodiscard]] model::CutterPath in_pieces(const model::CutterPath& path, double most_mm);
+
 /// The plan with this path in the place of the path of step `at`, planned again: cutter, spindle speed and
 /// limits stay, the feed is chosen for the path's own sections, one for the whole step where the inputs ask
 /// for constant feeds. The path is taken as a file's own: nothing of it is changed.

@@ -24,6 +24,7 @@ LENGTH, WIDTH, CORNER, DIAMETER = 60.0, 40.0, 6.0, 10.0
 ON_WALLS, ON_FLOOR, ANGLE = 0.3, 0.2, 7.0
 # depth, boss, operation, step-over in percent, levels
 PROGRAMS = [(depth, boss, "pocket", 60, 1) for depth in (10, 20) for boss in (0, 14)] + [
+    (10, 14, "pocket", 60, 6), (20, 14, "pocket", 60, 6),
     (10, 0, "adaptive", 50, 1), (10, 0, "adaptive", 20, 1),
     (10, 14, "adaptive", 50, 1), (10, 14, "adaptive", 20, 1),
     (20, 0, "adaptive", 30, 1), (20, 0, "adaptive", 20, 2),

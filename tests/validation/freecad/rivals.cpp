@@ -16,6 +16,9 @@ namespace {
 
 /// make_programs.py was asked for this cutter.
 constexpr double kDiameterMm = 10.0;
+/// Its moves are cut into pieces of this length, mm: the shortest that our own are split into, a fifth of the
+/// diameter (optimise::split_moves).
+constexpr double kPieceMm = kDiameterMm / 5.0;
 /// How far below the pocket's floor the block goes on, mm.
 constexpr int kBelowMm = 15;
 
@@ -74,7 +77,7 @@ std::vector<std::string> programs_of(const RivalCase& c) {
 /// The rival's plan; fails where no feed keeps the limits.
 Result<model::Plan> planned(const Match& m, const model::CutterPath& path, const pipeline::Inputs& in) {
   Job quiet;
-  auto plan = with_path(m.ours, m.step, path, in, quiet);
+  auto plan = with_path(m.ours, m.step, in_pieces(path, kPieceMm), in, quiet);
   if (!plan) return plan;
   const auto at = roughing_of(*plan).first;
   if (!at) return fail("VAL-LIMIT", "the path is not planned");

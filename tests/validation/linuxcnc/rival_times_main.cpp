@@ -33,11 +33,9 @@ double simulated(const model::Plan& plan, std::size_t step, std::string& said, b
   absent = !record.absent.empty();
   said = record.absent + record.failed;
   if (!said.empty()) return -1.0;
-  const std::string id = model::step_id(plan, plan.steps.at(step));
-  for (const auto& s : linuxcnc::measured(*program, record)) {
-    if (s.id == id) return s.path_s;
-  }
-  said = "no step '" + id + "' in the program";
+  const auto steps = linuxcnc::measured(*program, record);
+  if (steps.size() == plan.steps.size()) return steps.at(step).path_s;
+  said = "the program has " + std::to_string(steps.size()) + " steps";
   return -1.0;
 }
 
@@ -75,6 +73,7 @@ int main(int argc, char** argv) {
       if (absent) return std::cerr << said << "\n", 77;
       if (time_s < 0.0) return std::cerr << validation::part_name(c) << ", " << run.name << ": " << said << "\n", 1;
       out.push_back({validation::part_name(c), c.material, run.name, time_s, run.predicted_s});
+      std::cerr << out.back().part << ", " << out.back().material << ", " << run.name << ": " << time_s << " s\n";
     }
   }
   return write_file(std::string(argv[1]) + "/freecad.csv", validation::text_of(out)) ? 0 : 1;
