@@ -144,7 +144,8 @@ class Step:
         self.path, self.schedule = find("paths", "path"), find("schedules", "schedule")
         self.sections = find("sections", "sections") if step.get("sections") else {"move": [], "csa_mm2": []}
         self.cutter = next(c for c in plan["cutters"] if c["id"] == step["cutter_id"])
-        self.step, self.machine = step, plan["machine"]
+        self.step = step
+        self.rapid_mm_min = min(a["rapid_mm_min"] for a in plan["machine"]["axes"] if a["name"] in "XYZ")
         cuts = {m for m, a in zip(self.sections["move"], self.sections["csa_mm2"]) if a > 0.0}
         self.measured = bool(cuts)
         self.kinds = [""]
@@ -172,7 +173,7 @@ class Step:
     def seconds(self, i):
         if self.path["kind"][i] == "D":
             return self.schedule["dwell_s"][i]
-        rate = 10000.0 if self.path["kind"][i] == "R" else self.schedule["feed_mm_min"][i]
+        rate = self.rapid_mm_min if self.path["kind"][i] == "R" else self.schedule["feed_mm_min"][i]
         return 60.0 * self.length(i) / rate if rate > 0.0 else 0.0
 
     def runs(self, point):

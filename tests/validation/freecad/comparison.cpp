@@ -65,13 +65,15 @@ Comparison freecad(const std::string& record) {
     out.skipped = "no record of the simulated machine: " + text.error().message;
     return out;
   }
-  Table timed{{"part", "material", "path", "simulated machine, s", "predicted, s", "error", "ours over it"}, {}};
+  Table timed{{"part", "material", "path", "simulated machine, s", "predicted, s", "error", "ours over it"},
+              {}};
   std::map<std::string, double> ours;
   for (const SimulatedRoughing& s : simulated_of(*text)) {
     if (s.path == kOurs) ours[s.part + s.material] = s.measured_s;
     const double over = ours[s.part + s.material] / s.measured_s;
     timed.rows.push_back({s.part, s.material, s.path, fixed(s.measured_s, 1), fixed(s.predicted_s, 1),
-                          percent(s.predicted_s / s.measured_s - 1.0), s.path == kOurs ? "" : fixed(over, 2)});
+                          percent(s.predicted_s / s.measured_s - 1.0),
+                          s.path == kOurs ? "" : fixed(over, 2)});
   }
   out.text += "\n" + markdown(timed);
   return out;

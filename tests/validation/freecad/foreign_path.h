@@ -18,8 +18,8 @@ namespace capstan::validation {
 /// Fails  VAL-PROGRAM for what the reader cannot follow, or a program without a move.
 [[nodiscard]] Result<model::CutterPath> path_of_program(std::string_view text, double top_z_mm);
 
-/// The same path in pieces of at most this length, so that a heavy corner slows its piece and not a long move:
-/// our own paths are split there, given ones are not.
+/// The same path in pieces of at most this length, so that a heavy corner slows its piece and not a long
+/// move: our own paths are split there, given ones are not.
 [[nodiscard]] model::CutterPath in_pieces(const model::CutterPath& path, double most_mm);
 
 /// The plan with this path in the place of the path of step `at`, planned again: cutter, spindle speed and

@@ -66,8 +66,8 @@ std::string name_of(const std::string& file) {
 std::vector<std::string> programs_of(const RivalCase& c) {
   std::vector<std::string> out;
   const std::string middle = "_" + std::to_string(c.depth_mm) + "_" + std::to_string(c.boss_mm) + "_";
-  for (const auto& f : std::filesystem::directory_iterator(testing::source_dir() +
-                                                           "/tests/validation/freecad/programs")) {
+  for (const auto& f :
+       std::filesystem::directory_iterator(testing::source_dir() + "/tests/validation/freecad/programs")) {
     if (f.path().filename().string().find(middle) != std::string::npos) out.push_back(f.path().string());
   }
   std::sort(out.begin(), out.end());

@@ -5,8 +5,8 @@
 
 #include "tests/validation/freecad/rivals.h"
 
-// The record of roughing on LinuxCNC's simulated machine: lines of part, material, path, measured and predicted
-// seconds, as capstan_rival_times writes them.
+// The record of roughing on LinuxCNC's simulated machine: lines of part, material, path, measured and
+// predicted seconds, as capstan_rival_times writes them.
 
 namespace capstan::validation {
 

@@ -1,6 +1,6 @@
-// capstan_rival_times FOLDER: runs the roughing of the pockets that FreeCAD is compared with on the machine that
-// LinuxCNC simulates, ours and the fastest of FreeCAD's paths with our feeds and with one feed, and writes
-// freecad.csv into FOLDER. Status 77 where LinuxCNC is absent.
+// capstan_rival_times FOLDER: runs the roughing of the pockets that FreeCAD is compared with on the machine
+// that LinuxCNC simulates, ours and the fastest of FreeCAD's paths with our feeds and with one feed, and
+// writes freecad.csv into FOLDER. Status 77 where LinuxCNC is absent.
 
 #include <iostream>
 #include <string>
@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
   }
   std::vector<validation::SimulatedRoughing> out;
   for (const auto& c : validation::rival_cases()) {
-    const auto m = validation::match(c, capstan::testing::source_dir() + "/examples/reference_pocket_machine.yaml");
+    const auto m =
+        validation::match(c, capstan::testing::source_dir() + "/examples/reference_pocket_machine.yaml");
     if (!m) return std::cerr << to_text(m.error()) << "\n", 1;
     struct Run {
       std::string name;
@@ -64,16 +65,20 @@ int main(int argc, char** argv) {
       double predicted_s;
     };
     std::vector<Run> runs{{validation::kOurs, &m->ours, m->ours_s}};
-    if (const Rival* r = faster(*m, false)) runs.push_back({r->name + ", our feeds", &r->scheduled, r->scheduled_s});
-    if (const Rival* r = faster(*m, true)) runs.push_back({r->name + ", one feed", &r->constant, r->constant_s});
+    if (const Rival* r = faster(*m, false))
+      runs.push_back({r->name + ", our feeds", &r->scheduled, r->scheduled_s});
+    if (const Rival* r = faster(*m, true))
+      runs.push_back({r->name + ", one feed", &r->constant, r->constant_s});
     for (const Run& run : runs) {
       std::string said;
       bool absent = false;
       const double time_s = simulated(*run.plan, m->step, said, absent);
       if (absent) return std::cerr << said << "\n", 77;
-      if (time_s < 0.0) return std::cerr << validation::part_name(c) << ", " << run.name << ": " << said << "\n", 1;
+      if (time_s < 0.0)
+        return std::cerr << validation::part_name(c) << ", " << run.name << ": " << said << "\n", 1;
       out.push_back({validation::part_name(c), c.material, run.name, time_s, run.predicted_s});
-      std::cerr << out.back().part << ", " << out.back().material << ", " << run.name << ": " << time_s << " s\n";
+      std::cerr << out.back().part << ", " << out.back().material << ", " << run.name << ": " << time_s
+                << " s\n";
     }
   }
   return write_file(std::string(argv[1]) + "/freecad.csv", validation::text_of(out)) ? 0 : 1;
