@@ -44,7 +44,8 @@ Comparison summary(const std::vector<Comparison>& all) {
       {"edits", "10. Edited programs"},
       {"plan-edits", "11. Edited plans"},
       {"productivity", "12. Productivity"},
-      {"catalogue-times", "13. Times against a catalogue's"}};
+      {"catalogue-times", "13. Times against a catalogue's"},
+      {"freecad", "14. Roughing against FreeCAD's paths"}};
   Comparison out{.name = "summary"};
   Table rows{{"comparison", "figure"}, {}};
   for (const auto& [name, title] : titles) {
@@ -78,6 +79,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(plan_edits());
   out.push_back(productivity(corpus));
   out.push_back(catalogue_times());
+  out.push_back(freecad(capstan::testing::source_dir() + "/docs/validation/freecad.csv"));
   out.push_back(summary(out));
   return out;
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tests/support/corpus.h"
+#include "tests/support/shop.h"
 #include "tests/validation/comparisons.h"
 
 namespace capstan::validation {
@@ -33,16 +34,39 @@ TEST(Document, IsQuotedByTheReadmeAsItStands) {
 }
 
 TEST(Document, ShowsPicturesThatAreThere) {
-  const std::string text = document();
-  std::size_t at = 0;
-  int pictures = 0;
-  while ((at = text.find("](validation/", at)) != std::string::npos) {
-    at += 2;
-    const std::string file = text.substr(at, text.find(')', at) - at);
-    EXPECT_FALSE(testing::slurp(capstan::testing::source_dir() + "/docs/" + file).empty()) << file;
-    ++pictures;
+  constexpr std::size_t kLargest = 60000;  // bytes, of a drawn path
+  for (const std::string name : {"validation", "strategies"}) {
+    const std::string folder = capstan::testing::source_dir() + "/docs/",
+                      text = testing::slurp(folder + name + ".md");
+    std::size_t at = 0;
+    int pictures = 0;
+    while ((at = text.find("](" + name + "/", at)) != std::string::npos) {
+      at += 2;
+      const std::string file = text.substr(at, text.find(')', at) - at),
+                        picture = testing::slurp(folder + file);
+      EXPECT_FALSE(picture.empty()) << file;
+      if (name == "strategies") {
+        EXPECT_LT(picture.size(), kLargest) << file;
+      }
+      ++pictures;
+    }
+    EXPECT_GT(pictures, 0) << name;
   }
-  EXPECT_GT(pictures, 0);
+}
+
+TEST(Document, OfStrategiesShowsPartsThatArePlannedWhole) {
+  Job job;
+  const auto shop = pipeline::load_shop({}, job);
+  ASSERT_TRUE(shop) << to_text(shop.error());
+  for (const char* name : {"strategies", "outside"}) {
+    const std::string file = capstan::testing::source_dir() + "/docs/strategies/" + name + ".p21";
+    const auto read = pipeline::read_plan(testing::slurp(file), file, job);
+    ASSERT_TRUE(read) << to_text(read.error());
+    const auto made = pipeline::bind_checked(*read, *shop, {}, job);
+    ASSERT_TRUE(made) << to_text(made.error());
+    EXPECT_TRUE(made->plan.unplanned.empty()) << name << ": " << made->plan.unplanned.front().reason;
+    for (const auto& f : made->findings) EXPECT_NE(f.severity, Severity::kError) << name << ": " << f.message;
+  }
 }
 
 TEST(Document, IsRenewedBetweenItsMarkersOnly) {

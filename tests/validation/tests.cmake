@@ -17,4 +17,7 @@ capstan_test(validation LIBS capstan_validation_comparisons)
 if(TARGET capstan_simulated)
   add_executable(capstan_cycle_times ${validation}/linuxcnc/cycle_times_main.cpp)
   target_link_libraries(capstan_cycle_times PRIVATE capstan_simulated)
+  # The same for roughing against FreeCAD's paths: capstan_rival_times FOLDER.
+  add_executable(capstan_rival_times ${validation}/linuxcnc/rival_times_main.cpp)
+  target_link_libraries(capstan_rival_times PRIVATE capstan_simulated capstan_validation_comparisons)
 endif()

@@ -1,0 +1,170 @@
+#include "tests/validation/freecad/rivals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+#include "tests/support/corpus.h"
+#include "tests/support/shop.h"
+#include "tests/validation/freecad/foreign_path.h"
+
+namespace capstan::validation {
+namespace {
+
+/// make_programs.py was asked for this cutter.
+constexpr double kDiameterMm = 10.0;
+/// Its moves are cut into pieces of this length, mm: the shortest that our own are split into, a fifth of the
+/// diameter (optimise::split_moves).
+constexpr double kPieceMm = kDiameterMm / 5.0;
+/// How far below the pocket's floor the block goes on, mm.
+constexpr int kBelowMm = 15;
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+bool roughs(const model::Plan& plan, const model::StepResult& s) {
+  const auto* step = plan.model.get<model::MachiningWorkingstep>(s.step);
+  return step != nullptr && plan.model.holds<model::BottomAndSideRoughMilling>(step->its_operation);
+}
+
+struct Roughing {
+  double time_s = 0.0, removed_mm3 = 0.0;
+  std::optional<std::size_t> first;
+};
+
+Roughing roughing_of(const model::Plan& plan) {
+  Roughing out;
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const model::StepResult& s = plan.steps[i];
+    if (!roughs(plan, s)) continue;
+    if (!out.first) out.first = i;
+    out.time_s += s.cutting_s + s.rapid_s;
+    for (std::size_t k = 0; s.sections && k < s.sections->size(); ++k)
+      out.removed_mm3 += s.sections->removed_mm3[k];
+  }
+  return out;
+}
+
+/// "pocket 60 % × 1" of "pocket_10_0_60_1.ngc".
+std::string name_of(const std::string& file) {
+  std::vector<std::string> words(1);
+  for (const char c : file.substr(0, file.find('.'))) {
+    if (c == '_')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  return words.size() == 5 ? words[0] + " " + words[3] + " % × " + words[4] : file;
+}
+
+std::vector<std::string> programs_of(const RivalCase& c) {
+  std::vector<std::string> out;
+  const std::string middle = "_" + std::to_string(c.depth_mm) + "_" + std::to_string(c.boss_mm) + "_";
+  for (const auto& f :
+       std::filesystem::directory_iterator(testing::source_dir() + "/tests/validation/freecad/programs")) {
+    if (f.path().filename().string().find(middle) != std::string::npos) out.push_back(f.path().string());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// The rival's plan; fails where no feed keeps the limits.
+Result<model::Plan> planned(const Match& m, const model::CutterPath& path, const pipeline::Inputs& in) {
+  Job quiet;
+  auto plan = with_path(m.ours, m.step, in_pieces(path, kPieceMm), in, quiet);
+  if (!plan) return plan;
+  const auto at = roughing_of(*plan).first;
+  if (!at) return fail("VAL-LIMIT", "the path is not planned");
+  const auto& exceeded = plan->steps[*at].exceeded;
+  if (!exceeded.empty())
+    return fail("VAL-LIMIT", "the path exceeds " + exceeded.front().name + " at any feed");
+  return plan;
+}
+
+}  // namespace
+
+std::vector<RivalCase> rival_cases() {
+  std::vector<RivalCase> out;
+  for (const int boss_mm : {0, 14}) {
+    for (const char* material : {"EN AW-6061", "C45", "X5CrNi18-10"}) {
+      for (const int depth_mm : {10, 20}) out.push_back({material, depth_mm, boss_mm});
+    }
+  }
+  return out;
+}
+
+std::string rival_part(const RivalCase& c) {
+  const std::string floor = std::to_string(c.depth_mm), under = std::to_string(c.depth_mm + kBelowMm);
+  std::string text = testing::slurp(testing::source_dir() + "/examples/reference_pocket.p21");
+  text = replaced(std::move(text), "(0.,0.,-10.)", "(0.,0.,-" + floor + ".)");
+  text = replaced(std::move(text), "(0.,0.,-25.)", "(0.,0.,-" + under + ".)");
+  text = replaced(std::move(text), "100.,80.,25.", "100.,80.," + under + ".");
+  if (c.boss_mm == 0) return text;
+  text = replaced(std::move(text), "#32,#35,(),$", "#32,#35,(#46),$");
+  return replaced(std::move(text), "ENDSEC;\nEND-ISO",
+                  "#44=TOLERANCED_LENGTH_MEASURE(" + std::to_string(c.boss_mm) +
+                      ".,#39);\n#45=CIRCULAR_CLOSED_PROFILE($,#44);\n"
+                      "#46=BOSS('BOSS',#4,(),#32,#35,#45,$);\nENDSEC;\nEND-ISO");
+}
+
+Result<Match> match(const RivalCase& c, const std::string& machine) {
+  Job job;
+  pipeline::ShopFiles files;
+  files.machine = machine;
+  auto in = pipeline::load_shop(files, job);
+  if (!in) return tl::unexpected(in.error());
+  in->material_name = c.material;
+  std::erase_if(in->library, [](const model::Cutter& k) {
+    return k.cutter_class != model::CutterClass::kEndmill ||
+           std::abs(k.cutting_diameter_mm - kDiameterMm) > 1e-9;
+  });
+  const auto part = pipeline::read_plan(rival_part(c), "rival.p21", job);
+  if (!part) return tl::unexpected(part.error());
+  auto made = pipeline::bind_checked(*part, *in, {}, job);
+  if (!made) return tl::unexpected(made.error());
+  Match out;
+  const Roughing ours = roughing_of(made->plan);
+  if (!ours.first) return fail("VAL-LIMIT", std::string("no roughing is planned in ") + c.material);
+  out.ours = std::move(made->plan);
+  out.step = *ours.first;
+  out.ours_s = ours.time_s;
+  out.removed_mm3 = ours.removed_mm3;
+  for (const std::string& file : programs_of(c)) {
+    const auto path = path_of_program(testing::slurp(file), 0.0);
+    if (!path) return tl::unexpected(path.error());
+    Rival r;
+    r.name = name_of(file.substr(file.rfind('/') + 1));
+    r.adaptive = r.name.starts_with("adaptive");
+    for (const bool constant : {false, true}) {
+      in->constant_feeds = constant;
+      auto plan = planned(out, *path, *in);
+      if (!plan) {
+        plan.error().message = r.name + ": " + plan.error().message;
+        return tl::unexpected(plan.error());
+      }
+      const Roughing roughing = roughing_of(*plan);
+      (constant ? r.constant_s : r.scheduled_s) = roughing.time_s;
+      r.removed_mm3 = roughing.removed_mm3;
+      (constant ? r.constant : r.scheduled) = *std::move(plan);
+    }
+    out.rivals.push_back(std::move(r));
+  }
+  return out;
+}
+
+const Rival* fastest(const Match& m, bool adaptive, bool constant) {
+  const Rival* out = nullptr;
+  const auto time = [&](const Rival& r) { return constant ? r.constant_s : r.scheduled_s; };
+  for (const Rival& r : m.rivals) {
+    if (r.adaptive == adaptive && (out == nullptr || time(r) < time(*out))) out = &r;
+  }
+  return out;
+}
+
+}  // namespace capstan::validation
