@@ -13,6 +13,7 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/nouns/tool_material.h"
 
 namespace capstan::tooling {
 
@@ -204,7 +205,11 @@ std::optional<std::string> not_cut_with(const Cutter& c, const StartValues& star
                                         const WorkMaterial& material) {
   if (c.cutter_class == CutterClass::kTouchProbe || start.wanted_vc_m_min > 0.0) return std::nullopt;
   return material.id + " is not cut with " + std::string(model::to_text(c.substrate)) +
-         ": its card has no speed for it, and the tool states none";
+         ": its card has no speed for it, and the tool states none" +
+         (material_is_open(c)
+              ? std::string("; that the tool is ") + std::string(model::to_text(c.substrate)) +
+                    " is only assumed: state it, or settle it with --assume tool-material=..."
+              : std::string());
 }
 
 std::optional<std::string> wrong_size(const Cutter& c, const ToolRequirement& r) {

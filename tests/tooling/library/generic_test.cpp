@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
@@ -83,6 +84,26 @@ TEST(GenericLibrary, NeverLetsAThinToolReachPastItsThickerShank) {
     // As deep as its flutes, or the neck behind them, that is thinner than they are.
     EXPECT_LT(c.neck_diameter_mm, c.cutting_diameter_mm) << c.id;
     EXPECT_DOUBLE_EQ(c.usable_length_mm, std::max(c.maximum_depth_of_cut_mm, c.neck_length_mm)) << c.id;
+  }
+}
+
+TEST(GenericLibrary, ReachesTwentyMillimetresDownIntoInnerCornersOfR1Point5ToR3) {
+  for (const double radius : {1.5, 2.0, 2.5, 3.0}) {
+    const bool any = std::any_of(library().begin(), library().end(), [&](const Cutter& c) {
+      return c.cutter_class == CutterClass::kEndmill && c.cutting_diameter_mm <= 2.0 * radius &&
+             reach_of(c) >= 20.0;
+    });
+    EXPECT_TRUE(any) << radius;
+  }
+}
+
+TEST(GenericLibrary, DrillsNineDiametersDeepFromThreeToThirteenMillimetres) {
+  for (double d = 3.0; d <= 13.0; d += 0.5) {
+    const bool any = std::any_of(library().begin(), library().end(), [&](const Cutter& c) {
+      return c.cutter_class == CutterClass::kTwistDrill && c.cutting_diameter_mm == d &&
+             reach_of(c) >= 9.0 * d;
+    });
+    EXPECT_TRUE(any) << d;
   }
 }
 

@@ -69,11 +69,13 @@ TEST(LikelyMaterial, FollowsPracticeWhereTheFileGivesNoSpeedOrOneThatNeitherBear
   }
 }
 
-TEST(LikelyMaterial, IsNeverOneThatTheCardExcludes) {
+TEST(LikelyMaterial, IsNotCarbideOnlyBecauseHssDoesNotCutTheMaterial) {
+  // Such a drill is refused, and the refusal says how to state what it is.
   model::WorkMaterial hard = steel(), soft = steel();
   hard.vc_hss_m_min = 0.0;
   soft.vc_carbide_m_min = 0.0;
-  EXPECT_EQ(likely(CutterClass::kTwistDrill, 10.0, kHss, hard), Substrate::kCarbide);
+  EXPECT_EQ(likely(CutterClass::kTwistDrill, 10.0, kHss, hard), Substrate::kHss);
+  EXPECT_EQ(likely(CutterClass::kEndmill, 10.0, 0.0, hard), Substrate::kCarbide);
   EXPECT_EQ(likely(CutterClass::kEndmill, 10.0, kCarbide, soft), Substrate::kHss);
 }
 

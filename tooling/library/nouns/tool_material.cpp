@@ -7,9 +7,9 @@
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
 
-// Chooses what a tool is made of whose file does not say it. First by the work material's card, then by the
-// speed that the file gives the tool, then by what such a tool is usually bought as today: carbide where all
-// of the generic series of its class are carbide, but for end mills above the sizes of DIN 6527 and for
+// Chooses what a tool is made of whose file does not say it. First by the speed that the file gives the tool,
+// against the work material's card; then by what such a tool is usually bought as today: carbide where all of
+// the generic series of its class are carbide, but for end mills above the sizes of DIN 6527 and for
 // points that only mark. Drills and reamers are sold of either (DIN 338 and 6537, 212 and 8093), so that
 // their class tells nothing; taps, countersinks, T-slot and dovetail cutters are HSS.
 
@@ -30,18 +30,6 @@ constexpr double kBestOverBare = 1.7;
 constexpr double kSolidCarbideMm = 20.0;
 
 std::string speed(double m_min) { return trimmed(m_min, 1) + " m/min"; }
-
-/// What the card of the work material leaves, where it leaves one only.
-std::optional<ToolMaterial> by_card(const ToolMaterialHints& hints) {
-  const model::WorkMaterial& m = *hints.material;
-  for (const auto& [not_this, other] :
-       {std::pair{Substrate::kHss, Substrate::kCarbide}, std::pair{Substrate::kCarbide, Substrate::kHss}}) {
-    if (!model::card_excludes(m, not_this)) continue;
-    return ToolMaterial{
-        other, assumed_source(other, m.id + " is not cut with " + std::string(model::to_text(not_this)))};
-  }
-  return std::nullopt;
-}
 
 /// What the speed that the file gives tells; nothing where neither bears it, or the card has no speeds.
 std::optional<ToolMaterial> by_speed(const ToolMaterialHints& hints) {
@@ -95,7 +83,10 @@ constexpr std::string_view kSettled = "settled: ";
 ToolMaterial likely_material(const model::Cutter& c, const ToolMaterialHints& hints) {
   if (hints.settled) return {*hints.settled, hints.settled_by};
   if (hints.material != nullptr) {
-    if (auto card = by_card(hints)) return *std::move(card);
+    // That HSS does not cut the material makes no tool carbide: one that is refused can be stated.
+    if (model::card_excludes(*hints.material, Substrate::kCarbide))
+      return {Substrate::kHss,
+              assumed_source(Substrate::kHss, hints.material->id + " is not cut with carbide")};
     if (auto given = by_speed(hints)) return *std::move(given);
   }
   return by_practice(c);
