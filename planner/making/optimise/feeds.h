@@ -25,7 +25,7 @@ struct CutSample {
   double csa_mm2 = 0.0;
   double top_mm = 0.0;   ///< highest contact above the tip; 0: not known, the depth counts from the tip
   double end_mm2 = 0.0;  ///< part of the area that no flank sweeps: the cutter's end cuts it on the way down
-  double end_slope = 0.0;  ///< slope of the end's way down, per length of path
+  double end_slope = 0.0;       ///< slope of the end's way down, per length of path
   double chip_over_feed = 0.0;  ///< thickest chip over the feed per tooth, as measured; 0: not measured
 };
 

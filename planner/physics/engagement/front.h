@@ -24,7 +24,8 @@ struct RoundNose {
 /// On a slope that the cutter follows this is the chip of the layer that it takes, as on a level floor: up
 /// hill the contact lies high on the round, but the feed runs along the surface.
 ///
-/// Frame     that of the map; `tip` is the lowest point of the cutter, `feed` of length 1. Nothing stands over
+/// Frame     that of the map; `tip` is the lowest point of the cutter, `feed` of length 1. Nothing stands
+/// over
 ///           `ceiling_mm` there, which saves time only.
 /// Range     0 .. 1; 0 where nothing stands in the way.
 /// Accuracy  cells count when their middles do: the truth may be larger by a cell over the round's radius,

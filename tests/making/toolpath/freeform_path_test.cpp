@@ -378,8 +378,9 @@ TEST(Finish, ReachesTheRimOfASurfaceThatRisesInwards) {
     auto map = stock::from_box({{0, 0, -20}, {50, 50, 0}}, 0.1);
     stock::cut(map, model::profile_of(task.cutter), out->path);
     // Ridges of half a millimetre's step on this slope, and the tolerance.
-    const double allowed = (0.5 * 0.5 / (8.0 * 5.0) / std::pow(std::cos(std::atan(rise)), 2.0) + 0.01 + 0.005) /
-                           std::cos(std::atan(rise));
+    const double allowed =
+        (0.5 * 0.5 / (8.0 * 5.0) / std::pow(std::cos(std::atan(rise)), 2.0) + 0.01 + 0.005) /
+        std::cos(std::atan(rise));
     for (double y = 2.0; y < 48.0; y += 1.0) {
       for (const double x : {0.15, 49.85})
         EXPECT_LE(stock::height_at(map, {x, y}) - roof(x, y), allowed + 0.1 * rise) << x << ' ' << y;

@@ -48,22 +48,6 @@ TEST(Select, TakesTheDrillOfTheSizeWanted) {
   EXPECT_TRUE(s.would_fit.empty());
 }
 
-TEST(Select, TakesTheBallWhosePassesOverASurfaceAreDoneFirst) {
-  ToolRequirement r;
-  r.classes = {CutterClass::kBallEndmill};
-  r.reach_mm = 10;
-  Preferences p;
-  p.ridges_mm = 0.05;
-  p.used = {"generic/ball_short/10"};
-  const auto ball = [&](double passes_mm2) {
-    p.passes_mm2 = passes_mm2;
-    return choose(r, p).ranked.at(0).cutter.id;
-  };
-  EXPECT_EQ(ball(60.0 * 40.0), "generic/ball_short/20");
-  // What a wider one saves on a small surface is less than its change takes.
-  EXPECT_EQ(ball(10.0 * 10.0), "generic/ball_short/10");
-}
-
 TEST(Select, ComesToAToolWithoutALengthLast) {
   // Two drills alike; the table of the first by name has a Z of 0.
   ToolRequirement r;

@@ -13,8 +13,8 @@ namespace capstan::step {
                                                   const model::ProposedStep& step,
                                                   const model::FeatureShape& shape);
 
-/// Height of the ridges, and of the chords, that a proposed freeform step leaves, mm: of one with an allowance
-/// a quarter of it. Defaults, unsourced.
+/// Height of the ridges, and of the chords, that a proposed freeform step leaves, mm: of one with an
+/// allowance a quarter of it. Defaults, unsourced.
 [[nodiscard]] double freeform_ridges_mm(const model::ProposedStep& step);
 
 }  // namespace capstan::step

@@ -35,9 +35,9 @@ constexpr double kFinishDeflection = 0.02;  // mm, of a surface without a tolera
 /// What one wall may be off of a zone: a size in its middle has half of it on either side (derived).
 constexpr double kWallOfZone = 0.5;
 constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
-/// Largest height of the terraces that roughing of a surface leaves, in diameters. Default, measured: of 0.07,
-/// 0.13, 0.2, 0.25 and 0.4 the one with which examples/surface.stl is roughed and evened out soonest, in 6061
-/// and in C45.
+/// Largest height of the terraces that roughing of a surface leaves, in diameters. Default, measured: of
+/// 0.07, 0.13, 0.2, 0.25 and 0.4 the one with which examples/surface.stl is roughed and evened out soonest,
+/// in 6061 and in C45.
 constexpr double kTerraceShare = 0.25;
 /// A slot no wider than its cutter by this is cut at its full width. Default, unsourced.
 constexpr double kAsWide = 1.02;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/freeform/hatch.h"
 #include "planner/making/toolpath/freeform/level_contour.h"
+#include "planner/making/toolpath/freeform/levels.h"
 #include "planner/making/toolpath/freeform/surface_line.h"
 #include "planner/making/toolpath/freeform/task.h"
 #include "planner/physics/stock/sweep.h"
@@ -22,7 +22,6 @@ using geometry::Vec3;
 using model::MoveRole;
 
 constexpr double kBlocked = 1e300;
-constexpr double kNothing = 1e-3;  ///< material thinner than this is not worth a pass, mm
 /// More turns of a ramp than this and a place counts as not to be entered; default, unsourced.
 constexpr int kMostRampTurns = 100;
 constexpr double kMostGridPoints = 2e6;
@@ -67,7 +66,8 @@ class Rougher {
       for (const double z : p.z) lowest = std::min(lowest, z);
     }
     if (lowest >= task_.top_z_mm) return fail("FRF-EMPTY", "nothing above the surface is left to rough");
-    const std::vector<double> levels = heights(lowest);
+    const auto [levels, floors] = levels_of(task_, lowest, margin_);
+    floors_ = floors;
     for (std::size_t k = 0; k < levels.size(); ++k) {
       job_.progress("freeform rough", static_cast<double>(k) / static_cast<double>(levels.size()));
       if (job_.stop_requested()) return stopped();
@@ -87,38 +87,6 @@ class Rougher {
  private:
   static tl::unexpected<Diagnostic> stopped() {
     return fail("FRF-STOPPED", "the rough path was stopped before it was whole");
-  }
-
-  /// Of the tip, from above. Where floors are known, the levels between two are equal.
-  [[nodiscard]] std::vector<double> heights(double lowest) {
-    std::vector<double> out;
-    const double most = task_.axial_depth_mm;
-    if (task_.floors_z_mm.empty()) {
-      const int n = std::max(1, static_cast<int>(std::ceil((task_.top_z_mm - lowest) / most - 1e-9)));
-      for (int k = 1; k < n; ++k) out.push_back(task_.top_z_mm - k * most);
-      out.push_back(lowest);
-      return out;
-    }
-    constexpr double kAbove = 1e-6;  // mm: a level just at a floor is not below it
-    std::vector<double> stops = {lowest};
-    for (const double floor : task_.floors_z_mm) {
-      const double z = floor + task_.allowance_mm + margin_ + kAbove;
-      if (z < lowest + kAbove || z > task_.top_z_mm - kNothing) continue;
-      stops.push_back(z);
-      floors_.push_back(z);
-      // Walls first, down to what is left on the floor.
-      if (task_.left_mm && z + *task_.left_mm < task_.top_z_mm) stops.push_back(z + *task_.left_mm);
-    }
-    std::sort(stops.begin(), stops.end(), std::greater<>());
-    double from = task_.top_z_mm;
-    for (const double to : stops) {
-      if (from - to < kNothing) continue;
-      const int n = std::max(1, static_cast<int>(std::ceil((from - to) / most - 1e-9)));
-      for (int k = 1; k < n; ++k) out.push_back(from - (from - to) * k / n);
-      out.push_back(to);
-      from = to;
-    }
-    return out;
   }
 
   /// Solid material under the area, for a job without a stock.
@@ -433,8 +401,8 @@ class Rougher {
     return true;
   }
 
-  /// The nearest place in air, within a diameter and a half before a pass from u to `far`, that has a free way
-  /// to its beginning: beside the piece, or where this level is cleared.
+  /// The nearest place in air, within a diameter and a half before a pass from u to `far`, that has a free
+  /// way to its beginning: beside the piece, or where this level is cleared.
   [[nodiscard]] std::optional<double> air_before(double u, double far, double v, double z) const {
     constexpr int kPlaces = 24;
     const double step = 3.0 * cutter_.radius() / kPlaces * (far > u ? -1.0 : 1.0);

@@ -193,9 +193,11 @@ class LineWay : public Way {
     };
     // Further down the column the ball may meet it more squarely.
     const double squarest = ahead * down / std::max(1.0 - down * down, kSlack);
-    const double below = advance * squarely(std::clamp(squarest, top - (stands - at.z), top));
-    const double met = ahead + top * down - r_ * squarely(top);
-    if (squarely(top) > 0.0 && top <= met * down)
+    const double at_top = squarely(top);
+    const double below =
+        advance * (squarest >= top ? at_top : squarely(std::max(squarest, top - (stands - at.z))));
+    const double met = ahead + top * down - r_ * at_top;
+    if (at_top > 0.0 && top <= met * down)
       return met < -kMetMm || met > way ? 0.0 : below;  // before: the ball stood over it
     const double off2 = dot(side, side) - at.along * at.along;
     if (off2 >= square) return 0.0;
