@@ -29,9 +29,9 @@ struct CutSample {
   double chip_over_feed = 0.0;  ///< thickest chip over the feed per tooth, as measured; 0: not measured
 };
 
-/// Feed of a plunge as a fraction of the step's feed, at most, for cutters that may do it; and so, of that feed
-/// per tooth, the thickest chip that the edges of a cutter's end take on any way down. Default, unsourced
-/// (handbooks give a third to a half).
+/// Feed of a plunge as a fraction of the step's feed, at most, for cutters that may do it; and so, of that
+/// feed per tooth, the thickest chip that the edges of a cutter's end take on any way down. Default,
+/// unsourced (handbooks give a third to a half).
 inline constexpr double kPlungeFraction = 0.3;
 /// Feed of moves through air that may not be rapids (close above material): at least this, mm/min, as far as
 /// the axes go. Default, unsourced.
@@ -47,11 +47,11 @@ inline constexpr double kGroupRatio = 0.03;
 inline constexpr double kWholeSection = 0.95;
 
 struct FeedQuestion {
-  CutQuestion cut;     ///< limits, cutter, material, machine
-  double n_rpm = 0.0;  ///< of the step; positive clockwise, negative counter-clockwise
+  CutQuestion cut;           ///< limits, cutter, material, machine
+  double n_rpm = 0.0;        ///< of the step; positive clockwise, negative counter-clockwise
   double feed_mm_min = 0.0;  ///< of the step: plunges are a fraction of it, finishing never exceeds it
-  bool adapt = true;      ///< false: a given feed is executed as given; factors above 1 do not count
-  bool constant = false;  ///< one feed for all cutting moves: the largest within every section's limits
+  bool adapt = true;         ///< false: a given feed is executed as given; factors above 1 do not count
+  bool constant = false;     ///< one feed for all cutting moves: the largest within every section's limits
   std::vector<double> feed_factor, speed_factor, dwell_s;  ///< of the path's moves
   std::vector<CutSample> samples;                          ///< in order of moves
   double known_to_mm = 0.0;  ///< to what length along the path it is known where samples begin and end
@@ -85,8 +85,8 @@ struct FeedAnswer {
 ///
 /// Plunges: a fraction of the step's feed at most, below it what torque and power of drilling into the solid
 /// allow. Ramps and helices: what the sections measured along them allow, as in a slot; at most model::Ramp's
-/// share of the feed of the largest chip, and no chip of the end's edges (feed per tooth times the sine of the
-/// slope) thicker than in a plunge.
+/// share of the feed of the largest chip, and no chip of the end's edges (feed per tooth times the sine of
+/// the slope) thicker than in a plunge.
 ///
 /// Shape         the schedule has one entry per move of `path`.
 /// Determinism   same question, same answer; sections are compared on a grid, rounded to the heavier side.

@@ -15,8 +15,8 @@ namespace capstan::toolpath {
 }
 /// Between the cutter and the material beside it, where it must be in the air, mm; default, unsourced.
 inline constexpr double kAirBeside = 0.2;
-/// Between the cutter's end and what is below it, where a ramp or a plunge begins, mm: over a floor that was cut,
-/// and over the raw piece, whose height is less well known; default, unsourced.
+/// Between the cutter's end and what is below it, where a ramp or a plunge begins, mm: over a floor that was
+/// cut, and over the raw piece, whose height is less well known; default, unsourced.
 inline constexpr double kAirAbove = 0.2;
 inline constexpr double kAboveRaw = 1.0;
 /// Between the cutter and the raw piece before a pass begins and behind its open end, mm; default, unsourced.

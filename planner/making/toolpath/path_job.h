@@ -105,8 +105,8 @@ struct PathJob {
   std::optional<geometry::Vec2> start_point;     ///< feature frame: begin near here
   std::optional<bool> multiple_passes;           ///< false: one level only
   Approach approach, retract;
-  /// Slope of the ways into the solid where `approach` states none, rad; 0: model::kUsualRampRad. Never steeper than the
-  /// cutter may.
+  /// Slope of the ways into the solid where `approach` states none, rad; 0: model::kUsualRampRad. Never
+  /// steeper than the cutter may.
   double ramp_angle_rad = 0.0;
   /// Deepest bore along a helix, mm: levels below the first are entered through it. 0: as deep as a level.
   double ramp_depth_mm = 0.0;

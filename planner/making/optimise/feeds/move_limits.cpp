@@ -124,7 +124,8 @@ Cap milled(const FeedQuestion& q, CutClasses& classes, const model::CutterPath& 
     const double meant = given * q.feed_mm_min;
     const double share = model::ramp_of(q.cut.cutter, q.cut.material).feed_share;
     double most = share * given * loads.whole_chip_mm_min();
-    if (const double fall = fall_of(path, i); fall > 0.0) most = std::min(most, kPlungeFraction * meant / fall);
+    if (const double fall = fall_of(path, i); fall > 0.0)
+      most = std::min(most, kPlungeFraction * meant / fall);
     // A part of a feed that is near the thinnest chip would rub all the way down.
     bound(cap, std::max(most, std::min(meant, loads.floor_mm_min())), FeedBound::kEndCut);
   } else if (in_air_by_role(role) && !m.cuts && !m.plunges) {

@@ -423,8 +423,8 @@ class Rougher {
     return true;
   }
 
-  /// Over the place at the security plane, fast to the clearance above `material`, at feed through the air there,
-  /// then as a plunge.
+  /// Over the place at the security plane, fast to the clearance above `material`, at feed through the air
+  /// there, then as a plunge.
   void come_down(Vec3 p, double material) {
     const Vec3 high{p.x, p.y, task_.security_z_mm};
     if (out_.path.size() == 0) {

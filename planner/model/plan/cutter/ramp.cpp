@@ -7,9 +7,9 @@
 
 #include "planner/model/plan/cutter/stated.h"
 
-// How steep and how fast. The cutter goes down by feed x sin(angle), so that of two ways, a flat one at full feed
-// and a steep one at less, the one that goes down faster is taken (Dormer Pramet, Milling 2021-22 p. 775: some
-// tools descend at a lower angle and a higher feed, or at a higher angle and a lower feed).
+// How steep and how fast. The cutter goes down by feed x sin(angle), so that of two ways, a flat one at full
+// feed and a steep one at less, the one that goes down faster is taken (Dormer Pramet, Milling 2021-22 p.
+// 775: some tools descend at a lower angle and a higher feed, or at a higher angle and a lower feed).
 
 namespace capstan::model {
 namespace {
@@ -21,11 +21,11 @@ struct Row {
   double carbide_deg, hss_deg, depth_in_d;
 };
 /// Source  N: 3 to 10 degrees in soft, non-ferrous materials; M, S, H and HSS in ferrous ones: 1 to 3 (Harvey
-///         Performance, In the Loupe, "Ramping to success"; the upper ends). P, K with carbide: standard end mills
-///         bear 2 to 5 degrees by their flutes and core (carbide-tooling.com, ramping angle calculator; the upper
-///         end: what a mill with more flutes bears is its own).
-///         Depth in diameters: that of slots milled in one cut by solid carbide (Tungaloy catalogue 2020-21 p. 1084);
-///         a bore along a helix is wider, so that its chips come out more easily.
+///         Performance, In the Loupe, "Ramping to success"; the upper ends). P, K with carbide: standard end
+///         mills bear 2 to 5 degrees by their flutes and core (carbide-tooling.com, ramping angle calculator;
+///         the upper end: what a mill with more flutes bears is its own). Depth in diameters: that of slots
+///         milled in one cut by solid carbide (Tungaloy catalogue 2020-21 p. 1084); a bore along a helix is
+///         wider, so that its chips come out more easily.
 constexpr std::array kRows = {Row{"P", 5.0, 3.0, 2.0},   Row{"M", 3.0, 3.0, 1.0}, Row{"K", 5.0, 3.0, 2.0},
                               Row{"N", 10.0, 10.0, 2.0}, Row{"S", 3.0, 3.0, 1.0}, Row{"H", 3.0, 3.0, 0.5}};
 /// Of a material whose group is not known.
@@ -33,8 +33,8 @@ constexpr Row kUnknown{"", 3.0, 3.0, 0.5};
 
 /// Of cutters whose edges reach the centre: the feed of slot milling (Dormer Pramet, Milling 2021-22 p. 775).
 constexpr double kAsInASlot = 1.0;
-/// Of those whose edges do not, and at the steepest angle that a maker states: half the recommended feed (Kyocera,
-/// catalogue 2021-22 p. M136, ramping up to RMPX and helical milling).
+/// Of those whose edges do not, and at the steepest angle that a maker states: half the recommended feed
+/// (Kyocera, catalogue 2021-22 p. M136, ramping up to RMPX and helical milling).
 constexpr double kHalf = 0.5;
 
 const Row& row_of(const WorkMaterial& m) {

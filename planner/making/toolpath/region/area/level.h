@@ -34,8 +34,8 @@ class LevelCutter {
   LevelCutter(const PathJob& task, const WorkArea& area, PathWriter& writer, Job& job);
 
   /// Brings the cutter onto the track at the level's height, by the best legal way: from outside, along a
-  /// helix or through the bore of one that went deeper, along a ramp on the track, or straight down. Returns the track turned so that it begins where the
-  /// cutter is. `leaf`: the area inside the track, for a helix.
+  /// helix or through the bore of one that went deeper, along a ramp on the track, or straight down. Returns
+  /// the track turned so that it begins where the cutter is. `leaf`: the area inside the track, for a helix.
   /// Fails  TPA-ENTRY.
   Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
   /// To a place that is cleared down to the level already, and down to it.
