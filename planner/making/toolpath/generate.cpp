@@ -2,7 +2,6 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
-#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/toolpath/operation/operation_path.h"
 #include "planner/making/toolpath/path_job.h"
 
@@ -54,10 +53,8 @@ Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
 
 Result<GeneratedPath> generate(const PathJob& task, Job& job) {
   if (auto ok = check(task); !ok) return tl::unexpected(ok.error());
-  const bool thread = model::mills_threads(task.cutter.cutter_class) && task.shape.thread_depth_mm > 0.0;
-  const double down = breaks_edge(task) ? task.axial_depth_mm
-                      : thread          ? task.shape.thread_depth_mm
-                                        : task.shape.depth_mm;
+  const double down =
+      breaks_edge(task) ? task.axial_depth_mm : task.cutting_depth_mm.value_or(task.shape.depth_mm);
   const double depth = task.start_z_mm - (task.feature_in_setup.origin.z - down);
   if (task.cutter.usable_length_mm > 0.0 && depth > task.cutter.usable_length_mm + 1e-9) {
     job.warn("TPA-REACH", about(task) + "cutter " + task.cutter.id + " reaches " +
