@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 // Twelve features of twelve materials on three machines: what every plan promises. `./dev test` plans a
 // sample, each of the fifty repetitions of `./dev soak` a share of all, so that together they plan all 432.
@@ -17,6 +18,14 @@ void holds(Sweep& sweep, const Case& c, bool tell) {
   const Outcome o = sweep.plan(c);
   const std::string text = broken(c, o);
   EXPECT_EQ(text, "") << c.name();
+  // The generic library has no carbide drill for a core whose point is drawn with 118 degrees, and none of
+  // HSS cuts 50 HRC; all else a machining centre makes.
+  const bool hard_core = features()[c.feature].name == "tapped hole" && *kMaterials[c.material].group == 'H';
+  if (std::string_view(kMachines[c.machine]) == "generic_vmc" && !hard_core) {
+    EXPECT_TRUE(o.whole()) << c.name() << ": "
+                           << (o.made.plan.unplanned.empty() ? o.failed
+                                                             : o.made.plan.unplanned.front().reason);
+  }
   if (!tell) return;
   std::string reasons;
   for (const auto& u : o.made.plan.unplanned) reasons += "; not planned: " + u.reason;
@@ -25,7 +34,7 @@ void holds(Sweep& sweep, const Case& c, bool tell) {
   std::fflush(stdout);
 }
 
-TEST(SweepProperty, PlansKeepTheLeastChipTheirTolerancesAndLimitsAndRefusalsHelp) {
+TEST(SweepProperty, PlansKeepTheLeastChipTolerancesAndLimitsRefusalsHelpAndAMachiningCentreMakesAll) {
   static Sweep sweep;
   const bool soak = std::getenv("CAPSTAN_SOAK") != nullptr;
   if (!soak) {
@@ -57,6 +66,14 @@ TEST(SweepCases, MeetEachFeatureAndEachMaterialOnceInTheSample) {
   EXPECT_EQ(materials, std::vector<int>(12, 1));
   EXPECT_EQ(machines, std::vector<int>(3, 4));
   EXPECT_EQ(all_cases().size(), 12U * 12U * 3U);
+  // Three times as many, on each machine each feature and each material once.
+  std::vector<int> met(12 * 3), of(12 * 3);
+  for (const Case& c : each_once_per_machine()) {
+    ++met.at(12 * c.machine + c.feature);
+    ++of.at(12 * c.machine + c.material);
+  }
+  EXPECT_EQ(met, std::vector<int>(36, 1));
+  EXPECT_EQ(of, std::vector<int>(36, 1));
 }
 
 }  // namespace
