@@ -105,9 +105,7 @@ class Adaptive {
         mirror_(!walls_on_right(cutter.task)) {}
 
   Status run() {
-    const double turn = kLeastTurn * bite_.radius_mm;
-    const Region rounded = inset(inset(level_.centres, turn, kWallChord), -turn, kWallChord);
-    for (const Region& piece : geometry::pieces(rounded)) {
+    for (const Region& piece : geometry::pieces(reached_at_constant_engagement(c_.task, level_.centres))) {
       if (auto ok = cut(piece); !ok) return ok;
     }
     return {};
@@ -247,6 +245,11 @@ Status known_at_constant_engagement(const PathJob& task, const WorkArea& w) {
   if (w.bottom_radius_mm > task.cutter.corner_radius_mm + 1e-6)
     return unknown(task, "a round leads from the walls to the bottom");
   return {};
+}
+
+Region reached_at_constant_engagement(const PathJob& task, const Region& centres) {
+  const double turn = kLeastTurn * 0.5 * task.cutter.cutting_diameter_mm;
+  return inset(inset(centres, turn, kWallChord), -turn, kWallChord);
 }
 
 Status cut_at_constant_engagement(LevelCutter& cutter, const Level& level, Clearings& known) {
