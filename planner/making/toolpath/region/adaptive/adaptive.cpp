@@ -28,6 +28,8 @@ constexpr double kLeastHelix = 0.2;
 /// More than this part of the radius is slotting, not clearing.
 constexpr double kMostRadial = 0.95;
 constexpr double kSameHeight = 1e-9;
+constexpr double kDeeper = 1e-6;      // mm
+constexpr double kSameGround = 0.01;  // mm2
 
 Bite bite_of(const PathJob& task) {
   Bite b;
@@ -64,7 +66,8 @@ Track mirrored(Track t) {
   return t;
 }
 
-/// What the moves from `first` on have swept at this height.
+/// What is swept at a height: by the moves from `first` on that run there or below, and by all moves before
+/// that went deeper, as a bore for later levels does.
 Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, double radius, double chord) {
   Region out;
   std::vector<Vec2> line;
@@ -73,13 +76,13 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
     if (line.size() > 1) out = geometry::unite(out, geometry::stroke(line, radius, true, chord));
     line.clear();
   };
-  const auto down = [&](std::size_t i) { return std::abs(path.z[i] - z_mm) < kSameHeight; };
-  for (std::size_t i = std::max<std::size_t>(first, 1); i < path.size(); ++i) {
-    if (!down(i)) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double low = i < first ? z_mm - kDeeper : z_mm + kSameHeight;
+    if (path.z[i] > low) {
       flush();
       continue;
     }
-    if (!down(i - 1)) {
+    if (path.z[i - 1] > low) {
       flush();
       line.push_back(xy(path.point(i)));
       continue;
@@ -93,6 +96,11 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
   }
   flush();
   return out;
+}
+
+bool same_ground(const Region& a, const Region& b) {
+  if (a.loops == b.loops) return true;
+  return geometry::area(geometry::subtract(a, b)) + geometry::area(geometry::subtract(b, a)) < kSameGround;
 }
 
 class Adaptive {
@@ -181,7 +189,7 @@ class Adaptive {
   const std::vector<ClearingPass>* passes_of(const Region& piece, const Region& cleared,
                                              const std::optional<ClearingStart>& start) {
     for (const LevelClearing& k : known_) {
-      if (k.centres.loops == piece.loops && k.cleared.loops == cleared.loops &&
+      if (k.centres.loops == piece.loops && same_ground(k.cleared, cleared) &&
           k.entered == start.has_value() && (!start || (k.at == start->at && k.heading == start->heading)))
         return &k.passes;
     }
