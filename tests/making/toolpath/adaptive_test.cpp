@@ -131,15 +131,20 @@ TEST(AdaptivePath, RepeatsTheSamePassesOnEveryLevel) {
   ASSERT_TRUE(g) << g.error().message;
   EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
   ASSERT_EQ(g->levels_z_mm.size(), 2U);
-  const auto cut_at = [&](double z) {
-    double sum = 0.0;
+  const auto places_at = [&](double z) {
+    std::vector<Vec2> out;
     for (std::size_t i = 1; i < g->path.size(); ++i) {
-      if (g->path.role[i] == MoveRole::kCut && g->path.z[i] == z) sum += model::move_length(g->path, i);
+      if (g->path.role[i] == MoveRole::kCut && g->path.z[i] == z) out.push_back(xy(g->path.point(i)));
     }
-    return sum;
+    return out;
   };
-  EXPECT_GT(cut_at(-10.0), 1000.0);
-  EXPECT_NEAR(cut_at(-10.0), cut_at(-20.0), 1e-6);
+  const auto upper = places_at(-10.0);
+  const auto lower = places_at(-20.0);
+  // The ways in may differ.
+  const std::size_t passes = std::min(upper.size(), lower.size()) - 8;
+  ASSERT_GT(passes, 100U);
+  EXPECT_TRUE(
+      std::equal(upper.rbegin(), upper.rbegin() + static_cast<std::ptrdiff_t>(passes), lower.rbegin()));
 }
 
 TEST(AdaptivePath, IsTheSameForTheSameJob) {

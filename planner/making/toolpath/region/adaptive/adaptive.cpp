@@ -29,6 +29,7 @@ constexpr double kLeastHelix = 0.2;
 constexpr double kMostRadial = 0.95;
 constexpr double kSameHeight = 1e-9;
 constexpr double kDeeper = 1e-6;      // mm
+constexpr double kHoleSlack = 0.05;   // mm
 constexpr double kSameGround = 0.01;  // mm2
 
 Bite bite_of(const PathJob& task) {
@@ -98,11 +99,6 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
   return out;
 }
 
-bool same_ground(const Region& a, const Region& b) {
-  if (a.loops == b.loops) return true;
-  return geometry::area(geometry::subtract(a, b)) + geometry::area(geometry::subtract(b, a)) < kSameGround;
-}
-
 class Adaptive {
  public:
   Adaptive(LevelCutter& cutter, const Level& level, Clearings& known)
@@ -168,28 +164,20 @@ class Adaptive {
     const std::size_t before = c_.writer.path().size();
     auto in = c_.enter(level_, circle, &piece);
     if (!in) return tl::unexpected(in.error());
-    const auto swept = [&] {
-      return swept_at(c_.writer.path(), before, level_.z_mm, bite_.radius_mm, bite_.chord_mm);
-    };
-    Region hole = swept();
-    const Region full = geometry::disc(d.point, turn + bite_.radius_mm - 0.05, 0.01);
-    if (geometry::area(geometry::subtract(full, hole)) > 0.01) {
+    // The hole to wind out of: the same on every level, whatever the way in was.
+    const Region hole = geometry::disc(d.point, turn + bite_.radius_mm - kHoleSlack, bite_.chord_mm);
+    const Region swept = swept_at(c_.writer.path(), before, level_.z_mm, bite_.radius_mm, bite_.chord_mm);
+    if (geometry::area(geometry::subtract(hole, swept)) > kSameGround)
       c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
-      hole = swept();
-    }
+    c_.writer.line({circle.start.x, circle.start.y, level_.z_mm}, MoveRole::kCut);
     cleared = geometry::unite(cleared, hole);
-    const Vec2 at = xy(c_.writer.at());
-    const Vec2 out = at - d.point;
-    const double l = norm(out);
-    Vec2 heading = l > 1e-9 ? Vec2{-out.y / l, out.x / l} : Vec2{1.0, 0.0};
-    if (mirror_) heading = -1.0 * heading;
-    return ClearingStart{at, heading};
+    return ClearingStart{circle.start, {0.0, mirror_ ? -1.0 : 1.0}};
   }
 
   const std::vector<ClearingPass>* passes_of(const Region& piece, const Region& cleared,
                                              const std::optional<ClearingStart>& start) {
     for (const LevelClearing& k : known_) {
-      if (k.centres.loops == piece.loops && same_ground(k.cleared, cleared) &&
+      if (k.centres.loops == piece.loops && k.cleared.loops == cleared.loops &&
           k.entered == start.has_value() && (!start || (k.at == start->at && k.heading == start->heading)))
         return &k.passes;
     }
