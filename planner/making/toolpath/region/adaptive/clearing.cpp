@@ -27,11 +27,11 @@ namespace {
 constexpr double kLeftPart = 0.125;
 constexpr double kOffWall = 0.01;  // mm; passes keep this off the walls, which the last one meets exactly
 constexpr double kFit = 0.004;     // mm between a pass and the lines and arcs that are written
-constexpr double kCoarse = 0.02;   // mm
-constexpr double kSame = 0.0005;   // mm
-constexpr double kCusp = 0.02;     // mm; less along a wall is left
+constexpr double kCoarse = 0.02;   // mm; chords of the boundaries of where ways and fronts lie
+constexpr double kSame = 0.0005;   // mm; vertices that say less are dropped
+constexpr double kCusp = 0.02;     // mm; less along a wall is left; default, unsourced
 constexpr double kLeadPart = 0.3;  // radius of the arc off a front, of the cutter's; default, unsourced
-constexpr double kLeadTurn = 1.2;  // rad
+constexpr double kLeadTurn = 1.2;  // rad, likewise
 constexpr std::size_t kMostPasses = 20'000;
 
 Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }

@@ -7,12 +7,12 @@
 #include "planner/ground/base/stopping.h"
 
 // The arc of contact of a straight cut is acos(1 - ae / r) (WIDIA, Trochoidal Milling, page 7: 36.87 degrees
-// at a tenth of the diameter). A pass turns at each step as far towards the material as the arc of contact
-// allows: the new direction is the root of (arc of contact - that of the straight cut), found by halving and
-// secants within the turns that a step may make. On a straight or curved front this is the curve whose
-// foremost contact runs along the front at a constant angle to the travel, a tractrix of the front. Where the
-// step would leave the centres, it slides along their boundary; if it then touches too much, it turns away.
-// Without contact the cutter curls towards the material.
+// at a tenth of the diameter). A pass turns at each step as far towards the material as that arc allows: the
+// new direction is the root of (arc of contact - that of the straight cut), found by secants within the turns
+// that a step may make. On a smooth front this is the curve whose foremost contact runs along the front at a
+// constant angle to the travel, a tractrix of the front. Where the step would leave the centres, it slides
+// along their boundary; if it then touches too much, it turns away. Without contact the cutter curls towards
+// the material.
 
 namespace capstan::toolpath {
 
@@ -21,10 +21,10 @@ using geometry::Vec2;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Length of a step as a part of the radius: its sagitta on a circle of half the radius is a hundredth of it.
+// Without another reason: defaults, unsourced, chosen by what the tests measure.
+// Length of a step as a part of the radius: its sagitta on a circle of half the radius is a thousandth of it.
 constexpr double kStepPart = 0.06;
-// Radius of a curl towards the material, as a part of the cutter's: a machine follows it at feed; default,
-// unsourced.
+// Radius of a curl towards the material, as a part of the cutter's: a machine follows it at feed.
 constexpr double kCurlPart = 0.5;
 constexpr double kMostLeft = 1.2;         // rad; more is a pass of its own
 constexpr double kContactFound = 0.005;   // of the limit: accuracy of the root
@@ -34,8 +34,8 @@ constexpr double kIdleLength = 3.0;       // radii without contact, after which 
 constexpr double kIdleTurn = kPi;         // likewise
 constexpr double kOwnSweep = 8.0;         // radii of length after which the ground is taken anew
 constexpr double kOwnTurn = 2.0;          // rad, likewise
-constexpr double kOwnFront = 0.2;         // rad
-constexpr std::size_t kVisitedEvery = 3;  // steps
+constexpr double kOwnFront = 0.2;         // rad of turn after which its own sweep may lie before it
+constexpr std::size_t kVisitedEvery = 3;  // steps between places that stand for the sweep
 constexpr std::size_t kMostPlaces = 1'000'000;
 
 Vec2 turned(Vec2 v, double rad) {
