@@ -19,7 +19,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 PARTS = {
     "strategies": ["docs/strategies/strategies.p21"],
     "outside": ["docs/strategies/outside.p21"],
-    "stainless": ["examples/reference_pocket.p21", "--material", "X5CrNi18-10"],
+    "stainless": ["examples/bracket.p21", "--material", "X5CrNi18-10"],
     "bracket": ["examples/bracket.p21"],
     "forms": ["tests/door/pipeline/parts/form_features.p21"],
     "open": ["tests/door/pipeline/parts/open_ends.p21"],
