@@ -34,7 +34,8 @@ TEST(SpeedByArc, IsTheCataloguesInSteelStainlessAndCastIron) {
 
 TEST(SpeedByArc, IsLinearBetweenTheCataloguesWidths) {
   for (std::size_t i = 1; i < kCatalogue.size(); ++i) {
-    const auto &[w0, v0] = kCatalogue[i - 1], &[w1, v1] = kCatalogue[i];
+    const auto& [w0, v0] = kCatalogue[i - 1];
+    const auto& [w1, v1] = kCatalogue[i];
     EXPECT_NEAR(carbide(0.5 * (w0 + w1)), 0.5 * (v0 + v1), 1e-9);
   }
 }

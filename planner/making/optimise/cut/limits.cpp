@@ -130,12 +130,28 @@ double speed_by_arc(const CutQuestion& q, double ae) {
   return mechanics::speed_by_arc(ae, q.cutter.cutting_diameter_mm, q.cutter.substrate, q.material.iso_group);
 }
 
+namespace {
+
+/// How much deeper than a slot a cut of this width is stable: fewer teeth are in it at a time, and the limiting
+/// depth is inverse to their average number. Where fewer than two are, the lobes' own margin counts.
+/// Source  Tlusty's limit with the average number of teeth in the cut, b = -1 / (2 Ks Re[G] N*) (Schmitz &
+///         Smith, Machining Dynamics, chapter on milling); kSingleToothMargin: mechanics/stability.h.
+double deeper_by_arc(double ae_mm, double diameter_mm) {
+  if (!(ae_mm > 0.0) || !(diameter_mm > 0.0)) return 1.0;
+  const double arc = std::acos(std::clamp(1.0 - 2.0 * ae_mm / diameter_mm, -1.0, 1.0));
+  return std::max(1.0, mechanics::kSingleToothMargin * std::numbers::pi / arc);
+}
+
+}  // namespace
+
 double slender_depth(const CutQuestion& q) {
   const model::Cutter& c = q.cutter;
   const bool speaks = q.kind == CutKind::kRough && !q.ap_mm && c.stick_out_mm > 0.0 &&
                       mechanics::modes_for(q.machine, c.id).empty();
   const double depth = speaks ? mechanics::slender_depth_mm(c.cutting_diameter_mm, c.stick_out_mm) : 0.0;
-  return depth > 0.0 ? depth : std::numeric_limits<double>::infinity();
+  const double arc =
+      q.constant_engagement && q.ae_mm ? deeper_by_arc(*q.ae_mm, c.cutting_diameter_mm) : 1.0;
+  return depth > 0.0 ? arc * depth : std::numeric_limits<double>::infinity();
 }
 
 double deepest_level(const CutQuestion& q) {
