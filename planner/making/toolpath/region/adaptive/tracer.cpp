@@ -139,21 +139,27 @@ Tracer::Step Tracer::step(ContactMeter& ground, double right_rad) const {
 }
 
 Tracer::Step Tracer::best(ContactMeter& ground) const {
-  Step right = step(ground, right_);
-  if (right.possible && right.contact <= limit_) return right;
-  // Leftwards in growing turns until a step is allowed; then back towards the limit.
+  // On most fronts the turn of the step before is near the one that is sought.
+  Step good = step(ground, last_right_);
+  double at = last_right_;
   double bad = right_;
-  double over = right.possible ? right.contact : kPi;
-  Step good;
-  double at = right_;
-  for (double turn = 0.5 * right_; !good.possible || good.contact > limit_;) {
-    if (turn < -kMostLeft) return {};
-    good = step(ground, turn);
-    at = turn;
-    if (good.possible && good.contact <= limit_) break;
-    bad = turn;
-    over = good.possible ? good.contact : kPi;
-    turn -= turn > -right_ ? right_ : 0.15;
+  double over = kPi;
+  if (good.possible && good.contact <= limit_) {
+    if (good.contact >= (1.0 - kContactFound) * limit_) return good;
+    const Step right = step(ground, right_);
+    if (right.possible && right.contact <= limit_) return right;
+    if (right.possible) over = right.contact;
+  } else {
+    // Leftwards in growing turns until a step is allowed; then back towards the limit.
+    double by = 0.1 * right_;
+    while (!good.possible || good.contact > limit_) {
+      bad = at;
+      over = good.possible ? good.contact : kPi;
+      at -= by;
+      if (at < -kMostLeft) return {};
+      good = step(ground, at);
+      by = std::min(2.0 * by, 0.15);
+    }
   }
   for (int i = 0; i < 8; ++i) {
     if (good.contact >= (1.0 - kContactFound) * limit_ || bad - at < 1e-3) break;
@@ -183,6 +189,7 @@ Tracer::End Tracer::run(ContactMeter& ground) {
     if (!s.possible) return End::kBlocked;
     const double by = angle_between(heading_, s.heading);
     turn += by;
+    last_right_ = std::clamp(-by, -right_, right_);
     length += norm(s.to - line_.back());
     line_.push_back(s.to);
     heading_ = s.heading;

@@ -74,9 +74,10 @@ class Tracer {
 
   const Walls& walls_;
   Bite bite_;
-  double limit_;   ///< arc of contact
-  double length_;  ///< of a step
-  double right_;   ///< most turn of a step to the material, rad
+  double limit_;             ///< arc of contact
+  double length_;            ///< of a step
+  double right_;             ///< most turn of a step to the material, rad
+  double last_right_ = 0.0;  ///< that of the step before
   geometry::Vec2 heading_;
   std::vector<geometry::Vec2> line_;
   std::size_t cut_ = 1;
