@@ -25,7 +25,8 @@ class FrontRaster {
   };
   /// Runs the moves from `from_move` on whose height is at most `below_mm`. The circle asked about is smaller
   /// than the cutter by `blind_mm`.
-  Report run(const GeneratedPath& g, double radius_mm, double below_mm, std::size_t from_move, double blind_mm);
+  Report run(const GeneratedPath& g, double radius_mm, double below_mm, std::size_t from_move,
+             double blind_mm);
   /// Area of the region that is not cleared, mm2.
   [[nodiscard]] double left_mm2(const geometry::Region& region) const;
 

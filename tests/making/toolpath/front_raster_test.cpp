@@ -13,7 +13,7 @@ using geometry::Vec2;
 
 namespace {
 constexpr double kPi = std::numbers::pi;
-constexpr int kRays = 180;  // of the front half
+constexpr int kRays = 180;     // of the front half
 constexpr double kLag = 1.0;   // mm
 constexpr double kHeld = 0.5;  // mm
 }  // namespace
@@ -81,7 +81,8 @@ double FrontRaster::arc(Vec2 p, Vec2 direction, double radius) const {
     const double s = std::sin(t);
     const Vec2 q = p + radius * Vec2{c * direction.x - s * direction.y, s * direction.x + c * direction.y};
     if (!solid(q)) continue;
-    if (std::none_of(late_.begin(), late_.end(), [&](Vec2 at) { return norm(q - at) < radius - 1e-6; })) ++hits;
+    if (std::none_of(late_.begin(), late_.end(), [&](Vec2 at) { return norm(q - at) < radius - 1e-6; }))
+      ++hits;
   }
   return hits * kPi / kRays;
 }
@@ -90,8 +91,8 @@ FrontRaster::Report FrontRaster::run(const GeneratedPath& g, double radius_mm, d
                                      std::size_t from_move, double blind_mm) {
   Report out;
   const auto& p = g.path;
-  // Places not yet cleared on the cells: the whole disc a short way behind would cover what the smaller circle
-  // touches abeam. Up to then their smaller discs count.
+  // Places not yet cleared on the cells: the whole disc a short way behind would cover what the smaller
+  // circle touches abeam. Up to then their smaller discs count.
   late_.clear();
   std::vector<double> held;
   const auto clear_late = [&](double keep_mm) {
@@ -142,14 +143,15 @@ FrontRaster::Report FrontRaster::run(const GeneratedPath& g, double radius_mm, d
 }
 
 double FrontRaster::left_mm2(const geometry::Region& region) const {
-  FrontRaster inside(lo_, {lo_.x + static_cast<double>(nx_) * cell_, lo_.y + static_cast<double>(ny_) * cell_},
-                     cell_);
+  FrontRaster inside(
+      lo_, {lo_.x + static_cast<double>(nx_) * cell_, lo_.y + static_cast<double>(ny_) * cell_}, cell_);
   inside.nx_ = nx_;
   inside.ny_ = ny_;
   inside.solid_.assign(nx_ * ny_, 1);
   inside.only(region);
   double cells = 0.0;
-  for (std::size_t i = 0; i < solid_.size(); ++i) cells += (solid_[i] != 0 && inside.solid_[i] != 0) ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < solid_.size(); ++i)
+    cells += (solid_[i] != 0 && inside.solid_[i] != 0) ? 1.0 : 0.0;
   return cells * cell_ * cell_;
 }
 

@@ -183,7 +183,11 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
       if (ok && floor) ok = cut_island_tops(c, *w, level, left_bottom);
     }
     if (!ok) return tl::unexpected(ok.error());
-    if (last) warn_of_rest(c, *w, level.centres);
+    if (last) {
+      warn_of_rest(
+          c, *w,
+          task.constant_engagement ? reached_at_constant_engagement(task, level.centres) : level.centres);
+    }
   }
   if (!any) {
     return fail({.code = "TPA-NO-FIT",

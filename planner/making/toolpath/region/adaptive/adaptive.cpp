@@ -20,14 +20,17 @@ namespace {
 constexpr double kLift = 0.3;
 /// Inner corners of the centres are rounded by this part of the cutter's radius: a front of radius p that
 /// advances by k makes an arc of contact of about sqrt(2 k (r + p) / (r p)), which for the layer left to the
-/// last pass (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square corner is
-/// at most a twentieth of the radius deep. In a narrower place a cutter does not turn.
+/// last pass (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square
+/// corner is at most a twentieth of the radius deep. In a narrower place a cutter does not turn.
 constexpr double kLeastTurn = 0.125;
 /// A helix below this part of the radius leaves a hole in which a cutter cannot begin to wind out.
 constexpr double kLeastHelix = 0.2;
 /// More than this part of the radius is slotting, not clearing.
 constexpr double kMostRadial = 0.95;
 constexpr double kSameHeight = 1e-9;
+constexpr double kDeeper = 1e-6;      // mm
+constexpr double kHoleSlack = 0.05;   // mm
+constexpr double kSameGround = 0.01;  // mm2
 
 Bite bite_of(const PathJob& task) {
   Bite b;
@@ -64,7 +67,8 @@ Track mirrored(Track t) {
   return t;
 }
 
-/// What the moves from `first` on have swept at this height.
+/// What is swept at a height: by the moves from `first` on that run there or below, and by all moves before
+/// that went deeper, as a bore for later levels does.
 Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, double radius, double chord) {
   Region out;
   std::vector<Vec2> line;
@@ -73,13 +77,13 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
     if (line.size() > 1) out = geometry::unite(out, geometry::stroke(line, radius, true, chord));
     line.clear();
   };
-  const auto down = [&](std::size_t i) { return std::abs(path.z[i] - z_mm) < kSameHeight; };
-  for (std::size_t i = std::max<std::size_t>(first, 1); i < path.size(); ++i) {
-    if (!down(i)) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double low = i < first ? z_mm - kDeeper : z_mm + kSameHeight;
+    if (path.z[i] > low) {
       flush();
       continue;
     }
-    if (!down(i - 1)) {
+    if (path.z[i - 1] > low) {
       flush();
       line.push_back(xy(path.point(i)));
       continue;
@@ -88,7 +92,8 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
     const double length = model::move_length(path, i);
     const bool arc = model::is_arc(path.kind[i]);
     const int n = arc ? std::max(1, static_cast<int>(std::ceil(length / (0.02 * radius)))) : 1;
-    for (int k = 1; k <= n; ++k) line.push_back(xy(model::point_on_move(path, i, static_cast<double>(k) / n)));
+    for (int k = 1; k <= n; ++k)
+      line.push_back(xy(model::point_on_move(path, i, static_cast<double>(k) / n)));
   }
   flush();
   return out;
@@ -97,13 +102,14 @@ Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, d
 class Adaptive {
  public:
   Adaptive(LevelCutter& cutter, const Level& level, Clearings& known)
-      : c_(cutter), level_(level), known_(known), bite_(bite_of(cutter.task)),
+      : c_(cutter),
+        level_(level),
+        known_(known),
+        bite_(bite_of(cutter.task)),
         mirror_(!walls_on_right(cutter.task)) {}
 
   Status run() {
-    const double turn = kLeastTurn * bite_.radius_mm;
-    const Region rounded = inset(inset(level_.centres, turn, kWallChord), -turn, kWallChord);
-    for (const Region& piece : geometry::pieces(rounded)) {
+    for (const Region& piece : geometry::pieces(reached_at_constant_engagement(c_.task, level_.centres))) {
       if (auto ok = cut(piece); !ok) return ok;
     }
     return {};
@@ -137,6 +143,12 @@ class Adaptive {
 
   /// Down the helix in the middle of the piece; `cleared` grows by what it has cleared at this height.
   Result<ClearingStart> enter(const Region& piece, Region& cleared) {
+    // Other ways in leave no hole to wind out of: the circle round it would be a slot at the full depth.
+    const Approach::Kind asked = c_.task.approach.kind;
+    if (asked == Approach::Kind::kPlunge || asked == Approach::Kind::kZigzag)
+      return unknown(c_.task, "the way in that is given is no helix and no ramp round a hole");
+    if (!(c_.task.cutter.maximum_ramp_angle_rad > 0.0))
+      return unknown(c_.task, "cutter " + c_.task.cutter.id + " does not ramp");
     const Deepest d = deepest(piece);
     const double flat = std::max(bite_.radius_mm - c_.task.cutter.corner_radius_mm, 0.5 * bite_.radius_mm);
     const double turn = std::min(0.9 * flat, d.distance_mm);
@@ -152,22 +164,14 @@ class Adaptive {
     const std::size_t before = c_.writer.path().size();
     auto in = c_.enter(level_, circle, &piece);
     if (!in) return tl::unexpected(in.error());
-    const auto swept = [&] {
-      return swept_at(c_.writer.path(), before, level_.z_mm, bite_.radius_mm, bite_.chord_mm);
-    };
-    Region hole = swept();
-    const Region full = geometry::disc(d.point, turn + bite_.radius_mm - 0.05, 0.01);
-    if (geometry::area(geometry::subtract(full, hole)) > 0.01) {
+    // The hole to wind out of: the same on every level, whatever the way in was.
+    const Region hole = geometry::disc(d.point, turn + bite_.radius_mm - kHoleSlack, bite_.chord_mm);
+    const Region swept = swept_at(c_.writer.path(), before, level_.z_mm, bite_.radius_mm, bite_.chord_mm);
+    if (geometry::area(geometry::subtract(hole, swept)) > kSameGround)
       c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
-      hole = swept();
-    }
+    c_.writer.line({circle.start.x, circle.start.y, level_.z_mm}, MoveRole::kCut);
     cleared = geometry::unite(cleared, hole);
-    const Vec2 at = xy(c_.writer.at());
-    const Vec2 out = at - d.point;
-    const double l = norm(out);
-    Vec2 heading = l > 1e-9 ? Vec2{-out.y / l, out.x / l} : Vec2{1.0, 0.0};
-    if (mirror_) heading = -1.0 * heading;
-    return ClearingStart{at, heading};
+    return ClearingStart{circle.start, {0.0, mirror_ ? -1.0 : 1.0}};
   }
 
   const std::vector<ClearingPass>* passes_of(const Region& piece, const Region& cleared,
@@ -191,8 +195,12 @@ class Adaptive {
         for (Vec2& q : p.way) q.x = -q.x;
       }
     }
-    LevelClearing k{.centres = piece, .cleared = cleared, .entered = start.has_value(), .at = {}, .heading = {},
-                .passes = std::move(*passes)};
+    LevelClearing k{.centres = piece,
+                    .cleared = cleared,
+                    .entered = start.has_value(),
+                    .at = {},
+                    .heading = {},
+                    .passes = std::move(*passes)};
     if (start) {
       k.at = start->at;
       k.heading = start->heading;
@@ -212,7 +220,7 @@ class Adaptive {
       const Vec2 here = xy(w.at());
       w.line({here.x, here.y, above}, MoveRole::kLink);
       for (const Vec2 q : p.way) w.line({q.x, q.y, above}, MoveRole::kLink);
-      w.line({p.track.start.x, p.track.start.y, z}, MoveRole::kLink);
+      w.line({p.track.start.x, p.track.start.y, z}, MoveRole::kApproach);
     }
     w.follow(p.track, z, MoveRole::kCut);
   }
@@ -233,6 +241,11 @@ Status known_at_constant_engagement(const PathJob& task, const WorkArea& w) {
   if (w.bottom_radius_mm > task.cutter.corner_radius_mm + 1e-6)
     return unknown(task, "a round leads from the walls to the bottom");
   return {};
+}
+
+Region reached_at_constant_engagement(const PathJob& task, const Region& centres) {
+  const double turn = kLeastTurn * 0.5 * task.cutter.cutting_diameter_mm;
+  return inset(inset(centres, turn, kWallChord), -turn, kWallChord);
 }
 
 Status cut_at_constant_engagement(LevelCutter& cutter, const Level& level, Clearings& known) {

@@ -12,6 +12,10 @@ namespace capstan::toolpath {
 /// Fails  TPA-UNSUPPORTED, with the reason.
 [[nodiscard]] Status known_at_constant_engagement(const PathJob& task, const WorkArea& area);
 
+/// What of the centres such passes go to: inner corners are rounded.
+[[nodiscard]] geometry::Region reached_at_constant_engagement(const PathJob& task,
+                                                              const geometry::Region& centres);
+
 /// What one level's piece was cut by. Upright walls repeat it on the next level.
 struct LevelClearing {
   geometry::Region centres, cleared;

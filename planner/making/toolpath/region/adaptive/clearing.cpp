@@ -8,12 +8,13 @@
 #include "planner/making/toolpath/region/adaptive/way.h"
 #include "planner/making/toolpath/region/area/work_area.h"
 
-// Cleared ground C is what the cutter's discs have swept. The centres at which a disc reaches no deeper than k
-// into the rest are C shrunk by r - k; where their boundary is none of the region's own, a front stands. From
-// the beginning of the nearest front a pass is traced (tracer.h); C grows by its sweep; so on until no front
-// is left. The first pass after a helix winds out as a spiral by itself, since its own sweep is its front.
-// Material less deep than k stays along the walls, and one pass along them takes it: k is a part of the radial
-// depth so small that three contacts of that depth, as an inner corner has them, are one straight cut's.
+// Cleared ground C is what the cutter's discs have swept. The centres at which a disc reaches no deeper than
+// k into the rest are C shrunk by r - k; where their boundary is none of the region's own, a front stands.
+// From the beginning of the nearest front a pass is traced (tracer.h); C grows by its sweep; so on until no
+// front is left. The first pass after a helix winds out as a spiral by itself, since its own sweep is its
+// front. Material less deep than k stays along the walls, and one pass along them takes it: k is a part of
+// the radial depth so small that three contacts of that depth, as an inner corner has them, are one straight
+// cut's.
 
 namespace capstan::toolpath {
 
@@ -24,10 +25,13 @@ namespace {
 
 // acos(1 - x) grows as the root of x: three arcs of an eighth of the depth are 1.06 of the whole one's.
 constexpr double kLeftPart = 0.125;
-constexpr double kOffWall = 0.01;     // mm; passes keep this off the walls, which the last one meets exactly
-constexpr double kCusp = 0.02;        // mm; less along a wall is left
-constexpr double kLeadPart = 0.3;     // radius of the arc off a front, of the cutter's; default, unsourced
-constexpr double kLeadTurn = 1.2;     // rad
+constexpr double kOffWall = 0.01;  // mm; passes keep this off the walls, which the last one meets exactly
+constexpr double kFit = 0.004;     // mm between a pass and the lines and arcs that are written
+constexpr double kCoarse = 0.02;   // mm; chords of the boundaries of where ways and fronts lie
+constexpr double kSame = 0.0005;   // mm; vertices that say less are dropped
+constexpr double kCusp = 0.02;     // mm; less along a wall is left; default, unsourced
+constexpr double kLeadPart = 0.3;  // radius of the arc off a front, of the cutter's; default, unsourced
+constexpr double kLeadTurn = 1.2;  // rad, likewise
 constexpr std::size_t kMostPasses = 20'000;
 
 Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
@@ -81,13 +85,15 @@ class Clearing {
     const auto grown = [&](double by) {
       return geometry::rectangle(fresh_.lo - Vec2{by, by}, fresh_.hi + Vec2{by, by});
     };
+    // Where ways and fronts lie may be coarser than where material does.
+    const double coarse = std::min(kCoarse, 0.2 * left_mm_);
     const auto shrunk = [&](double by) {
-      const Region about = geometry::intersect(ground_, grown(2.0 * (r + by)));
-      const Region inner = geometry::intersect(geometry::offset(about, -by, bite_.chord_mm), centres_);
+      const Region about = simplified(geometry::intersect(ground_, grown(2.0 * (r + by))), 0.5 * coarse);
+      const Region inner = geometry::intersect(geometry::offset(about, -by, coarse), centres_);
       return geometry::intersect(inner, grown(r + by));
     };
-    free_ = simplified(geometry::unite(free_, shrunk(r + kBesideWay)), 0.1 * bite_.chord_mm);
-    done_ = geometry::unite(done_, shrunk(r - left_mm_));
+    free_ = simplified(geometry::unite(free_, shrunk(r + kBesideWay)), kSame);
+    done_ = simplified(geometry::unite(done_, shrunk(r - left_mm_)), kSame);
     fresh_ = {};
   }
 
@@ -133,7 +139,8 @@ class Clearing {
       ContactMeter meter(ground_, bite_.radius_mm - bite_.blind_mm);
       const auto end = tracer.run(meter);
       const auto& line = tracer.line();
-      const std::size_t till = end == Tracer::End::kFurther ? line.size() : std::max<std::size_t>(tracer.cut(), 1);
+      const std::size_t till =
+          end == Tracer::End::kFurther ? line.size() : std::max<std::size_t>(tracer.cut(), 1);
       if (till > swept + 1) {
         const std::vector<Vec2> piece(line.begin() + static_cast<std::ptrdiff_t>(swept),
                                       line.begin() + static_cast<std::ptrdiff_t>(till));
@@ -147,7 +154,7 @@ class Clearing {
                            tracer.line().begin() + static_cast<std::ptrdiff_t>(tracer.cut()));
     if (geometry::area(ground_) - before < 1e-3 * bite_.radius_mm * bite_.radial_mm) return false;
     lead_off(line);
-    add(track_of_line(line, bite_.chord_mm));
+    add(track_of_line(line, kFit));
     return true;
   }
 
@@ -266,9 +273,8 @@ class Clearing {
     for (const Front& f : all) {
       const Vec2 begin = done.loops[f.loop][f.first];
       for (;;) {
-        const auto tried = static_cast<int>(std::count_if(failed_.begin(), failed_.end(), [&](Vec2 p) {
-          return norm(p - begin) < 0.1 * bite_.radius_mm;
-        }));
+        const auto tried = static_cast<int>(std::count_if(
+            failed_.begin(), failed_.end(), [&](Vec2 p) { return norm(p - begin) < 0.1 * bite_.radius_mm; }));
         if (tried > 1) break;
         Aim aim = aim_at(done, f, tried);
         aim.at = stand(free, aim.at);
@@ -329,7 +335,8 @@ class Clearing {
       const Vec2 middle = point_at(from, s, 0.5);
       // The nearest of the longer pieces.
       if (length_of(from, s) > 0.5 * bite_.radius_mm)
-        spots.push_back({norm(middle - at_), Spot{.segment = i, .t = 0.5, .point = middle, .distance_mm = 0.0}});
+        spots.push_back(
+            {norm(middle - at_), Spot{.segment = i, .t = 0.5, .point = middle, .distance_mm = 0.0}});
       from = s.to;
     }
     std::stable_sort(spots.begin(), spots.end(),

@@ -21,8 +21,8 @@ struct ClearingStart {
   geometry::Vec2 at, heading;
 };
 
-/// Passes that clear what the cutter reaches from one connected piece of centres, material on the right of the
-/// travel, by at most the bite's arc of contact, and at last what the passes left along the boundary.
+/// Passes that clear what the cutter reaches from one connected piece of centres, material on the right of
+/// the travel, by at most the bite's arc of contact, and at last what the passes left along the boundary.
 ///
 /// `cleared`  ground that is free at this height, the air outside the material included
 /// `start`    nothing: the first pass is reached from above

@@ -95,8 +95,9 @@ void ContactMeter::take_visited(Vec2 p, Vec2 direction) {
   for (const Vec2 c : visited_) {
     if (spans_.empty()) return;
     const Vec2 to = c - p;
-    const double d = norm(to);
-    if (d < 1e-9 || d >= 2.0 * radius_) continue;
+    const double d2 = dot(to, to);
+    if (d2 < 1e-18 || d2 >= 4.0 * radius_ * radius_) continue;
+    const double d = std::sqrt(d2);
     const double half = std::acos(0.5 * d / radius_);
     const double middle = std::atan2(cross(direction, to), dot(direction, to));
     for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
@@ -131,8 +132,7 @@ double ContactMeter::arc(Vec2 p, Vec2 direction) {
       const Vec2 q = a + t * d;
       // Cleared ground lies left of the edge; the first crossing leads into the circle along the edge.
       const Vec2 round{-q.y, q.x};
-      crossings_.push_back(
-          {std::atan2(cross(direction, q), dot(direction, q)), cross(d, round) > 0.0});
+      crossings_.push_back({std::atan2(cross(direction, q), dot(direction, q)), cross(d, round) > 0.0});
     }
   }
   if (crossings_.empty()) return 0.0;

@@ -19,8 +19,9 @@ class ContactMeter {
   /// Adds a place that the cutter has been at since the ground was taken.
   void visited(geometry::Vec2 p) { visited_.push_back(p); }
 
-  /// Arc of contact of the front half of the circle at p, which moves along the unit direction, rad: all of it
-  /// that lies on ground not cleared. 0 where the circle crosses no boundary: the centre is on cleared ground.
+  /// Arc of contact of the front half of the circle at p, which moves along the unit direction, rad: all of
+  /// it that lies on ground not cleared. 0 where the circle crosses no boundary: the centre is on cleared
+  /// ground.
   [[nodiscard]] double arc(geometry::Vec2 p, geometry::Vec2 direction);
   /// Whether the disc of a radius at p touches ground that is not cleared; p lies on cleared ground.
   [[nodiscard]] bool touches(geometry::Vec2 p, double radius_mm);

@@ -6,12 +6,13 @@
 
 #include "planner/ground/base/stopping.h"
 
-// A pass turns at each step as far towards the material as the arc of contact allows: the new direction is the
-// root of (arc of contact - that of the straight cut), found by halving and secants within the turns that a
-// step may make. On a straight or curved front this is the curve whose foremost contact runs along the front
-// at a constant angle to the travel, a tractrix of the front. Where the step would leave the centres, it
-// slides along their boundary; if it then touches too much, it turns away. Without contact the cutter curls
-// towards the material.
+// The arc of contact of a straight cut is acos(1 - ae / r) (WIDIA, Trochoidal Milling, page 7: 36.87 degrees
+// at a tenth of the diameter). A pass turns at each step as far towards the material as that arc allows: the
+// new direction is the root of (arc of contact - that of the straight cut), found by secants within the turns
+// that a step may make. On a smooth front this is the curve whose foremost contact runs along the front at a
+// constant angle to the travel, a tractrix of the front. Where the step would leave the centres, it slides
+// along their boundary; if it then touches too much, it turns away. Without contact the cutter curls towards
+// the material.
 
 namespace capstan::toolpath {
 
@@ -20,10 +21,10 @@ using geometry::Vec2;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Length of a step as a part of the radius: its sagitta on a circle of half the radius is a hundredth of it.
+// Without another reason: defaults, unsourced, chosen by what the tests measure.
+// Length of a step as a part of the radius: its sagitta on a circle of half the radius is a thousandth of it.
 constexpr double kStepPart = 0.06;
-// Radius of a curl towards the material, as a part of the cutter's: a machine follows it at feed; default,
-// unsourced.
+// Radius of a curl towards the material, as a part of the cutter's: a machine follows it at feed.
 constexpr double kCurlPart = 0.5;
 constexpr double kMostLeft = 1.2;         // rad; more is a pass of its own
 constexpr double kContactFound = 0.005;   // of the limit: accuracy of the root
@@ -33,12 +34,18 @@ constexpr double kIdleLength = 3.0;       // radii without contact, after which 
 constexpr double kIdleTurn = kPi;         // likewise
 constexpr double kOwnSweep = 8.0;         // radii of length after which the ground is taken anew
 constexpr double kOwnTurn = 2.0;          // rad, likewise
+constexpr double kOwnFront = 0.2;         // rad of turn after which its own sweep may lie before it
+constexpr std::size_t kVisitedEvery = 3;  // steps between places that stand for the sweep
 constexpr std::size_t kMostPlaces = 1'000'000;
 
 Vec2 turned(Vec2 v, double rad) {
   const double c = std::cos(rad);
   const double s = std::sin(rad);
   return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+std::size_t cell_of(double v, double lo, double cell, std::size_t n) {
+  return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell), 0.0, static_cast<double>(n - 1)));
 }
 
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
@@ -53,13 +60,11 @@ Walls::Walls(const geometry::Region& centres) : inside_(centres) {
   const auto box = geometry::bounds(centres);
   lo_ = box.lo;
   const Vec2 size = box.hi - box.lo;
-  cell_ = std::max({std::max(size.x, size.y) / 64.0, 1e-6});
+  cell_ = std::max({size.x / 64.0, size.y / 64.0, 1e-6});
   columns_ = static_cast<std::size_t>(std::max(0.0, size.x / cell_)) + 1;
   rows_ = static_cast<std::size_t>(std::max(0.0, size.y / cell_)) + 1;
   cells_.resize(columns_ * rows_);
-  const auto index = [&](double v, double lo, std::size_t n) {
-    return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell_), 0.0, static_cast<double>(n - 1)));
-  };
+  const auto index = [&](double v, double lo, std::size_t n) { return cell_of(v, lo, cell_, n); };
   for (const auto& loop : centres.loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Edge e{loop[i], loop[(i + 1) % loop.size()]};
@@ -75,13 +80,11 @@ Walls::Walls(const geometry::Region& centres) : inside_(centres) {
 }
 
 Walls::Place Walls::nearest(Vec2 p, double within_mm) const {
-  const auto index = [&](double v, double lo, std::size_t n) {
-    return static_cast<std::size_t>(std::clamp(std::floor((v - lo) / cell_), 0.0, static_cast<double>(n - 1)));
-  };
+  const auto index = [&](double v, double lo, std::size_t n) { return cell_of(v, lo, cell_, n); };
   Place best;
   for (std::size_t y = index(p.y - within_mm, lo_.y, rows_); y <= index(p.y + within_mm, lo_.y, rows_); ++y) {
-    for (std::size_t x = index(p.x - within_mm, lo_.x, columns_); x <= index(p.x + within_mm, lo_.x, columns_);
-         ++x) {
+    for (std::size_t x = index(p.x - within_mm, lo_.x, columns_);
+         x <= index(p.x + within_mm, lo_.x, columns_); ++x) {
       for (const Edge& e : cells_[y * columns_ + x]) {
         const Vec2 d = e.b - e.a;
         const double l2 = dot(d, d);
@@ -143,7 +146,7 @@ Tracer::Step Tracer::best(ContactMeter& ground) const {
   double over = right.possible ? right.contact : kPi;
   Step good;
   double at = right_;
-  for (double turn = right_ - 0.5 * right_; !good.possible || good.contact > limit_;) {
+  for (double turn = 0.5 * right_; !good.possible || good.contact > limit_;) {
     if (turn < -kMostLeft) return {};
     good = step(ground, turn);
     at = turn;
@@ -172,8 +175,8 @@ Tracer::Step Tracer::best(ContactMeter& ground) const {
 Tracer::End Tracer::run(ContactMeter& ground) {
   double length = 0.0;
   double turn = 0.0;
-  const Vec2 first = heading_;
-  std::size_t spread = 0;
+  std::size_t steps = 0;
+  std::vector<Vec2> held;
   while (line_.size() < kMostPlaces) {
     tick();
     const Step s = best(ground);
@@ -183,7 +186,12 @@ Tracer::End Tracer::run(ContactMeter& ground) {
     length += norm(s.to - line_.back());
     line_.push_back(s.to);
     heading_ = s.heading;
-    if (++spread % 3 == 0) ground.visited(s.to);
+    // Its own sweep lies before it only once it has turned.
+    if (++steps % kVisitedEvery == 0) held.push_back(s.to);
+    if (std::abs(turn) > kOwnFront) {
+      for (const Vec2 p : held) ground.visited(p);
+      held.clear();
+    }
     if (s.contact > kNoContact * limit_) {
       idle_mm_ = idle_turn_ = 0.0;
       cut_ = line_.size();
@@ -194,7 +202,6 @@ Tracer::End Tracer::run(ContactMeter& ground) {
     }
     if (length > kOwnSweep * bite_.radius_mm || std::abs(turn) > kOwnTurn) return End::kFurther;
   }
-  (void)first;
   return End::kAir;
 }
 

@@ -10,9 +10,9 @@ namespace capstan::toolpath {
 /// What a pass of constant engagement keeps to. Material lies on the right of the travel.
 struct Bite {
   double radius_mm = 0.0;
-  double radial_mm = 0.0;   ///< of a straight cut
-  double blind_mm = 0.0;    ///< contact less deep than this counts as none
-  double chord_mm = 0.0;    ///< tolerance of curves
+  double radial_mm = 0.0;  ///< of a straight cut
+  double blind_mm = 0.0;   ///< contact less deep than this counts as none
+  double chord_mm = 0.0;   ///< tolerance of curves
   /// Arc of contact of the straight cut, as a circle smaller by `blind_mm` has it, rad.
   [[nodiscard]] double arc_rad() const;
 };
@@ -25,7 +25,8 @@ class Walls {
   [[nodiscard]] bool contains(geometry::Vec2 a, geometry::Vec2 b) const { return inside_.contains(a, b); }
   /// p itself within the region, else the nearest place of its boundary.
   [[nodiscard]] geometry::Vec2 kept(geometry::Vec2 p) const;
-  /// Nearest place of the boundary and its distance; cells of up to `within_mm` round p are looked at.
+  /// The nearest place of the boundary and its distance; none within `within_mm`: any, or a distance of
+  /// 1e300.
   struct Place {
     geometry::Vec2 point;
     double distance_mm = 1e300;
@@ -73,9 +74,9 @@ class Tracer {
 
   const Walls& walls_;
   Bite bite_;
-  double limit_;    ///< arc of contact
-  double length_;   ///< of a step
-  double right_;    ///< most turn of a step to the material, rad
+  double limit_;   ///< arc of contact
+  double length_;  ///< of a step
+  double right_;   ///< most turn of a step to the material, rad
   geometry::Vec2 heading_;
   std::vector<geometry::Vec2> line_;
   std::size_t cut_ = 1;

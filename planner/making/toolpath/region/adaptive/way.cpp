@@ -5,8 +5,8 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/making/toolpath/region/area/track.h"
 
-// A shortest way among polygons bends at reflex vertices only (T. Lozano-Perez and M. A. Wesley, Communications
-// of the ACM 22, 1979). Dijkstra's search looks at each pair of vertices once at most.
+// A shortest way among polygons bends at reflex vertices only (T. Lozano-Perez and M. A. Wesley,
+// Communications of the ACM 22, 1979). Dijkstra's search looks at each pair of vertices once at most.
 
 namespace capstan::toolpath {
 
