@@ -2,6 +2,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/toolpath/operation/operation_path.h"
 #include "planner/making/toolpath/path_job.h"
 
