@@ -46,7 +46,7 @@ constexpr double kThinnerUnknown = 0.5;  // if no formula gives the excess; defa
 constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
 /// Constant engagement is taken where its path takes less than this share of the rings' time: the spindle
 /// comes up to its speed, and its program is longer. Default, unsourced.
-constexpr double kWorthwhile = 0.98;
+constexpr double kWorthwhile = 0.99;
 constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
 /// Depth and width of a cut, for people.
@@ -269,8 +269,8 @@ class PathMaker {
     step::StrategyChoice choice;
     if (of_rings && about >= kWorthwhile * *of_rings) {
       choice.lost.push_back({step::words_of(true, other->answer),
-                             "takes about " + motion::duration_text(about) + " by its rate and entry against " +
-                                 motion::duration_text(*of_rings)});
+                             "takes about " + motion::duration_text(about) +
+                                 " by its rate and entry against " + motion::duration_text(*of_rings)});
       rings->strategy = std::move(choice);
       tell(std::move(said_of_rings));
       return rings;
@@ -284,7 +284,8 @@ class PathMaker {
       choice.taken = step::words_of(true, constant->made.answer) + ": " + motion::duration_text(*of_constant);
       if (of_rings) {
         choice.lost.push_back({step::words_of(false, rings->made.answer),
-                               "takes " + motion::duration_text(*of_rings) + " against " + motion::duration_text(*of_constant)});
+                               "takes " + motion::duration_text(*of_rings) + " against " +
+                                   motion::duration_text(*of_constant)});
       } else {
         choice.lost.push_back({"rings", rings ? excess_text(*rings) : rings.error().message});
       }
@@ -300,7 +301,9 @@ class PathMaker {
     said_of_rings = job_.take_diagnostics();
     if (rings && (constant || constant.error().code != step::kNoSuchPath)) {
       const std::string why = of_constant && of_rings
-                                  ? "takes " + motion::duration_text(*of_constant) + " against " + motion::duration_text(*of_rings)
+                                  ? (*of_constant < *of_rings ? "saves too little: takes " : "takes ") +
+                                        motion::duration_text(*of_constant) + " against " +
+                                        motion::duration_text(*of_rings)
                               : constant ? excess_text(*constant)
                                          : constant.error().message;
       choice.lost.push_back({step::words_of(true, constant ? constant->made.answer : other->answer), why});
@@ -310,9 +313,9 @@ class PathMaker {
     return rings;
   }
 
-  /// Tries one of the candidates with the strategy that the step has: with a thinner cut, up to kMostThinner times, if a limit is exceeded along
-  /// its path; takes the gentlest if none keeps the limits. Removes the cut from the stock, except for a
-  /// proposed step that exceeds the limits.
+  /// Tries one of the candidates with the strategy that the step has: with a thinner cut, up to kMostThinner
+  /// times, if a limit is exceeded along its path; takes the gentlest if none keeps the limits. Removes the
+  /// cut from the stock, except for a proposed step that exceeds the limits.
   Result<step::MeasuredCut> with_strategy(StepDraft& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     if (candidate != nullptr) step.cutter = candidate->cutter;

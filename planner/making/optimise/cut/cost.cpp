@@ -30,8 +30,7 @@ double minute_of(const CutQuestion& q) {
 
 double edge_life_min(const CutQuestion& q, const CutPoint& at) {
   // An edge that is in the cut for a short arc lives as one at a lower speed.
-  const double vc =
-      std::numbers::pi * speed_diameter_mm(q) * at.n_rpm / 1000.0 / speed_by_arc(q, at.ae_mm);
+  const double vc = std::numbers::pi * speed_diameter_mm(q) * at.n_rpm / 1000.0 / speed_by_arc(q, at.ae_mm);
   if (const auto* l = law_of(q)) {
     const double fz = at.feed_mm_min / (at.n_rpm * teeth_of(q));
     const double depth = is_milling(q.kind) ? at.ap_mm : 0.5 * q.cutter.cutting_diameter_mm;

@@ -132,8 +132,8 @@ double speed_by_arc(const CutQuestion& q, double ae) {
 
 namespace {
 
-/// How much deeper than a slot a cut of this width is stable: fewer teeth are in it at a time, and the limiting
-/// depth is inverse to their average number. Where fewer than two are, the lobes' own margin counts.
+/// How much deeper than a slot a cut of this width is stable: fewer teeth are in it at a time, and the
+/// limiting depth is inverse to their average number. Where fewer than two are, the lobes' own margin counts.
 /// Source  Tlusty's limit with the average number of teeth in the cut, b = -1 / (2 Ks Re[G] N*) (Schmitz &
 ///         Smith, Machining Dynamics, chapter on milling); kSingleToothMargin: mechanics/stability.h.
 double deeper_by_arc(double ae_mm, double diameter_mm) {
@@ -149,8 +149,7 @@ double slender_depth(const CutQuestion& q) {
   const bool speaks = q.kind == CutKind::kRough && !q.ap_mm && c.stick_out_mm > 0.0 &&
                       mechanics::modes_for(q.machine, c.id).empty();
   const double depth = speaks ? mechanics::slender_depth_mm(c.cutting_diameter_mm, c.stick_out_mm) : 0.0;
-  const double arc =
-      q.constant_engagement && q.ae_mm ? deeper_by_arc(*q.ae_mm, c.cutting_diameter_mm) : 1.0;
+  const double arc = q.constant_engagement && q.ae_mm ? deeper_by_arc(*q.ae_mm, c.cutting_diameter_mm) : 1.0;
   return depth > 0.0 ? arc * depth : std::numeric_limits<double>::infinity();
 }
 
@@ -160,7 +159,8 @@ double deepest_level(const CutQuestion& q) {
                     ? q.cutter.maximum_depth_of_cut_mm * ease_of(q, "cutting_length")
                     : d;
   double level = most;
-  if (q.kind == CutKind::kRough && !q.constant_engagement) level = std::min(level, mechanics::kDeepestSlotRatio * d);
+  if (q.kind == CutKind::kRough && !q.constant_engagement)
+    level = std::min(level, mechanics::kDeepestSlotRatio * d);
   if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
   level = std::min(level * ease_of(q, "level_depth"), slender_depth(q) * ease_of(q, "stable_depth"));
   return std::min(most, level);

@@ -122,8 +122,8 @@ inline constexpr double kSlowestSpeedShare = 0.25;
 [[nodiscard]] double ease_of(const CutQuestion& q, std::string_view limit);
 
 /// Depth that a chosen rough level may have where no modes are known, by the cutter's slenderness; infinite
-/// for what the rule does not speak of (finishing, given depths, drills). Narrow cuts of constant engagement may
-/// be deeper.
+/// for what the rule does not speak of (finishing, given depths, drills). Narrow cuts of constant engagement
+/// may be deeper.
 [[nodiscard]] double slender_depth(const CutQuestion& q);
 
 /// Depth of a level at most. A rough one: mechanics::kDeepestSlotRatio diameters, sourced there for slots and

@@ -78,8 +78,7 @@ void Search::add_feed() {
     // What a cutter bears is a chip, stated as the feed of a wide cut. Where the width is kept, its own limit
     // holds the chip.
     const double borne = model::borne_feed_mm(q_.cutter, q_.material);
-    if (borne > 0.0 && !q_.constant_engagement)
-      most = std::min(most, borne / feed_override(q_));
+    if (borne > 0.0 && !q_.constant_engagement) most = std::min(most, borne / feed_override(q_));
     most *= ease_of(q_, kFeed);
     const double ratio = q_.least_feed_ratio > 1e-3 && q_.least_feed_ratio <= 1.0 ? q_.least_feed_ratio : 0.1;
     const double least = std::max(ratio * largest, least_fz(q_)) / ease_of(q_, "feed_per_tooth_least");

@@ -225,8 +225,8 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
   return out;
 }
 
-std::optional<ConstantCut> constant_cut(const PlanSoFar& p, StepDraft step,
-                                                const model::Candidate* candidate, const Means& means) {
+std::optional<ConstantCut> constant_cut(const PlanSoFar& p, StepDraft step, const model::Candidate* candidate,
+                                        const Means& means) {
   if (step.shapes.empty()) return std::nullopt;
   step.constant_engagement = true;
   auto job = job_of(p, step, step.shapes.front());

@@ -69,8 +69,7 @@ struct ConstantCut {
 };
 /// Nothing where the step may not have it or no such cut keeps the limits.
 [[nodiscard]] std::optional<ConstantCut> constant_cut(const PlanSoFar& p, draft::StepDraft step,
-                                                              const model::Candidate* candidate,
-                                                              const Means& means);
+                                                      const model::Candidate* candidate, const Means& means);
 
 /// Measures a path against the stock, which is cut by it, and schedules its feeds. `plan` is that of `p`.
 [[nodiscard]] MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const draft::StepDraft& step,

@@ -83,8 +83,7 @@ double estimated_seconds(const optimise::CutQuestion& q, const optimise::CutAnsw
   constexpr double kTurns = 2.0;  // of the diameter
   const bool crescents = q.constant_engagement && q.width_mm < kTurns * c.cutting_diameter_mm;
   double out = volume_mm3 / rate * (crescents ? 0.5 * std::numbers::pi : 1.0);
-  const double wide =
-      q.fz_start_mm * std::max(1, c.teeth) * cut.n_rpm / optimise::speed_by_arc(q, cut.ae_mm);
+  const double wide = q.fz_start_mm * std::max(1, c.teeth) * cut.n_rpm / optimise::speed_by_arc(q, cut.ae_mm);
   const double slope = std::tan(c.maximum_ramp_angle_rad);
   if (walled && slope > 0.0 && wide > 0.0) out += q.depth_mm / slope / std::min(wide, cut.feed_mm_min);
   return 60.0 * out;
@@ -116,11 +115,11 @@ void record_strategy(model::Plan& plan, const StepDraft& step, const StrategyCho
     made = m.add(rings);
   }
   m.get<model::Two5dMillingOperation>(step.operation)->its_machining_strategy = made;
-  plan.ledger.bind(step.operation, kStrategy, model::Binder::kOptimiser,
-                   {choice.constant_engagement ? "path.constant_engagement" : "path.rings",
-                    "the quicker of two paths at equal limits: " + choice.taken,
-                    "times of both paths along their feeds"},
-                   {{step.operation, "its_tool"}}, choice.lost);
+  plan.ledger.bind(
+      step.operation, kStrategy, model::Binder::kOptimiser,
+      {choice.constant_engagement ? "path.constant_engagement" : "path.rings",
+       "the quicker of two paths at equal limits: " + choice.taken, "times of both paths along their feeds"},
+      {{step.operation, "its_tool"}}, choice.lost);
 }
 
 }  // namespace capstan::step

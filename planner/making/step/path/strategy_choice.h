@@ -18,7 +18,7 @@ inline constexpr const char* kNoSuchPath = "TPA-UNSUPPORTED";
 /// A way of clearing an area that was compared with another by its time.
 struct StrategyChoice {
   bool constant_engagement = false;
-  std::string taken;                 ///< "constant engagement 1.2 mm wide, 10 mm deep: 1 min 10 s"
+  std::string taken;                  ///< "constant engagement 1.2 mm wide, 10 mm deep: 1 min 10 s"
   std::vector<model::Rejected> lost;  ///< the other, with its time or why it is not possible
 };
 
@@ -27,15 +27,15 @@ struct StrategyChoice {
 [[nodiscard]] bool engages_constantly(const model::Plan& plan, const draft::StepDraft& step);
 
 /// Whether a step may have either way: it roughs between walls with an upright end mill, climbing, its
-/// technology, depth and width are open, and no file states its strategy. Material that a wider cutter left is
-/// for rings. `job` is prepared.
+/// technology, depth and width are open, and no file states its strategy. Material that a wider cutter left
+/// is for rings. `job` is prepared.
 [[nodiscard]] bool may_engage_constantly(const PlanSoFar& p, const draft::StepDraft& step,
                                          const toolpath::PathJob& job);
 
-/// About how long a cut takes to remove a volume, s: the volume by the removal rate and, between walls, the ramp
-/// down to the bottom at the feed of a slot and the cutter's steepest slope. In an area less than two cutters
-/// wide passes of constant engagement are crescents, whose mean width is 2 / pi of their largest (derived).
-/// Returns, links and corners are not in it.
+/// About how long a cut takes to remove a volume, s: the volume by the removal rate and, between walls, the
+/// ramp down to the bottom at the feed of a slot and the cutter's steepest slope. In an area less than two
+/// cutters wide passes of constant engagement are crescents, whose mean width is 2 / pi of their largest
+/// (derived). Returns, links and corners are not in it.
 [[nodiscard]] double estimated_seconds(const optimise::CutQuestion& question, const optimise::CutAnswer& cut,
                                        double volume_mm3, bool walled);
 

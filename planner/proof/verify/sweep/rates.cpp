@@ -155,9 +155,9 @@ void StepChecks::settle() {
   sum_ = {};
 }
 
-// Wear adds up over the way: by Taylor's law an edge at speed v wears as v^(1/n), and one that is in the cut for
-// a short arc as one that turns slower by `speed_by_arc`. Where the material's depth varies, its thickest makes
-// the width too small by less than the arc of a ramp is too wide: a slot stays a slot.
+// Wear adds up over the way: by Taylor's law an edge at speed v wears as v^(1/n), and one that is in the cut
+// for a short arc as one that turns slower by `speed_by_arc`. Where the material's depth varies, its thickest
+// makes the width too small by less than the arc of a ramp is too wide: a slot stays a slot.
 void StepChecks::heat() {
   if (!arcs_count_ || !(sum_.depth_mm > 0.0)) return;
   const double d = std::max(1e-6, cutter_.cutting_diameter_mm);

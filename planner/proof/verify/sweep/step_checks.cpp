@@ -112,8 +112,7 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
   const model::Executable* e =
       step.planned != nullptr ? plan.model.get<model::Executable>(step.planned->step) : nullptr;
   const auto* ws = e != nullptr ? plan.model.get<model::MachiningWorkingstep>(step.planned->step) : nullptr;
-  const auto* op =
-      ws != nullptr ? plan.model.get<model::Two5dMillingOperation>(ws->its_operation) : nullptr;
+  const auto* op = ws != nullptr ? plan.model.get<model::Two5dMillingOperation>(ws->its_operation) : nullptr;
   arcs_count_ = op != nullptr && !finishes(model::AnyRef(ws->its_operation).type) && is_mill(cutter_) &&
                 cutter_.substrate == model::Substrate::kCarbide && outline_->ball() == nullptr &&
                 cutter_.taper_angle_rad == 0.0 && cutter_.lead_angle_rad == 0.0;

@@ -28,9 +28,9 @@ class StepChecks {
   void run();
   /// Whether it cut anything: known after `run`.
   [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
-  /// After `run`: the speed at which an edge in the cut for half its turn would wear as the step's edges do, over
-  /// their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material whose
-  /// speed no heat bounds).
+  /// After `run`: the speed at which an edge in the cut for a quarter turn would wear as the step's edges do,
+  /// over their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material
+  /// whose speed no heat bounds).
   [[nodiscard]] double speed_share() const;
   /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
   /// and follows its surface.
@@ -104,7 +104,7 @@ class StepChecks {
     bool axial = false;
     long where = -1;
   } sum_;
-  bool arcs_count_ = false;  ///< a short arc of contact bears more speed
+  bool arcs_count_ = false;                                     ///< a short arc of contact bears more speed
   double heated_min_ = 0.0, heated_ = 0.0, fastest_rpm_ = 0.0;  ///< minutes; times speed to 1 / n; 1/min
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };

@@ -16,8 +16,8 @@ namespace capstan::verify {
 /// Set-ups begin with what others left.
 ///
 /// Cost  linear in the area that the cutter sweeps, in cells. Gives false if a stop ended it before a step:
-/// then the finding `kStopped` says which. `speed_shares`, where asked for, gets one number for each step that was
-/// swept (StepChecks::speed_share); 1 for the others.
+/// then the finding `kStopped` says which. `speed_shares`, where asked for, gets one number for each step
+/// that was swept (StepChecks::speed_share); 1 for the others.
 bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job,
                    std::vector<double>* speed_shares = nullptr);
 
