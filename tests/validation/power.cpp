@@ -1,9 +1,9 @@
 // Milling power by published tables and by our law, for one cut in each material and feed.
 //
-// Mitsubishi and Tungaloy tabulate the specific force kc of milling by the feed per tooth, so that Pc = ap ae vf
-// kc / 60e6 kW at the tool. Machinery's Handbook has Pc = Kp C Q: Kp by the Brinell hardness, C by the feed,
-// sharp edges. Ours is the mean power of SectionAtFeeds by the law that planning takes, without any margin; where
-// that law is a measured set, the card's if it is larger, as in planning.
+// Mitsubishi and Tungaloy tabulate the specific force kc of milling by the feed per tooth, so that Pc = ap ae
+// vf kc / 60e6 kW at the tool. Machinery's Handbook has Pc = Kp C Q: Kp by the Brinell hardness, C by the
+// feed, sharp edges. Ours is the mean power of SectionAtFeeds by the law that planning takes, without any
+// margin; where that law is a measured set, the card's if it is larger, as in planning.
 
 #include "tests/validation/power.h"
 
@@ -89,9 +89,9 @@ double ours_kw(const char* material, double fz_mm, const std::vector<model::Work
   const auto card = tooling::find_material(material, cards, job);
   if (!card) return 0.0;
   const auto tooth = mechanics::tooth_of(mill());
-  const auto section =
-      mechanics::side_section(kDepthMm, kWidthMm, tooth, mechanics::CutDirection::kDown);
-  const auto loads = mechanics::section_loads(section, tooth, mechanics::force_law(*card, mill()), fz_mm, rpm());
+  const auto section = mechanics::side_section(kDepthMm, kWidthMm, tooth, mechanics::CutDirection::kDown);
+  const auto loads =
+      mechanics::section_loads(section, tooth, mechanics::force_law(*card, mill()), fz_mm, rpm());
   if (!loads) return 0.0;
   if (mechanics::measured_set(*card, mill().substrate) == nullptr) return loads->power_w / 1000.0;
   const double by_card = mechanics::cutting_power_w(
@@ -107,16 +107,20 @@ std::vector<PowerRow> power_rows() {
   const auto cards = tooling::shipped_materials();
   if (!cards) return out;
   const auto add = [&](const char* source, const char* material, const char* row, double fz, double kc) {
-    out.push_back({source, material, row, fz, removal_mm3_min(fz) * kc / 60e6, ours_kw(material, fz, *cards)});
+    out.push_back(
+        {source, material, row, fz, removal_mm3_min(fz) * kc / 60e6, ours_kw(material, fz, *cards)});
   };
   for (const Milled& m : kMitsubishi) {
-    for (std::size_t i = 0; i < std::size(kFeeds); ++i) add("Mitsubishi", m.material, m.row, kFeeds[i], m.kc[i]);
+    for (std::size_t i = 0; i < std::size(kFeeds); ++i)
+      add("Mitsubishi", m.material, m.row, kFeeds[i], m.kc[i]);
   }
   for (const Milled& m : kTungaloy) {
-    for (std::size_t i = 0; i < std::size(kFeeds); ++i) add("Tungaloy", m.material, m.row, kFeeds[i], m.kc[i]);
+    for (std::size_t i = 0; i < std::size(kFeeds); ++i)
+      add("Tungaloy", m.material, m.row, kFeeds[i], m.kc[i]);
   }
   for (const Handbook& h : kHandbook) {
-    for (const FeedFactor& f : kFeedFactors) add("Machinery's Handbook", h.material, h.row, f.fz_mm, 1000.0 * h.kp * f.c);
+    for (const FeedFactor& f : kFeedFactors)
+      add("Machinery's Handbook", h.material, h.row, f.fz_mm, 1000.0 * h.kp * f.c);
   }
   return out;
 }
@@ -124,7 +128,9 @@ std::vector<PowerRow> power_rows() {
 Comparison power() {
   Comparison out{.name = "power"};
   const std::vector<PowerRow> rows = power_rows();
-  Table table{{"source", "row of the table", "our card", "fz, mm", "vf, mm/min", "table, kW", "ours, kW", "ratio"}, {}};
+  Table table{
+      {"source", "row of the table", "our card", "fz, mm", "vf, mm/min", "table, kW", "ours, kW", "ratio"},
+      {}};
   int within = 0;
   double least = 1e300, most = 0.0;
   for (const PowerRow& r : rows) {
@@ -134,11 +140,12 @@ Comparison power() {
     table.rows.push_back({r.source, r.row, r.material, shortest(r.fz_mm), fixed(r.fz_mm * kTeeth * rpm(), 0),
                           fixed(r.table_kw, 2), fixed(r.ours_kw, 2), fixed(r.ratio(), 2)});
   }
-  out.headline = std::to_string(within) + " of " + std::to_string(rows.size()) + " rows within 25 % of the table's power, " +
-                 fixed(least, 2) + " to " + fixed(most, 2) + " of it";
+  out.headline = std::to_string(within) + " of " + std::to_string(rows.size()) +
+                 " rows within 25 % of the table's power, " + fixed(least, 2) + " to " + fixed(most, 2) +
+                 " of it";
   out.text = "The cut: an end mill of " + shortest(kDiameterMm) + " mm, four teeth, " + shortest(kDepthMm) +
-             " mm deep, " + shortest(kWidthMm) + " mm wide, " + shortest(kSpeedMMin) + " m/min.\n\n" + markdown(table) +
-             "\n" + out.headline + ".\n";
+             " mm deep, " + shortest(kWidthMm) + " mm wide, " + shortest(kSpeedMMin) + " m/min.\n\n" +
+             markdown(table) + "\n" + out.headline + ".\n";
   return out;
 }
 

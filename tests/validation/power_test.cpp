@@ -12,7 +12,8 @@ namespace {
 TEST(ExpectedPower, IsNowhereFarBelowAPublishedTable) {
   const auto rows = power_rows();
   ASSERT_FALSE(rows.empty());
-  for (const PowerRow& r : rows) EXPECT_GE(r.ratio(), 1.0 - kPowerBound) << r.source << ": " << r.row << " at " << r.fz_mm;
+  for (const PowerRow& r : rows)
+    EXPECT_GE(r.ratio(), 1.0 - kPowerBound) << r.source << ": " << r.row << " at " << r.fz_mm;
 }
 
 TEST(ExpectedPower, OfCommonMaterialsIsNearSomeTable) {

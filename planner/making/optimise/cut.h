@@ -83,7 +83,8 @@ inline constexpr double kRoughnessOverGeometry = 1.24;
 /// Time of a level beside its cutting: moving over, down, and back to speed, s. Default, unsourced.
 inline constexpr double kLevelOverheadS = 2.0;
 
-/// Largest deflection of the tip in facing, mm, where bending moves the edge along the face. Default, unsourced.
+/// Largest deflection of the tip in facing, mm, where bending moves the edge along the face. Default,
+/// unsourced.
 inline constexpr double kFaceDeflectionMm = 0.2;
 /// Widest cut of a rough pass that is not a slot, as a fraction of the diameter. Default, unsourced.
 inline constexpr double kRoughWidthRatio = 0.65;
@@ -123,11 +124,10 @@ struct CutAnswer {
 }
 
 /// Depth, width, speed and feed that cut fastest (or cheapest, or to most profit) within every limit: spindle
-/// speed range, power and torque at that speed, tip deflection (what is asked, and what the tool's own material
-/// bears: mechanics::enduring_bend_mm), wall error, surface, peak force, largest and least chip, depths, cutting
-/// length, axis feed. Forces carry the margin of mechanics/loads/margin.h: the
-/// spread of their coefficients, a worn edge and the operator's override; limits are thus never met on
-/// average values.
+/// speed range, power and torque at that speed, tip deflection (what is asked, and what the tool's own
+/// material bears: mechanics::enduring_bend_mm), wall error, surface, peak force, largest and least chip,
+/// depths, cutting length, axis feed. Forces carry the margin of mechanics/loads/margin.h: the spread of
+/// their coefficients, a worn edge and the operator's override; limits are thus never met on average values.
 ///
 /// Levels are whole: they are enumerated, and the other variables solved for each. Where the spindle's curve
 /// or the immersion has a corner, the pieces between are solved one by one: no smooth method shows an optimum

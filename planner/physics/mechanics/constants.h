@@ -24,31 +24,33 @@ inline constexpr double kHssYoungsModulusNMm2 = 200e3;
 inline constexpr double kFluteEquivalentDiameterRatio = 0.8;
 
 /// Bending stress that a milling cutter bears for the millions of bites of its life, N/mm2.
-/// Source: carbide: blanks of end mills of 12.5 mm broke at 2131 N/mm2 in the mean (taxi99.cz/ball-mill quotes
-/// the test; blanks of two diameters in four-point bending: Nemes, Asamoah-Attiah & Budak 2001, CIRP Annals
-/// 50(1)); what it bears 10^7 times is 70 % of that (Nakajima et al. 2007, Materials Science Forum 534-536,
-/// 1201). Two thirds of it are taken, for flutes are notches: default, unsourced; that lies within the 700 to
-/// 1400 N/mm2 of tests in rotating bending (Stephenson 1984, Loughborough). High-speed steel: 1.43 (HV + 120) /
-/// sqrt(area)^(1/6) of a hard steel with a defect at its surface (Murakami), 800 HV, a carbide of 50 um: 685.
+/// Source: carbide: blanks of end mills of 12.5 mm broke at 2131 N/mm2 in the mean (taxi99.cz/ball-mill
+/// quotes the test; blanks of two diameters in four-point bending: Nemes, Asamoah-Attiah & Budak 2001, CIRP
+/// Annals 50(1)); what it bears 10^7 times is 70 % of that (Nakajima et al. 2007, Materials Science Forum
+/// 534-536, 1201). Two thirds of it are taken, for flutes are notches: default, unsourced; that lies within
+/// the 700 to 1400 N/mm2 of tests in rotating bending (Stephenson 1984, Loughborough). High-speed steel: 1.43
+/// (HV + 120) / sqrt(area)^(1/6) of a hard steel with a defect at its surface (Murakami), 800 HV, a carbide
+/// of 50 um: 685.
 inline constexpr double kCarbideEnduranceNMm2 = 1000.0;
 inline constexpr double kHssEnduranceNMm2 = 685.0;
 
 /// Runout, total indicated, of a tool in a usual collet, where none is stated, mm.
-/// Source: ISO 15488, table 4 (accufixtools.com), collets of the normal class: 0.015 up to 10 mm, 0.020 above.
+/// Source: ISO 15488, table 4 (accufixtools.com), collets of the normal class: 0.015 up to 10 mm, 0.020
+/// above.
 inline constexpr double kColletRunoutMm = 0.015;
 
 // --- Cutting force ----------------------------------------------------------------------------------
 
 /// Share of Kienzle's force that is saved by each degree of rake over the 0 degrees of the tables.
 /// Source: "Increasing rake angle by 1 deg in the positive direction decreases cutting power by about 1 %",
-/// Mitsubishi Materials, function of tool features, rake angle; that kc1 is for a rake of 0: Sandvik Coromant,
-/// specific cutting force; the same for milling: Tungaloy catalogue 2020-21 p. 1650.
+/// Mitsubishi Materials, function of tool features, rake angle; that kc1 is for a rake of 0: Sandvik
+/// Coromant, specific cutting force; the same for milling: Tungaloy catalogue 2020-21 p. 1650.
 inline constexpr double kForcePerDegreeOfRake = 0.01;
 /// Radial rake of end mills, degrees.
-/// Source: Ingersoll catalogue 2011 p. 457 (docs.steelcam.org), data for regrinding solid-carbide mills: 10 to
-/// 12, 17 and 18 of those for aluminium. The least is taken for all. Those of high-speed steel have no less
-/// (jntools.com). Cutters for hardened material are ground to a rake of 0 or less (mmc-carbide.com, radial rake
-/// angle): none is counted there; nor for cutters with inserts, of which no rake is known.
+/// Source: Ingersoll catalogue 2011 p. 457 (docs.steelcam.org), data for regrinding solid-carbide mills: 10
+/// to 12, 17 and 18 of those for aluminium. The least is taken for all. Those of high-speed steel have no
+/// less (jntools.com). Cutters for hardened material are ground to a rake of 0 or less (mmc-carbide.com,
+/// radial rake angle): none is counted there; nor for cutters with inserts, of which no rake is known.
 inline constexpr double kEndMillRakeDeg = 10.0;
 
 /// Radial force of a milling tooth divided by its tangential force, as used for peak force with Kienzle

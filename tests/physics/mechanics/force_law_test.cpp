@@ -37,7 +37,8 @@ TEST(ForceLaw, IsKienzlesWithoutAMeasuredSet) {
   model::WorkMaterial m = aluminium();
   m.mechanistic.clear();
   EXPECT_FALSE(force_law(m, mill(model::Substrate::kCarbide)).mechanistic);
-  EXPECT_DOUBLE_EQ(force_law(m, mill(model::Substrate::kCarbide)).uncertainty_factor, kForceUncertaintyFactor);
+  EXPECT_DOUBLE_EQ(force_law(m, mill(model::Substrate::kCarbide)).uncertainty_factor,
+                   kForceUncertaintyFactor);
 }
 
 // One per cent less for each of the 10 degrees of an end mill's rake; the tables are of 0 degrees.

@@ -410,7 +410,8 @@ TEST(PredictedBending, OfAToolThatReachesTheFinishedWallIsTold) {
   EXPECT_THAT(found[0].message, HasSubstr("what it leaves on its walls"));
 }
 
-// Flutes of 25 mm on 10 mm of carbide: I = pi 8^4 / 64 = 201.06 mm4, so that 2000 N are 2000 * 25 * 5 / I = 1243.
+// Flutes of 25 mm on 10 mm of carbide: I = pi 8^4 / 64 = 201.06 mm4, so that 2000 N are 2000 * 25 * 5 / I =
+// 1243.
 TEST(PredictedBending, ThatTiresTheToolIsTold) {
   PlanMaker k = testing::good_plan();
   model::Cutter& c = k.plan.cutters[0];

@@ -31,9 +31,9 @@ double axis_feed(const CutQuestion& q) {
 
 /// Share of the force of a true-running cutter that one with the usual runout may have at the start feed. The
 /// tooth that stands out most takes a chip that is thicker by kColletRunoutMm sin(pi / z) (as in
-/// mechanics/loads/section.h), and its force grows by Kienzle's law. That is one more factor of the margin, which
-/// knows nothing of the others: their logarithms add as squares. Thin cutters, whose feeds are of the runout's
-/// size, lose a fifth by it, others a few per cent. 1 where a runout is stated: the forces have it.
+/// mechanics/loads/section.h), and its force grows by Kienzle's law. That is one more factor of the margin,
+/// which knows nothing of the others: their logarithms add as squares. Thin cutters, whose feeds are of the
+/// runout's size, lose a fifth by it, others a few per cent. 1 where a runout is stated: the forces have it.
 double true_running_share(const CutQuestion& q) {
   const double fz = largest_fz(q);
   if (q.cutter.runout_mm > 0.0 || !(fz > 0.0)) return 1.0;
@@ -181,7 +181,8 @@ FixedLimits fixed_limits(const CutQuestion& q) {
                   .deflection_mm = deflection_limit(q),
                   .axis_feed_mm_min = axis_feed(q),
                   .slender_depth_mm = slender_depth(q)};
-  for (const model::LimitRow& r : model::kLimitRows) out.ease.at(model::index_of(r.value)) = ease_of(q, r.name);
+  for (const model::LimitRow& r : model::kLimitRows)
+    out.ease.at(model::index_of(r.value)) = ease_of(q, r.name);
   return out;
 }
 
@@ -189,8 +190,8 @@ Measures measures(const CutQuestion& q, const model::StepLoads& l, double ap, do
   return measures(q, fixed_limits(q), l, ap, n, feed);
 }
 
-Measures measures(const CutQuestion& q, const FixedLimits& fixed, const model::StepLoads& l, double ap, double n,
-                  double feed) {
+Measures measures(const CutQuestion& q, const FixedLimits& fixed, const model::StepLoads& l, double ap,
+                  double n, double feed) {
   const bool mills = is_milling(q.kind);
   const Range& rpm = fixed.rpm;
   const auto ease = [&](Limit limit) { return fixed.ease.at(model::index_of(limit)); };

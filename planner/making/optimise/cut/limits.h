@@ -35,7 +35,6 @@ struct Measures {
 [[nodiscard]] Measures measures(const CutQuestion& q, const model::StepLoads& loads, double ap_mm,
                                 double n_rpm, double feed_mm_min);
 
-
 struct Range {
   double lo = 0.0, hi = 0.0;
 };
@@ -81,7 +80,7 @@ class MillingLoads {
   mechanics::Tooth tooth_;
   mechanics::ForceLaw law_;
   double margin_ = 1.0;
-  double ap_mm_ = -1.0, ae_mm_ = -1.0;  ///< of the sections that are ready
+  double ap_mm_ = -1.0, ae_mm_ = -1.0;                             ///< of the sections that are ready
   std::array<std::optional<mechanics::SectionAtFeeds>, 2> ready_;  ///< up, down
 };
 

@@ -68,8 +68,8 @@ double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::Feat
   return 0.0;
 }
 
-/// Zone of a size that states no tolerance, mm: the general one of the drawing, else what a careful shop holds
-/// where a drawing says nothing, ISO 2768-1 class f; 0: it has none for this size.
+/// Zone of a size that states no tolerance, mm: the general one of the drawing, else what a careful shop
+/// holds where a drawing says nothing, ISO 2768-1 class f; 0: it has none for this size.
 double general_zone_mm(const PlanSoFar& p, double size_mm) {
   model::GeneralTolerance fine;
   fine.size_class = 'f';
@@ -87,8 +87,8 @@ double zone_across(const PlanSoFar& p, const StepDraft& step, const toolpath::Pa
 /// What a cut before the last may bend at its tip, mm.
 ///
 /// A wall is pushed off by no more than the tip is bent. Where the step leaves an allowance, the bent cutter
-/// must not reach the finished wall, and should leave there what the next pass can cut at all, but at least half
-/// of it. Where it leaves none, its wall is the finished one: kWallOfZone.
+/// must not reach the finished wall, and should leave there what the next pass can cut at all, but at least
+/// half of it. Where it leaves none, its wall is the finished one: kWallOfZone.
 double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
                         const optimise::CutQuestion& q) {
   if (p.plan.model.holds<model::PlaneMilling>(step.operation)) return optimise::kFaceDeflectionMm;
@@ -96,8 +96,7 @@ double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpat
   const double left = surface ? freeform_allowance(p.plan.model, p.steps, step) : job.allowance_side_mm;
   if (left > 0.0) {
     const bool hss = q.cutter.substrate == model::Substrate::kHss;
-    const double least =
-        mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
+    const double least = mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
     return std::max(0.5 * left, left - least);
   }
   const double zone = zone_across(p, step, job, q.width_mm);
@@ -106,9 +105,9 @@ double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpat
 
 /// Sets the surface limits of a finishing step: roughness and form error. Roughing steps have none.
 ///
-/// If the wall error can be computed, it is limited to a share of the tolerance. Most of the tip's deflection is
-/// along the wall, or occurs while no tooth touches the wall: it may be as much as one wall may be off at all,
-/// so that the wall is within its tolerance even if it were pushed off by all of it.
+/// If the wall error can be computed, it is limited to a share of the tolerance. Most of the tip's deflection
+/// is along the wall, or occurs while no tooth touches the wall: it may be as much as one wall may be off at
+/// all, so that the wall is within its tolerance even if it were pushed off by all of it.
 void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
                   optimise::CutQuestion& q) {
   const Model& m = p.plan.model;

@@ -91,10 +91,10 @@ Result<double> tip_compliance_mm_n(const model::Cutter& cutter) {
 }
 
 Result<double> enduring_bend_mm(const model::Cutter& cutter, double force_mm) {
-  const double out = cutter.stick_out_mm > 0.0 ? cutter.stick_out_mm
-                                               : std::numeric_limits<double>::infinity();
-  const double endurance = cutter.substrate == model::Substrate::kCarbide ? kCarbideEnduranceNMm2
-                                                                          : kHssEnduranceNMm2;
+  const double out =
+      cutter.stick_out_mm > 0.0 ? cutter.stick_out_mm : std::numeric_limits<double>::infinity();
+  const double endurance =
+      cutter.substrate == model::Substrate::kCarbide ? kCarbideEnduranceNMm2 : kHssEnduranceNMm2;
   return beam_of(cutter).map([&](const ToolBeam& beam) {
     double stress_per_n = 0.0;
     double top = 0.0;

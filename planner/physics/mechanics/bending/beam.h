@@ -52,13 +52,15 @@ inline constexpr double kHolderYoungsModulusNMm2 = 200e3;
 [[nodiscard]] Result<double> tip_compliance_mm_n(const model::Cutter& cutter);
 
 /// Bending of the tip at which the tool's own material begins to tire, mm, by a force at `force_mm` above the
-/// tip: the flutes, a neck and the shank bear kCarbideEnduranceNMm2 or kHssEnduranceNMm2 in their outer fibre,
+/// tip: the flutes, a neck and the shank bear kCarbideEnduranceNMm2 or kHssEnduranceNMm2 in their outer
+/// fibre,
 ///
 ///     max(M d / 2 / I) = endurance,     the fibre of the flutes at half the cutting diameter
 ///
 /// Proportional to the square of a tool's length over its diameter: 0.02 mm at 1 mm, 0.2 mm at 10 mm.
 /// Fails     as beam_of.
-/// Uncertainty  the equivalent diameter's 5 % of the flutes, 15 % of the stress; torsion is left out (under 6 %
+/// Uncertainty  the equivalent diameter's 5 % of the flutes, 15 % of the stress; torsion is left out (under 6
+/// %
 ///           of the largest stress where the force's lever is at least as long as the diameter).
 /// Source    Euler-Bernoulli; derived.
 [[nodiscard]] Result<double> enduring_bend_mm(const model::Cutter& cutter, double force_mm = 0.0);

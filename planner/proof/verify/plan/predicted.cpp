@@ -315,8 +315,8 @@ double bending_stress(const model::Cutter& c, double bent_mm) {
   return 1.5 * youngs_modulus(c) * c.cutting_diameter_mm * bent_mm / (c.stick_out_mm * c.stick_out_mm);
 }
 
-/// Of flutes that are loaded at their end, in their outer fibre, N/mm2; 0: their length is not known. They bend
-/// like a cylinder of kFluteEquivalentDiameterRatio of the diameter.
+/// Of flutes that are loaded at their end, in their outer fibre, N/mm2; 0: their length is not known. They
+/// bend like a cylinder of kFluteEquivalentDiameterRatio of the diameter.
 double flute_stress(const model::Cutter& c, double force_n) {
   const double lever = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
   const double thick = mechanics::kFluteEquivalentDiameterRatio * c.cutting_diameter_mm;
@@ -325,8 +325,7 @@ double flute_stress(const model::Cutter& c, double force_n) {
 }
 
 double endurance(const model::Cutter& c) {
-  return c.substrate == Substrate::kCarbide ? mechanics::kCarbideEnduranceNMm2
-                                            : mechanics::kHssEnduranceNMm2;
+  return c.substrate == Substrate::kCarbide ? mechanics::kCarbideEnduranceNMm2 : mechanics::kHssEnduranceNMm2;
 }
 
 /// What the operation leaves on the walls, mm; 0: nothing, or it is not one that does.
@@ -334,7 +333,8 @@ double left_on_walls(const model::Plan& plan, const model::MachiningWorkingstep*
   if (ws == nullptr) return 0.0;
   if (const auto* o = plan.model.get<model::BottomAndSideMilling>(ws->its_operation))
     return o->allowance_side.value_or(0.0);
-  if (const auto* o = plan.model.get<model::SideMilling>(ws->its_operation)) return o->allowance_side.value_or(0.0);
+  if (const auto* o = plan.model.get<model::SideMilling>(ws->its_operation))
+    return o->allowance_side.value_or(0.0);
   return 0.0;
 }
 
@@ -375,8 +375,8 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
                     wall);
     return;
   }
-  // What no tolerance judges is held against what the step leaves on its walls: bent by more, a tool reaches the
-  // finished wall. And a tool that bends by less than that may still be bent too often.
+  // What no tolerance judges is held against what the step leaves on its walls: bent by more, a tool reaches
+  // the finished wall. And a tool that bends by less than that may still be bent too often.
   const double bent = std::max(l.deflection_mm, wall);
   if (stress > kBreakingNMm2 || !mills) return;
   const double left = left_on_walls(plan, ws);
@@ -385,8 +385,8 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
   if (bent > most)
     findings.warn(21, "CHK-BENDING", at,
                   "tool " + c.id + " bends by " + mm(bent) + load + "; at most " +
-                      mm(left > 0.0 ? left : kMostBentMm) + (left > 0.0 ? ", what it leaves on its walls" : "") +
-                      stiffer,
+                      mm(left > 0.0 ? left : kMostBentMm) +
+                      (left > 0.0 ? ", what it leaves on its walls" : "") + stiffer,
                   bent);
   else if (tires > kMeasured * endurance(c))
     findings.warn(21, "CHK-BENDING", at,
