@@ -19,6 +19,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 PARTS = {
     "strategies": ["docs/strategies/strategies.p21"],
     "outside": ["docs/strategies/outside.p21"],
+    "thread": ["docs/strategies/thread.p21"],
     "stainless": ["examples/bracket.p21", "--material", "X5CrNi18-10"],
     "bracket": ["examples/bracket.p21"],
     "forms": ["tests/door/pipeline/parts/form_features.p21"],
@@ -41,8 +42,8 @@ PICTURES = [
     ("peck", "strategies", "DEEP HOLE drill", "time"),
     ("helix_in_hole", "strategies", "BORED HOLE mill_rough", "above"),
     ("bore", "strategies", "BORED HOLE bore~2", "time"),
-    ("thread_mill", "strategies", "THREAD thread_mill", "above"),
-    ("face", "bracket", "TOP FACE plane_rough", "above"),
+    ("thread_mill", "thread", "THREAD thread_mill", "above"),
+    ("face", "bracket", "TOP FACE plane_finish", "above"),
     ("pocket_finish", "bracket", "POCKET area_finish", "above"),
     ("open_slot", "bracket", "SLOT area_rough", "above"),
     ("spot", "bracket", "DOWEL HOLE 1 centre", "time"),
@@ -62,6 +63,8 @@ PICTURES = [
     ("freeform_semi_finish", "surface", "surface freeform_finish", "above"),
     ("freeform_finish", "surface", "surface freeform_finish~2", "above"),
 ]
+# A picture that shows a choice of the planner: the reason that must stand in the plan, else the old one stays.
+CHOSEN = {"constant_engagement": "path.constant_engagement"}
 COLOURS = {  # kind of move: colour, width, dashes
     "rapid": ("#c33", 0.7, "4 3"),
     "way": ("#777", 0.9, ""),  # approach, retract
@@ -281,6 +284,9 @@ def main():
         if not found or not found[0].get("path"):
             print("%s: the plan of %s has no path of a step '%s'" % (name, part, wanted_step), file=sys.stderr)
             status = 1
+            continue
+        if name in CHOSEN and not any(CHOSEN[name] in json.dumps(r) for r in plans[part]["reasons"]):
+            print("%s: not chosen for %s now; its picture stays" % (name, part), file=sys.stderr)
             continue
         step = Step(plans[part], found[0])
         text = draw(step, view)
