@@ -293,6 +293,7 @@ class Clearing {
 
   /// What the passes left along the boundary: once round, or the stretches where there is some.
   void along_walls() {
+    const Walls inside(inset(wall_, -0.002, 0.0005));
     for (const auto& loop : wall_.loops) {
       const Track track = track_of(loop);
       const double length = length_of(track);
@@ -316,7 +317,7 @@ class Clearing {
       int begin = 0;
       while (begin < n && wide[static_cast<std::size_t>(begin)]) ++begin;
       if (begin == n) {
-        stretch(track);
+        stretch(track, inside);
         continue;
       }
       for (int k = 1; k <= n; ++k) {
@@ -325,7 +326,7 @@ class Clearing {
         int many = 0;
         while (wide[static_cast<std::size_t>((i + many) % n)]) ++many;
         const Track turned = begun_at(track, at_length(track, length * i / n));
-        stretch(part_of(turned, 0.0, length * (many - 1) / n));
+        stretch(part_of(turned, 0.0, length * (many - 1) / n), inside);
         k += many;
       }
     }
@@ -370,11 +371,11 @@ class Clearing {
     return false;
   }
 
-  void stretch(const Track& t) {
+  void stretch(const Track& t, const Walls& inside) {
     const Walls free(free_);
     const auto beside = [&](Vec2 p) {
       const Vec2 q = stand(free, p);
-      return norm(q - p) < 0.5 * bite_.radius_mm && walls_.contains(q, walls_.kept(p)) ? q : p;
+      return norm(q - p) < 0.5 * bite_.radius_mm && inside.contains(q, p) ? q : p;
     };
     const Vec2 in = beside(t.start);
     const Vec2 off = beside(t.end());
