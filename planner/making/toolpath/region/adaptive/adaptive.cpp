@@ -136,7 +136,7 @@ class Adaptive {
       start = *entered;
     }
     const auto* passes = passes_of(piece, cleared, start);
-    if (passes == nullptr) return unknown(c_.task, "the passes into a narrow place find no end");
+    if (passes == nullptr) return unknown(c_.task, "a front is left that no pass reaches");
     for (const ClearingPass& p : *passes) write(p);
     return {};
   }

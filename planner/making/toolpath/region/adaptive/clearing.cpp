@@ -32,6 +32,8 @@ constexpr double kSame = 0.0005;   // mm; vertices that say less are dropped
 constexpr double kCusp = 0.02;     // mm; less along a wall is left; default, unsourced
 constexpr double kLeadPart = 0.3;  // radius of the arc off a front, of the cutter's; default, unsourced
 constexpr double kLeadTurn = 1.2;  // rad, likewise
+constexpr double kLeftOver =
+    0.02;  // of the radius squared: centres that fronts may miss, as in a corner's tip
 constexpr std::size_t kMostPasses = 20'000;
 
 Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
@@ -71,6 +73,10 @@ class Clearing {
       refresh();
       if (free_.empty()) return std::nullopt;
       if (!next()) break;
+    }
+    // Where no pass could go, the one along the walls must not either.
+    for (const Region& left : geometry::pieces(geometry::subtract(centres_, done_))) {
+      if (geometry::area(left) > kLeftOver * bite_.radius_mm * bite_.radius_mm) return std::nullopt;
     }
     along_walls();
     return std::move(out_);
@@ -287,6 +293,7 @@ class Clearing {
 
   /// What the passes left along the boundary: once round, or the stretches where there is some.
   void along_walls() {
+    const Walls inside(inset(wall_, -0.002, 0.0005));
     for (const auto& loop : wall_.loops) {
       const Track track = track_of(loop);
       const double length = length_of(track);
@@ -310,7 +317,7 @@ class Clearing {
       int begin = 0;
       while (begin < n && wide[static_cast<std::size_t>(begin)]) ++begin;
       if (begin == n) {
-        stretch(track);
+        stretch(track, inside);
         continue;
       }
       for (int k = 1; k <= n; ++k) {
@@ -319,7 +326,7 @@ class Clearing {
         int many = 0;
         while (wide[static_cast<std::size_t>((i + many) % n)]) ++many;
         const Track turned = begun_at(track, at_length(track, length * i / n));
-        stretch(part_of(turned, 0.0, length * (many - 1) / n));
+        stretch(part_of(turned, 0.0, length * (many - 1) / n), inside);
         k += many;
       }
     }
@@ -364,14 +371,20 @@ class Clearing {
     return false;
   }
 
-  void stretch(const Track& t) {
+  void stretch(const Track& t, const Walls& inside) {
     const Walls free(free_);
-    const Vec2 in = stand(free, t.start);
-    const Vec2 off = stand(free, t.end());
+    const auto beside = [&](Vec2 p) {
+      const Vec2 q = stand(free, p);
+      return norm(q - p) < 0.5 * bite_.radius_mm && inside.contains(q, p) ? q : p;
+    };
+    const Vec2 in = beside(t.start);
+    const Vec2 off = beside(t.end());
     Track whole{.start = in, .segments = {}, .closed = false};
-    whole.segments.push_back({.to = t.start, .centre = {}, .bend = Bend::kStraight});
+    if (norm(in - t.start) > 1e-9)
+      whole.segments.push_back({.to = t.start, .centre = {}, .bend = Bend::kStraight});
     whole.segments.insert(whole.segments.end(), t.segments.begin(), t.segments.end());
-    whole.segments.push_back({.to = off, .centre = {}, .bend = Bend::kStraight});
+    if (norm(off - t.end()) > 1e-9)
+      whole.segments.push_back({.to = off, .centre = {}, .bend = Bend::kStraight});
     grow(t);
     add(std::move(whole));
   }

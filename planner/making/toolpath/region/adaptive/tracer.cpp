@@ -26,7 +26,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kStepPart = 0.06;
 // Radius of a curl towards the material, as a part of the cutter's: a machine follows it at feed.
 constexpr double kCurlPart = 0.5;
-constexpr double kMostLeft = 1.2;         // rad; more is a pass of its own
+constexpr double kMostLeft = 1.8;         // rad: away from a front met square on; more is another pass
 constexpr double kContactFound = 0.005;   // of the limit: accuracy of the root
 constexpr double kNoContact = 0.01;       // of the limit
 constexpr double kTurnedInto = 0.05;      // of the limit: what a turn on the spot may add
