@@ -252,15 +252,12 @@ TEST_F(Cut, AThinMillIsHeldByItsStrength) {
   q.slot = true;
   q.width_mm = 1.0;
   q.depth_mm = *(q.ap_mm = 0.5);
-  q.fz_start_mm = 0.01;
+  q.fz_start_mm = 0.02;
   const CutAnswer a = answered(q);
   ASSERT_TRUE(a.feasible);
   EXPECT_LE(a.loads.peak_force_n, 13.41);
   EXPECT_TRUE(std::any_of(a.active.begin(), a.active.end(),
                           [](const auto& c) { return c.name == "tool_deflection"; }));
-  q.cutter.runout_mm = 0.0001;  // where it is stated, the forces have it and the usual one is not counted
-  const double chip = a.fz_mm;
-  EXPECT_GT(answered(q).fz_mm, chip);
 }
 
 TEST_F(Cut, PricesOfCostAreFractionsOfTheCost) {
