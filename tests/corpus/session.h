@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/support/shop.h"
+#include "planner/model/plan/assumed_tool_material.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/plan.h"
@@ -43,6 +44,7 @@ inline Session planned_bytes(std::string bytes, const std::string& name, Reopen 
   if (!shop || !plan) return out;
   pipeline::Policy policy;
   policy.reopen = reopen;
+  shop->tool_materials.of_plan = model::assumed_tool_materials(*plan);  // as door/service does
   auto bound = pipeline::bind(*std::move(plan), *shop, policy, job);
   out.bound = job.take_diagnostics();
   EXPECT_TRUE(bound) << to_text(bound.error());

@@ -512,7 +512,7 @@ TEST(RefusedParts, APocketInTheFloorOfOneThatIsNotPlannedIsNeitherAndNoProgramIs
 // Drilled from the raw surface, its spot drill would be 10 mm deep in the solid, at the feed of a spot.
 TEST(RefusedParts, AHoleInTheFloorOfAFaceThatIsNotPlannedIsNeither) {
   Sheet s{removal::block(60, 60, 20, 10)};
-  // Between the bosses 2 mm are left, 10 mm deep: no mill of the library is so thin and long.
+  // Between the bosses 2 mm are left, 10 mm deep: the one mill that is so thin and long would face for 14 h.
   std::vector<Drawing::Id> bosses;
   bosses.push_back(s.d.boss("B1", s.d.placement({17, 30, 10}), 10, s.d.rectangle(22, 30)));
   bosses.push_back(s.d.boss("B2", s.d.placement({41, 30, 10}), 10, s.d.rectangle(22, 30)));

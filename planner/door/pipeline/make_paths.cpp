@@ -196,10 +196,13 @@ class PathMaker {
     for (std::size_t i = 0; i < tries; ++i) {
       const auto before = stocks_.before(step.setup);
       auto tried = with_cutter(step, i);
-      if (tried && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
+      const auto shifts = tried ? longer_than_a_shift(step, *tried) : std::nullopt;
+      if (tried && !shifts && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
       gone = gone && !tried && tried.error().code == toolpath::kNothingToCut;
-      const std::string why = tried ? excess_text(*tried) : tried.error().message;
-      if (tried) {
+      const std::string why = shifts ? *shifts : tried ? excess_text(*tried) : tried.error().message;
+      if (shifts) {
+        stocks_.put_back(step.setup, before);
+      } else if (tried) {
         if (!least || tried->feeds.worst_excess < least->second) least = {i, tried->feeds.worst_excess};
         stocks_.put_back(step.setup, before);
       }
@@ -215,6 +218,18 @@ class PathMaker {
     give_up(step,
             why_not.text() + (least ? "; a smaller or shorter cutter or a stronger spindle would do" : ""));
     return {};
+  }
+
+  /// Why nobody would run the step: a proposed cut of one prismatic feature that lasts longer than a shift.
+  /// Surfaces may.
+  [[nodiscard]] std::optional<std::string> longer_than_a_shift(const StepDraft& step,
+                                                               const step::MeasuredCut& t) const {
+    constexpr double kShiftS = 8.0 * 3600.0;
+    if (!step.proposed || plan_.model.holds<model::FreeformOperation>(step.operation)) return std::nullopt;
+    const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
+    if (!seconds || *seconds <= kShiftS) return std::nullopt;
+    return "it cuts " + trimmed(*seconds / 3600.0, 1) + " h, longer than a shift of " +
+           trimmed(kShiftS / 3600.0, 0) + " h; machine the feature by steps of your own, or change it";
   }
 
   [[nodiscard]] static bool exceeds(const StepDraft& step, const step::MeasuredCut& t) {

@@ -319,7 +319,12 @@ TEST(ShippedMaterials, AgreeWithTheCardsTheyAreFrom) {
     };
     Job job;
     const auto m = find_material(id, table(), job).value();
-    EXPECT_DOUBLE_EQ(m.kc11_n_mm2, value("UnitCuttingForce")) << id;
+    // Cards that makers' tables of milling contradict have lost the factor 1.2 of milling that they hold
+    // (docs/validation.md, 4); whole numbers.
+    const bool turned = std::string(id) == "mild_steel" || std::string(id) == "low_alloy_steel" ||
+                        std::string(id) == "grey_cast_iron";
+    EXPECT_DOUBLE_EQ(m.kc11_n_mm2, turned ? std::round(value("UnitCuttingForce") / 1.2) : value("UnitCuttingForce"))
+        << id;
     EXPECT_DOUBLE_EQ(m.mc, value("ChipThicknessExponent")) << id;
     EXPECT_DOUBLE_EQ(m.vc_hss_m_min, value("SurfaceSpeedHSS")) << id;
     EXPECT_DOUBLE_EQ(m.vc_carbide_m_min, value("SurfaceSpeedCarbide")) << id;

@@ -133,7 +133,14 @@ double StepChecks::chip_of(const Account& a) const {
 double StepChecks::specific_force(double chip_mm) const {
   const double h =
       std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
-  const double kc = plan_.material.kc11_n_mm2 * std::pow(h, -plan_.material.mc) * mechanics::kWearForceFactor;
+  // Solid mills cut with a rake, but for hardened steel.
+  const bool raked = (cutter_.cutter_class == model::CutterClass::kEndmill ||
+                      cutter_.cutter_class == model::CutterClass::kBullnoseEndmill ||
+                      cutter_.cutter_class == model::CutterClass::kBallEndmill) &&
+                     plan_.material.iso_group != "H";
+  const double rake = raked ? 1.0 - mechanics::kForcePerDegreeOfRake * mechanics::kEndMillRakeDeg : 1.0;
+  const double kc =
+      rake * plan_.material.kc11_n_mm2 * std::pow(h, -plan_.material.mc) * mechanics::kWearForceFactor;
   return cutter_.cutter_class == CutterClass::kReamer ? kc * mechanics::kReamingFrictionFactor : kc;
 }
 
