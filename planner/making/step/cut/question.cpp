@@ -14,6 +14,7 @@
 #include "planner/model/features/fit/general.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/stability.h"
@@ -173,6 +174,18 @@ void start_at_point(optimise::CutQuestion& q, double wanted_vc_m_min) {
     const double least = q.cutter.fz_min_mm * q.engaged_diameter_mm / d;
     q.fz_start_mm = std::max(least, q.fz_start_mm * q.engaged_diameter_mm / d);
   }
+}
+
+/// Depth of a level at most where it begins with the cutter's whole width in the solid, between walls: rings
+/// with a slot, constant engagement with a bore along a helix; 0: it does not begin so.
+double deepest_slot_mm(const optimise::CutQuestion& q, const toolpath::PathJob& job) {
+  const bool walled = model::has(job.shape.kind, model::ShapeTrait::kWalled);
+  const bool hollow = job.left_on_side_mm || job.cleared_by ||
+                      job.previous_diameter_mm.value_or(0.0) >= q.cutter.cutting_diameter_mm;
+  // Narrow passes begin from an open side in the air; rings cut a slot there.
+  const bool from_air = q.constant_engagement && job.shape.open;
+  if (q.kind != CutKind::kRough || !walled || hollow || from_air) return 0.0;
+  return model::ramp_of(q.cutter, q.material).slot_depth_mm;
 }
 
 AnyRef technology_of(const PlanSoFar& p, const StepDraft& step) {
@@ -357,6 +370,8 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.ap_mm = q.depth_mm = job.shape.depth_mm;
     q.width_mm = 0.5 * narrowing;
   }
+  if (const double slot = deepest_slot_mm(q, job); slot > 0.0 && !q.ap_mm)
+    q.ap_most_mm = q.ap_most_mm > 0.0 ? std::min(q.ap_most_mm, slot) : slot;
   hold_quality(p, step, job, q);
   q.peak_force_limit_n = most_force_n(p, step, q);
   q.override_locked = override_locked(p, step);
