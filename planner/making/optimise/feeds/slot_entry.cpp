@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "planner/making/optimise/cut/limits.h"
@@ -23,6 +24,23 @@ void enter_as_a_slot(FeedQuestion& q, double ae_mm, const model::CutterPath& pat
     if (!as_slot[i] || path.kind[i] == model::MoveKind::kRapid) continue;
     if (i < q.speed_factor.size()) q.speed_factor[i] /= faster;
     if (i < q.feed_factor.size()) q.feed_factor[i] *= feed;
+  }
+}
+
+void slow_in_deep_slots(FeedQuestion& q) {
+  if (q.cut.kind != CutKind::kRough || q.cut.slot) return;
+  const double vc = q.cut.vc_table_m_min > 0.0 ? q.cut.vc_table_m_min : q.cut.vc_start_m_min;
+  const double table = 1000.0 * vc / (std::numbers::pi * speed_diameter_mm(q.cut));
+  if (!(table > 0.0)) return;
+  std::vector<double> share(q.speed_factor.size(), 1.0);
+  for (const CutSample& s : q.samples) {
+    if (s.plunge || s.move >= share.size() || s.exit_rad - s.entry_rad < kSlotArc) continue;
+    share[s.move] = std::min(share[s.move], deep_slot_share(s.ap_mm, q.cut.cutter.cutting_diameter_mm));
+  }
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const double now = std::abs(q.n_rpm * q.speed_factor[i]);
+    const double most = std::max(share[i] * table, speeds(q.cut).lo);
+    if (share[i] < 1.0 && now > most) q.speed_factor[i] *= most / now;
   }
 }
 
