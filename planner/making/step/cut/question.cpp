@@ -69,8 +69,8 @@ double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::Feat
   return 0.0;
 }
 
-/// Zone of a size that states no tolerance, mm: the general one of the drawing, else what a careful shop
-/// holds where a drawing says nothing, ISO 2768-1 class f; 0: it has none for this size.
+/// Zone of a size that states no tolerance, mm: the general one of the drawing, else ISO 2768-1 class f
+/// (default, unsourced: which class a shop holds where a drawing says nothing); 0: none for this size.
 double general_zone_mm(const PlanSoFar& p, double size_mm) {
   model::GeneralTolerance fine;
   fine.size_class = 'f';
