@@ -69,9 +69,9 @@ FeedQuestion rings() {
   FeedQuestion q = asked();
   q.cut.constant_engagement = false;
   q.cut.vc_table_m_min = kPi * q.cut.cutter.cutting_diameter_mm * q.n_rpm / 1000.0;
-  q.samples = {{.move = 1, .ap_mm = 10.0, .ae_mm = 10.0, .exit_rad = kPi},
-               {.move = 2, .ap_mm = 10.0, .ae_mm = 9.0, .exit_rad = 0.8 * kPi},
-               {.move = 3, .ap_mm = 5.0, .ae_mm = 10.0, .exit_rad = kPi}};
+  q.samples = {{.move = 1, .ap_mm = 10.0, .ae_mm = 10.0, .step_mm = 20.0, .exit_rad = kPi},
+               {.move = 2, .ap_mm = 10.0, .ae_mm = 9.0, .step_mm = 20.0, .exit_rad = 0.8 * kPi},
+               {.move = 3, .ap_mm = 5.0, .ae_mm = 10.0, .step_mm = 20.0, .exit_rad = kPi}};
   return q;
 }
 
@@ -89,6 +89,18 @@ TEST(DeepSlots, AreNotCutMoreSlowlyWhereTheSpindleIsSlowerThanThatAlready) {
   q.cut.vc_table_m_min *= 2.0;
   slow_in_deep_slots(q);
   EXPECT_EQ(q.speed_factor, std::vector<double>(5, 1.0));
+}
+
+TEST(DeepSlots, ThatAreShorterThanADiameterInAllTheirMovesKeepTheSpeed) {
+  FeedQuestion q = rings();
+  q.samples[0].step_mm = 4.0;
+  q.samples[1] = {.move = 2, .ap_mm = 10.0, .ae_mm = 10.0, .step_mm = 5.0, .exit_rad = kPi};
+  slow_in_deep_slots(q);
+  EXPECT_EQ(q.speed_factor, std::vector<double>(5, 1.0));
+  q.samples[1].step_mm = 6.0;
+  slow_in_deep_slots(q);
+  EXPECT_NEAR(q.speed_factor[1], 0.75, 1e-9);
+  EXPECT_NEAR(q.speed_factor[2], 0.75, 1e-9);
 }
 
 TEST(DeepSlots, AreCutNoMoreSlowlyThanTheSpindleTurns) {
