@@ -104,6 +104,23 @@ double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpat
   return zone > 0.0 ? std::max(kLeastDeflection, kWallOfZone * zone) : kFinishDeflection;
 }
 
+/// How much more than its allowance the last step before left on the feature's walls at most, mm: what its
+/// tip was bent, for a cutter that climbs is pushed off the wall. 0: no such step, or its bending is unknown.
+double left_by_bending_mm(const PlanSoFar& p, const StepDraft& step) {
+  const Model& m = p.plan.model;
+  for (auto r = p.plan.steps.rbegin(); r != p.plan.steps.rend(); ++r) {
+    const auto* ws = m.get<model::MachiningWorkingstep>(r->step);
+    if (ws == nullptr || AnyRef(ws->its_feature) != step.feature) continue;
+    const auto* side = m.get<model::SideMilling>(ws->its_operation);
+    const auto* both = m.get<model::BottomAndSideMilling>(ws->its_operation);
+    const double left = side != nullptr   ? side->allowance_side.value_or(0.0)
+                        : both != nullptr ? both->allowance_side.value_or(0.0)
+                                          : 0.0;
+    if (left > 0.0) return std::min(left, r->loads.deflection_mm);
+  }
+  return 0.0;
+}
+
 /// Sets the surface limits of a finishing step: roughness and form error. Roughing steps have none.
 ///
 /// If the wall error can be computed, it is limited to a share of the tolerance. Most of the tip's deflection
@@ -314,8 +331,10 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   }
   if (q.kind == CutKind::kRough) q.deflection_limit_mm = rough_bending_mm(p, step, job, q);
   if (q.kind == CutKind::kFinish) {
-    // Width: the allowance that the step before left on the walls; if unknown, the usual finishing allowance.
+    // Width: the allowance that the step before left on the walls, and what it left beside by its bending; if
+    // unknown, the usual finishing allowance.
     q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
+    if (job.left_on_side_mm) q.width_mm += left_by_bending_mm(p, step);
     const double zone = zone_across(p, step, job, width_of(job.shape));
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
