@@ -66,9 +66,10 @@ TEST(Ramp, OfACutterWhoseEdgesDoNotReachTheCentreHasHalfTheFeed) {
 }
 
 TEST(Ramp, ABoreIsAsDeepAsSlotsOfTheMaterialMayBe) {
-  EXPECT_EQ(ramp_of(mill(5.0), of("P")).depth_mm, 20.0);
-  EXPECT_EQ(ramp_of(mill(5.0), of("M")).depth_mm, 10.0);
-  EXPECT_EQ(ramp_of(mill(5.0), of("H")).depth_mm, 5.0);
+  EXPECT_EQ(ramp_of(mill(5.0), of("P")).slot_depth_mm, 20.0);
+  EXPECT_EQ(ramp_of(mill(5.0), of("M")).slot_depth_mm, 10.0);
+  EXPECT_EQ(ramp_of(mill(5.0), of("H")).slot_depth_mm, 5.0);
+  EXPECT_EQ(ramp_of(mill(0.0), of("M")).slot_depth_mm, 10.0);
 }
 
 }  // namespace

@@ -28,9 +28,15 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNominalVolumeMm3 = 2000.0;
 /// A mill's cut at most, as parts of its diameter; default, unsourced (the optimiser's own bounds are wider).
 constexpr double kWidthRatio = 0.5, kDepthRatio = 1.0;
-/// Bending of the tip that roughing may have, mm: what the usual side allowance of 0.3 mm leaves over the
-/// thinnest pass that finishes it (mechanics::least_depth_mm, 0.04 mm).
-constexpr double kBendingMm = 0.26;
+/// The usual side allowance of roughing, mm; default, unsourced.
+constexpr double kAllowanceMm = 0.3;
+/// Bending of the tip that roughing may have, mm: what that allowance leaves over the thinnest pass that
+/// finishes it, at least half of it (as planner/making/step/cut/question.cpp).
+double bending_mm(const Cutter& c, const WorkMaterial& w) {
+  const bool hss = c.substrate == model::Substrate::kHss;
+  const double least = mechanics::least_depth_mm(c.cutting_diameter_mm, hss, w.iso_group);
+  return std::max(0.5 * kAllowanceMm, kAllowanceMm - least);
+}
 /// In aluminium and copper chips need room: teeth beyond these are not counted. Default, unsourced.
 constexpr int kTeethInSoft = 3;
 
@@ -102,8 +108,9 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
         std::max(1.0, mechanics::mean_engaged_teeth(teeth, mechanics::immersion_angle_rad(ae, d)));
     const double one = mechanics::specific_force_n_mm2(work, h_max) * h_max * ap;
     const double force = margin * one * in_cut * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+    const double bending = bending_mm(c, w);
     if (const auto bend = compliance_mm_n(c))
-      scale_down(std::min(kBendingMm, mechanics::enduring_bend_mm(c).value_or(kBendingMm)) / (force * *bend),
+      scale_down(std::min(bending, mechanics::enduring_bend_mm(c).value_or(bending)) / (force * *bend),
                  "bending", scale, limited);
   }
   ap *= scale;

@@ -98,6 +98,11 @@ struct FeedAnswer {
 /// of the step, which are of a narrow one.
 void enter_as_a_slot(FeedQuestion& question, double ae_mm, const model::CutterPath& path);
 
+/// Where a path of wide cuts is a slot for a diameter of its way or more, its moves turn no faster than the
+/// table's speed times deep_slot_share of the sample's depth (cut/limits.h), as far down as the spindle goes:
+/// as factors of the step's speed. A step that is all slot has that share in its own speed.
+void slow_in_deep_slots(FeedQuestion& question);
+
 /// Splits feed moves (lines and arcs) where the allowed feed of their sections changes. A move has one feed,
 /// so that without this a heavy corner at its end would slow all of it. The path itself does not change.
 /// Pieces are at least a fifth of the diameter long, and made only where they save time. A heavy place that

@@ -104,16 +104,14 @@ bool mills_threads(CutterClass c) { return c == CutterClass::kThreadMill; }
 double speed_by_arc(double width_ratio, const std::string& group) {
   constexpr double kWidth[] = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5};
   constexpr double kSpeed[] = {1.48, 1.35, 1.27, 1.22, 1.19, 1.16, 1.11, 1.0};
-  double most = 1.0;
-  if (group == "P" || group == "M" || group == "K") most = 1.48;
-  if (group == "S" || group == "H") most = 1.3;
+  if (group != "P" && group != "M" && group != "K") return 1.0;
   double speed = 1.0;
   for (int i = 0; i + 1 < 8; ++i) {
     if (width_ratio < kWidth[i] || width_ratio >= kWidth[i + 1]) continue;
     speed = kSpeed[i] + (width_ratio - kWidth[i]) / (kWidth[i + 1] - kWidth[i]) * (kSpeed[i + 1] - kSpeed[i]);
   }
   if (width_ratio > 0.0 && width_ratio < kWidth[0]) speed = kSpeed[0];
-  return std::min(most, speed);
+  return speed;
 }
 
 geometry::CutterProfile outline_of(const model::Cutter& c) {

@@ -18,13 +18,25 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kSlowToCut = "X5CrNi18-10";
-constexpr const char* kFastToCut = "EN AW-6061";
-
-Inputs shop(const std::string& material) {
-  Job job;
+/// A weak machine, on which rings must be shallow; its spindle could turn three times as fast as the table
+/// says.
+ShopFiles weak() {
   ShopFiles names;
-  names.material = material;
+  names.machine = "small_router";
+  names.material = "42CrMo4";
+  return names;
+}
+
+/// A strong machine with a material that is easily cut.
+ShopFiles strong() {
+  ShopFiles names;
+  names.machine = "generic_vmc";
+  names.material = "EN AW-6061";
+  return names;
+}
+
+Inputs shop(const ShopFiles& names) {
+  Job job;
   auto in = load_shop(names, job);
   EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
   return in ? *std::move(in) : Inputs{};
@@ -39,13 +51,10 @@ model::Plan read(const std::string& text, const std::string& name = "part.p21") 
 
 std::string pocket() { return testing::slurp(testing::source_dir() + "/examples/reference_pocket.p21"); }
 
-model::Plan bound(model::Plan plan, const Inputs& in, unsigned threads = 1,
-                  Reopen reopen = Reopen::kNothing) {
+model::Plan bound(model::Plan plan, const Inputs& in, unsigned threads = 1, const Policy& policy = {}) {
   Job job;
   job.threads = threads;
-  Policy options;
-  options.reopen = reopen;
-  auto made = bind(std::move(plan), in, options, job);
+  auto made = bind(std::move(plan), in, policy, job);
   EXPECT_TRUE(made) << (made ? "" : to_text(made.error()));
   return made ? *std::move(made) : model::Plan{};
 }
@@ -73,7 +82,7 @@ const model::Decision* decided(const model::Plan& plan) {
 }
 
 TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTheRings) {
-  const auto plan = bound(read(pocket()), shop(kSlowToCut));
+  const auto plan = bound(read(pocket()), shop(weak()));
   ASSERT_TRUE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
@@ -87,7 +96,7 @@ TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTh
 }
 
 TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThemWithItsTime) {
-  const auto plan = bound(read(pocket()), shop(kFastToCut));
+  const auto plan = bound(read(pocket()), shop(strong()));
   ASSERT_FALSE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
@@ -97,7 +106,7 @@ TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThe
 }
 
 TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
-  const auto plan = bound(read(pocket()), shop(kSlowToCut));
+  const auto plan = bound(read(pocket()), shop(weak()));
   ASSERT_TRUE(constant(plan));
   const auto& step = plan.steps.front();
   double entering = 0.0, cutting = 0.0;
@@ -111,7 +120,7 @@ TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
 }
 
 TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
-  const Inputs in = shop(kSlowToCut);
+  const Inputs in = shop(weak());
   const auto plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const model::CutterPath& path = *plan.steps.front().path;
@@ -133,7 +142,7 @@ TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
 }
 
 TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
-  Inputs in = shop(kSlowToCut);
+  Inputs in = shop(weak());
   const std::string one = written(bound(read(pocket()), in), Format::kJson);
   EXPECT_EQ(written(bound(read(pocket()), in, 2), Format::kJson), one);
   in.memo = std::make_shared<memo::Memo>(0);  // keeps nothing
@@ -145,7 +154,7 @@ TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
 
 // A plan whose strategy the operator states, rings, with the technology open again.
 TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
-  const Inputs in = shop(kSlowToCut);
+  const Inputs in = shop(weak());
   model::Plan plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const auto operation = roughing(plan);
@@ -153,7 +162,7 @@ TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
   rings.cutmode = model::CutmodeType::kClimb;
   const auto made = plan.model.add(rings);
   plan.model.get<model::Two5dMillingOperation>(operation)->its_machining_strategy = made;
-  const auto kept = bound(read(written(plan, Format::kIso14649)), in, 1, Reopen::kTools);
+  const auto kept = bound(read(written(plan, Format::kIso14649)), in, 1, {.reopen = Reopen::kTools});
   ASSERT_FALSE(kept.steps.empty());
   const auto* o = kept.model.get<model::Two5dMillingOperation>(roughing(kept));
   ASSERT_NE(o, nullptr);

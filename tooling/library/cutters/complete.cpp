@@ -214,7 +214,7 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
   }
   if (model::has(c.cutter_class, model::CutterTrait::kRamps) && !c.centre_cutting &&
       c.maximum_ramp_angle_rad == 0.0) {
-    c.maximum_ramp_angle_rad = kCautiousRampRad;
+    c.maximum_ramp_angle_rad = model::kUsualRampRad;
     f.note("centre_cutting", std::string(kNotStated) + ", held not to cut to the centre");
     f.note("maximum_ramp_angle_rad", std::string(kRampUnstated));
   }

@@ -5,6 +5,7 @@
 
 #include "planner/model/plan/borne_feed.h"
 #include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/cutter/ramp.h"
 
 namespace capstan::tooling {
 
@@ -12,11 +13,8 @@ namespace capstan::tooling {
 /// diameter, and records this in `sources`; stated values stay. Lengths stay consistent with stated ones:
 /// flutes and usable length within the stick-out, the stick-out within the length to the gage line.
 ///
-/// Centre cutting and ramp angle are not taken over: an unnamed end mill counts as not centre cutting, and as
-/// ramping at kCautiousRampRad.
-///
 /// Whether it cuts to the centre and how steeply it may ramp are not taken over: an unnamed end mill is held
-/// not to cut to the centre and to ramp at kCautiousRampRad.
+/// not to cut to the centre and to ramp at model::kUsualRampRad.
 void complete(model::Cutter& c, const std::vector<model::Cutter>& generic);
 
 using model::borrowed;
@@ -31,8 +29,6 @@ inline constexpr std::string_view kSubstrateUnstated = "default: the slower one"
 /// Text in the source of a generic preset whose speed is that of a coated edge. A cutter that is not stated
 /// to be coated takes the material's own speed.
 inline constexpr std::string_view kCoated = "(coated";
-
-inline constexpr double kCautiousRampRad = 3.0 * 3.14159265358979323846 / 180.0;  ///< default, unsourced
 
 /// The entry of a field in `sources`, or null.
 [[nodiscard]] const std::string* source_of(const model::Cutter& c, std::string_view field);

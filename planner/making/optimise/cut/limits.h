@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -127,7 +128,8 @@ inline constexpr double kSlowestSpeedShare = 0.25;
 
 /// Depth of a level at most. A rough one: mechanics::kDeepestSlotRatio diameters, sourced there for slots and
 /// taken for wider cuts, too, whose ways begin and end in slots. Where the engagement is constant there is no
-/// slot but the entry, which is a ramp or a helix.
+/// slot but the entry, which is a ramp or a helix. What the material allows of either (model::Ramp) comes by
+/// CutQuestion::ap_most_mm.
 [[nodiscard]] double deepest_level(const CutQuestion& q);
 
 /// Depth of a slot, in diameters, up to which speed and feed are those of the table, and what remains of each
@@ -136,6 +138,8 @@ inline constexpr double kSlowestSpeedShare = 0.25;
 ///           feed, 1.5 D at half.
 inline constexpr double kFullFeedSlotRatio = 0.5;
 inline constexpr double kDeepestSlotShare = 0.5;
+/// Contact from which a cut counts as a slot, rad: as wide as 0.994 D. Default, unsourced.
+inline constexpr double kSlotArc = 0.95 * std::numbers::pi;
 
 /// Share of the table's speed, and of its feed, in a slot of this depth; 1 where nothing is known.
 [[nodiscard]] double deep_slot_share(double ap_mm, double diameter_mm);

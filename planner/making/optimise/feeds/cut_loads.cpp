@@ -155,8 +155,7 @@ CutLoads::CutLoads(const FeedQuestion& question, double n_rpm)
 }
 
 double CutLoads::slot_share(const Cut& cut) const {
-  constexpr double kWholeArc = 0.95 * pi;  // as wide as 0.994 D
-  const bool slot = q_.kind == CutKind::kRough && cut.exit_rad - cut.entry_rad >= kWholeArc;
+  const bool slot = q_.kind == CutKind::kRough && cut.exit_rad - cut.entry_rad >= kSlotArc;
   return slot ? deep_slot_share(cut.ap_mm, q_.cutter.cutting_diameter_mm) : 1.0;
 }
 

@@ -14,6 +14,7 @@
 #include "planner/model/features/fit/general.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/stability.h"
@@ -68,8 +69,8 @@ double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::Feat
   return 0.0;
 }
 
-/// Zone of a size that states no tolerance, mm: the general one of the drawing, else what a careful shop
-/// holds where a drawing says nothing, ISO 2768-1 class f; 0: it has none for this size.
+/// Zone of a size that states no tolerance, mm: the general one of the drawing, else ISO 2768-1 class f
+/// (default, unsourced: which class a shop holds where a drawing says nothing); 0: none for this size.
 double general_zone_mm(const PlanSoFar& p, double size_mm) {
   model::GeneralTolerance fine;
   fine.size_class = 'f';
@@ -101,6 +102,23 @@ double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpat
   }
   const double zone = zone_across(p, step, job, q.width_mm);
   return zone > 0.0 ? std::max(kLeastDeflection, kWallOfZone * zone) : kFinishDeflection;
+}
+
+/// How much more than its allowance the last step before left on the feature's walls at most, mm: what its
+/// tip was bent, for a cutter that climbs is pushed off the wall. 0: no such step, or its bending is unknown.
+double left_by_bending_mm(const PlanSoFar& p, const StepDraft& step) {
+  const Model& m = p.plan.model;
+  for (auto r = p.plan.steps.rbegin(); r != p.plan.steps.rend(); ++r) {
+    const auto* ws = m.get<model::MachiningWorkingstep>(r->step);
+    if (ws == nullptr || AnyRef(ws->its_feature) != step.feature) continue;
+    const auto* side = m.get<model::SideMilling>(ws->its_operation);
+    const auto* both = m.get<model::BottomAndSideMilling>(ws->its_operation);
+    const double left = side != nullptr   ? side->allowance_side.value_or(0.0)
+                        : both != nullptr ? both->allowance_side.value_or(0.0)
+                                          : 0.0;
+    if (left > 0.0) return std::min(left, r->loads.deflection_mm);
+  }
+  return 0.0;
 }
 
 /// Sets the surface limits of a finishing step: roughness and form error. Roughing steps have none.
@@ -173,6 +191,18 @@ void start_at_point(optimise::CutQuestion& q, double wanted_vc_m_min) {
     const double least = q.cutter.fz_min_mm * q.engaged_diameter_mm / d;
     q.fz_start_mm = std::max(least, q.fz_start_mm * q.engaged_diameter_mm / d);
   }
+}
+
+/// Depth of a level at most where it begins with the cutter's whole width in the solid, between walls: rings
+/// with a slot, constant engagement with a bore along a helix; 0: it does not begin so.
+double deepest_slot_mm(const optimise::CutQuestion& q, const toolpath::PathJob& job) {
+  const bool walled = model::has(job.shape.kind, model::ShapeTrait::kWalled);
+  const bool hollow = job.left_on_side_mm || job.cleared_by ||
+                      job.previous_diameter_mm.value_or(0.0) >= q.cutter.cutting_diameter_mm;
+  // Narrow passes begin from an open side in the air; rings cut a slot there.
+  const bool from_air = q.constant_engagement && job.shape.open;
+  if (q.kind != CutKind::kRough || !walled || hollow || from_air) return 0.0;
+  return model::ramp_of(q.cutter, q.material).slot_depth_mm;
 }
 
 AnyRef technology_of(const PlanSoFar& p, const StepDraft& step) {
@@ -301,8 +331,10 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   }
   if (q.kind == CutKind::kRough) q.deflection_limit_mm = rough_bending_mm(p, step, job, q);
   if (q.kind == CutKind::kFinish) {
-    // Width: the allowance that the step before left on the walls; if unknown, the usual finishing allowance.
+    // Width: the allowance that the step before left on the walls, and what it left beside by its bending; if
+    // unknown, the usual finishing allowance.
     q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
+    if (job.left_on_side_mm) q.width_mm += left_by_bending_mm(p, step);
     const double zone = zone_across(p, step, job, width_of(job.shape));
     q.deflection_limit_mm =
         zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
@@ -357,6 +389,8 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.ap_mm = q.depth_mm = job.shape.depth_mm;
     q.width_mm = 0.5 * narrowing;
   }
+  if (const double slot = deepest_slot_mm(q, job); slot > 0.0 && !q.ap_mm)
+    q.ap_most_mm = q.ap_most_mm > 0.0 ? std::min(q.ap_most_mm, slot) : slot;
   hold_quality(p, step, job, q);
   q.peak_force_limit_n = most_force_n(p, step, q);
   q.override_locked = override_locked(p, step);

@@ -270,6 +270,8 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
     fq.samples = samples_of(*m, *out.path, step.cutter);
     fq.known_to_mm = m->known_to_mm;
     if (fq.cut.constant_engagement) optimise::enter_as_a_slot(fq, made.answer.ae_mm, *out.path);
+    const bool own_speed = step.open_technology ? !step.keep_speed : speed_was_planned(plan, step);
+    if (own_speed) optimise::slow_in_deep_slots(fq);
     // One pass over a surface, not levels: as deep and as wide as what roughing left there.
     if (fq.cut.as_measured || plan.model.holds<model::FreeformFinishMilling>(step.operation)) {
       for (const optimise::CutSample& sample : fq.samples) {

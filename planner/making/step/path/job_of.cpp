@@ -228,7 +228,7 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
   job.cutter = with_neck(p.wishes.library, step.cutter);
   const model::Ramp ramp = model::ramp_of(job.cutter, p.plan.material);
   job.ramp_angle_rad = ramp.angle_rad;
-  job.ramp_depth_mm = ramp.depth_mm;
+  job.ramp_depth_mm = ramp.slot_depth_mm;
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
   job.constant_engagement = step.constant_engagement.value_or(engages_constantly(p.plan, step));

@@ -96,12 +96,24 @@ void keep(model::Plan& plan, const draft::Recorded& recorded, const StepDraft& s
   plan.steps.push_back(std::move(r));
 }
 
-bool feed_was_planned(const model::Plan& plan, const StepDraft& step) {
+namespace {
+
+bool was_planned(const model::Plan& plan, const StepDraft& step, const char* attribute) {
   const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr || !op->its_technology.set()) return false;
-  const auto* d = plan.ledger.find(op->its_technology, "feedrate");
+  const auto* d = plan.ledger.find(op->its_technology, attribute);
   return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
          d->binder != model::Binder::kOperator;
+}
+
+}  // namespace
+
+bool feed_was_planned(const model::Plan& plan, const StepDraft& step) {
+  return was_planned(plan, step, "feedrate");
+}
+
+bool speed_was_planned(const model::Plan& plan, const StepDraft& step) {
+  return was_planned(plan, step, "spindle");
 }
 
 void keep_excess(const model::Model& m, const StepDraft& step, const optimise::FeedAnswer& feeds,

@@ -26,6 +26,8 @@ void append(toolpath::GeneratedPath& to, const toolpath::GeneratedPath& from);
 [[nodiscard]] std::vector<model::ActiveConstraint> active_of(const optimise::CutAnswer& answer);
 /// Whether the feed is one that planning bound before: then it is the most, and each move has its own.
 [[nodiscard]] bool feed_was_planned(const model::Plan& plan, const draft::StepDraft& step);
+/// The same of the speed.
+[[nodiscard]] bool speed_was_planned(const model::Plan& plan, const draft::StepDraft& step);
 /// By which share of itself a limit may be exceeded at one place of a path before the step counts as
 /// exceeding it. Sections come from cells (the height map's are a twentieth of the cutter wide and more), so
 /// that a width or depth of cut, and with it force, torque and power, is uncertain by about so much. Default,

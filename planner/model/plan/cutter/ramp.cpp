@@ -48,10 +48,10 @@ const Row& row_of(const WorkMaterial& m) {
 
 Ramp ramp_of(const Cutter& c, const WorkMaterial& m) {
   const double most = c.maximum_ramp_angle_rad;
-  if (!(most > 0.0)) return {.angle_rad = 0.0, .feed_share = kHalf};
   const Row& row = row_of(m);
-  const double usual_rad = kDegree * (c.substrate == Substrate::kCarbide ? row.carbide_deg : row.hss_deg);
   const double depth = row.depth_in_d * c.cutting_diameter_mm;
+  if (!(most > 0.0)) return {.angle_rad = 0.0, .feed_share = kHalf, .slot_depth_mm = depth};
+  const double usual_rad = kDegree * (c.substrate == Substrate::kCarbide ? row.carbide_deg : row.hss_deg);
   const Ramp usual{std::min(most, usual_rad), c.centre_cutting ? kAsInASlot : kHalf, depth};
   const Ramp steep{most, kHalf, depth};
   const bool faster =

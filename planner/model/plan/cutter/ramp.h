@@ -15,7 +15,9 @@ struct Ramp {
   double angle_rad = 0.0;  ///< 0: it must not ramp
   /// Of the feed that its flanks would have in a slot of the same depth, at most.
   double feed_share = 1.0;
-  double depth_mm = 0.0;  ///< deepest bore along a helix; chips must come out of it
+  /// Deepest slot milled in one level, and bore along a helix: chips must come out of it. Also of a cutter
+  /// that must not ramp.
+  double slot_depth_mm = 0.0;
 };
 
 /// The angle is that which the cutter's maker or the shop states; else that of the table by substrate and ISO

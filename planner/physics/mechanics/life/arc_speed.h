@@ -17,10 +17,9 @@ inline constexpr double kWholeSpeedWidth = 0.5;
 ///     width / diameter   5 %    10 %   15 %   20 %   25 %   30 %   40 %   50 % and more
 ///     speed / table      1.48   1.35   1.27   1.22   1.19   1.16   1.11   1.00
 ///
-/// Linear between; below 5 % as at 5 %. At most 1.3 in ISO 513 groups S and H (default, unsourced: what
-/// holds its heat or is hard has no table of its own). 1 in group N and in plastics, where not the heat of
-/// the edge bounds the speed, in a material without a group, and for high-speed steel, for the source is of
-/// solid carbide.
+/// Linear between; below 5 % as at 5 %. 1 in ISO 513 groups S and H, of which no source was found, in group N
+/// and in plastics, where not the heat of the edge bounds the speed, in a material without a group, and for
+/// high-speed steel, for the source is of solid carbide.
 ///
 /// Needs   a width above 0; else 1.
 /// Source  Dormer Pramet, milling catalogue 2021-22, p. 114, correction factors of solid carbide mills, 2

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <vector>
+
 #include "planner/making/optimise/feeds.h"
 #include "planner/physics/mechanics/life/arc_speed.h"
 #include "tests/making/optimise/cut/questions.h"
@@ -9,6 +12,7 @@ namespace {
 
 constexpr double kNarrow = 1.0;  // a tenth of the diameter
 constexpr double kFaster = 1.35;
+constexpr double kPi = std::numbers::pi;
 
 /// A ramp, a narrow cut, a slot and a rapid.
 model::CutterPath path() {
@@ -58,6 +62,59 @@ TEST(EntryAsASlot, ChangesNothingOfRings) {
   enter_as_a_slot(q, kNarrow, path());
   EXPECT_EQ(q.speed_factor, std::vector<double>(5, 1.0));
   EXPECT_EQ(q.feed_factor, std::vector<double>(5, 1.0));
+}
+
+/// Rings of a cutter of 10 mm: a slot 10 mm deep, as deep a wide cut that is none, and a slot 5 mm deep.
+FeedQuestion rings() {
+  FeedQuestion q = asked();
+  q.cut.constant_engagement = false;
+  q.cut.vc_table_m_min = kPi * q.cut.cutter.cutting_diameter_mm * q.n_rpm / 1000.0;
+  q.samples = {{.move = 1, .ap_mm = 10.0, .ae_mm = 10.0, .step_mm = 20.0, .exit_rad = kPi},
+               {.move = 2, .ap_mm = 10.0, .ae_mm = 9.0, .step_mm = 20.0, .exit_rad = 0.8 * kPi},
+               {.move = 3, .ap_mm = 5.0, .ae_mm = 10.0, .step_mm = 20.0, .exit_rad = kPi}};
+  return q;
+}
+
+// Dormer Pramet, milling catalogue 2021-22, p. 114: 0.75 of the speed at 1 D, all of it at 0.5 D.
+TEST(DeepSlots, AreCutAtThreeQuartersOfTheTablesSpeedWhereOneDiameterDeep) {
+  FeedQuestion q = rings();
+  slow_in_deep_slots(q);
+  EXPECT_NEAR(q.speed_factor[1], 0.75, 1e-9);
+  EXPECT_EQ(q.speed_factor[2], 1.0);
+  EXPECT_EQ(q.speed_factor[3], 1.0);
+}
+
+TEST(DeepSlots, AreNotCutMoreSlowlyWhereTheSpindleIsSlowerThanThatAlready) {
+  FeedQuestion q = rings();
+  q.cut.vc_table_m_min *= 2.0;
+  slow_in_deep_slots(q);
+  EXPECT_EQ(q.speed_factor, std::vector<double>(5, 1.0));
+}
+
+TEST(DeepSlots, ThatAreShorterThanADiameterInAllTheirMovesKeepTheSpeed) {
+  FeedQuestion q = rings();
+  q.samples[0].step_mm = 4.0;
+  q.samples[1] = {.move = 2, .ap_mm = 10.0, .ae_mm = 10.0, .step_mm = 5.0, .exit_rad = kPi};
+  slow_in_deep_slots(q);
+  EXPECT_EQ(q.speed_factor, std::vector<double>(5, 1.0));
+  q.samples[1].step_mm = 6.0;
+  slow_in_deep_slots(q);
+  EXPECT_NEAR(q.speed_factor[1], 0.75, 1e-9);
+  EXPECT_NEAR(q.speed_factor[2], 0.75, 1e-9);
+}
+
+TEST(DeepSlots, AreCutNoMoreSlowlyThanTheSpindleTurns) {
+  FeedQuestion q = rings();
+  q.cut.machine.spindle.rpm_min = 0.9 * q.n_rpm;
+  slow_in_deep_slots(q);
+  EXPECT_NEAR(q.speed_factor[1], 0.9, 1e-9);
+}
+
+TEST(DeepSlots, OfAStepThatIsAllSlotHaveItsSpeedWhichHasTheirShare) {
+  FeedQuestion q = rings();
+  q.cut.slot = true;
+  slow_in_deep_slots(q);
+  EXPECT_EQ(q.speed_factor, std::vector<double>(5, 1.0));
 }
 
 }  // namespace

@@ -23,8 +23,6 @@ constexpr double kLift = 0.3;
 /// last pass (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square
 /// corner is at most a twentieth of the radius deep. In a narrower place a cutter does not turn.
 constexpr double kLeastTurn = 0.125;
-/// A helix below this part of the radius leaves a hole in which a cutter cannot begin to wind out.
-constexpr double kLeastHelix = 0.2;
 /// More than this part of the radius is slotting, not clearing.
 constexpr double kMostRadial = 0.95;
 constexpr double kSameHeight = 1e-9;
@@ -150,12 +148,11 @@ class Adaptive {
     if (!(c_.task.cutter.maximum_ramp_angle_rad > 0.0))
       return unknown(c_.task, "cutter " + c_.task.cutter.id + " does not ramp");
     const Deepest d = deepest(piece);
-    const double flat = std::max(bite_.radius_mm - c_.task.cutter.corner_radius_mm, 0.5 * bite_.radius_mm);
-    const double turn = std::min(0.9 * flat, d.distance_mm);
-    const double least = (c_.task.cutter.centre_cutting ? kLeastHelix : 0.5) * bite_.radius_mm;
-    if (turn < least) {
+    const HelixRadii radii = helix_radii(c_.task.cutter);
+    const double turn = std::min(radii.usual, d.distance_mm);
+    if (turn < radii.least) {
       return unknown(c_.task, "a helix of " + trimmed(turn, 2) + " mm is the largest that fits, " +
-                                  trimmed(least, 2) + " mm is the least for cutter " + c_.task.cutter.id);
+                                  trimmed(radii.least, 2) + " mm is the least for cutter " + c_.task.cutter.id);
     }
     Track circle{.start = d.point + Vec2{turn, 0.0}, .segments = {}, .closed = true};
     const Bend bend = mirror_ ? Bend::kCw : Bend::kCcw;

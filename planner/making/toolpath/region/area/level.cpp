@@ -16,8 +16,6 @@ using model::MoveRole;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Helix radius as a part of the cutter's; below 1, so that no core is left; default, unsourced.
-constexpr double kHelixPart = 0.9;
 constexpr int kMostTurns = 5'000;
 constexpr double kSameHeight = 1e-6;  // mm
 
@@ -40,6 +38,16 @@ std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Ins
 }
 
 }  // namespace
+
+HelixRadii helix_radii(const model::Cutter& c) {
+  constexpr double kUsual = 0.9;  // of the flat; default, unsourced
+  constexpr double kLeast = 0.2, kLeastBesideTheCentre = 0.5;  // of the cutter's radius
+  const double radius = 0.5 * c.cutting_diameter_mm;
+  const double flat = std::max(radius - c.corner_radius_mm, 0.5 * radius);
+  return {.least = (c.centre_cutting ? kLeast : kLeastBesideTheCentre) * radius,
+          .usual = kUsual * flat,
+          .most = flat};
+}
 
 double stepover_of(const PathJob& task) {
   const double d = task.cutter.cutting_diameter_mm;
@@ -195,16 +203,15 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   const Deepest d = deepest(leaf);
   if (auto t = by_bore(level, track, d.point)) return t;
   const double room = geometry::distance_to_boundary(level.centres, d.point);
-  const double flat = std::max(radius_mm - task.cutter.corner_radius_mm, 0.5 * radius_mm);
-  const double least = task.cutter.centre_cutting ? 0.2 * radius_mm : 0.5 * radius_mm;
-  double r = kHelixPart * flat;
+  const HelixRadii radii = helix_radii(task.cutter);
+  double r = radii.usual;
   if (task.approach.kind == Approach::Kind::kHelix && task.approach.radius_mm > 0.0) {
-    r = std::min(task.approach.radius_mm, flat);
+    r = std::min(task.approach.radius_mm, radii.most);
     if (r < task.approach.radius_mm - 1e-9)
       warn("TPA-CHANGED", "helix radius " + trimmed(r, 3) + " mm: a core would stay in the given one");
   }
   r = std::min(r, room);
-  if (r < least) return std::nullopt;
+  if (r < radii.least) return std::nullopt;
   const Vec2 start{d.point.x + r, d.point.y};
   const Vec2 other{d.point.x - r, d.point.y};
   const double floor = bore_floor(level, d.point, r);

@@ -27,6 +27,14 @@ struct Level {
 /// Rings lie on the boundary of the centres; tests of inclusion use a region this much larger, mm.
 inline constexpr double kInsideSlack = 0.002;
 
+/// Radii of the helix by which a cutter may go down, mm.
+struct HelixRadii {
+  double least = 0.0;  ///< default, unsourced; larger where the edges do not reach the centre
+  double usual = 0.0;
+  double most = 0.0;  ///< beyond, a core stays that nothing cuts
+};
+[[nodiscard]] HelixRadii helix_radii(const model::Cutter& c);
+
 /// State and moves that the patterns share: the writer, the job, links between passes, ways into the
 /// material.
 class LevelCutter {
