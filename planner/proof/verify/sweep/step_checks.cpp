@@ -80,6 +80,15 @@ bool ring_on_a_neck(const model::Cutter& c, const Grid& grid) {
          0.5 * c.neck_diameter_mm > neck_slack(grid);
 }
 
+/// A helix that goes up or down by no more in a turn than the teeth are high, and no steeper than 45 degrees
+/// (default, unsourced): the flanks of its teeth cut its way. A left-hand thread is milled downwards.
+bool winds(const Move& m, double head_mm) {
+  if (!is_arc(m.kind)) return false;
+  const double turned = sweep_of(m), rise = std::abs(m.to.z - m.from.z);
+  if (!(turned > 0.0)) return false;
+  return rise * 2.0 * std::numbers::pi <= head_mm * turned && rise <= norm(xy(m.to) - m.centre) * turned;
+}
+
 /// Of what heights lose to a ring of teeth, what the ring itself takes from an upright wall: its own height.
 void of_a_ring(Bite& bite, double height_mm) {
   if (bite.contact_mm > height_mm) bite.volume_mm3 *= height_mm / bite.contact_mm;
@@ -153,6 +162,7 @@ void StepChecks::run() {
 void StepChecks::rapid(const Move& m) {
   helix_turned_ = 0.0;
   body(m);
+  ring_up(m);
   Vec2 where;
   const double dip = rapid_collision(grid_, m, *outline_, kRapidClearanceMm, where);
   if (dip > 0.0) {
@@ -183,7 +193,10 @@ void StepChecks::feed(const Move& m) {
     neck(m, grid_);
     return;
   }
-  if (before_ != nullptr) neck(m, *before_);
+  if (before_ != nullptr) {
+    neck(m, *before_);
+    ring_up(m);
+  }
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
   const double flutes = cutter_.maximum_depth_of_cut_mm, low = std::min(m.from.z, m.to.z);
@@ -242,7 +255,7 @@ void StepChecks::neck(const Move& m, const Grid& grid) {
   if (radius <= slack) return;  // not known, or too thin to be judged on these cells
   const double length = length_of(m);
   const int n = std::max(1, static_cast<int>(std::ceil(length / std::max(grid.cell(), 0.5 * radius))));
-  const bool falls = m.to.z < m.from.z - 1e-9;
+  const bool falls = m.to.z < m.from.z - 1e-9 && !(mills_threads(cutter_.cutter_class) && winds(m, head));
   for (int i = 0; i <= n; ++i) {
     const geometry::Vec3 p = point_of(m, static_cast<double>(i) / n);
     const double beside = grid.highest(xy(p), radius - slack) - (p.z + head);
@@ -257,6 +270,21 @@ void StepChecks::neck(const Move& m, const Grid& grid) {
       return;
     }
   }
+}
+
+// A ring of teeth that leaves its groove upwards tears off the thread: only a helix, or a way that goes aside
+// at least as far as up, leads it out. Heights do not show it, for they lose all material over the ring.
+void StepChecks::ring_up(const Move& m) {
+  const double rise = m.to.z - m.from.z, head = cutter_.maximum_depth_of_cut_mm;
+  if (before_ == nullptr || rise <= 1e-9) return;
+  const bool aside = !is_arc(m.kind) && norm(xy(m.to) - xy(m.from)) >= rise;
+  if (m.kind != MoveKind::kRapid && (aside || winds(m, head))) return;
+  const double into = before_->highest(xy(m.from), radius_ - neck_slack(grid_)) - (m.from.z + head);
+  if (into <= kSlackMm) return;
+  out_.error(11, "CHK-HEAD", at(m),
+             "the tool goes up and its head runs " + mm(into) + " into material at " + here(xy(m.from)) +
+                 " (cells of " + mm(grid_.cell()) + ")",
+             into);
 }
 
 void StepChecks::gouge(const Move& m, const Bite& bite) {

@@ -41,6 +41,7 @@ class StepChecks {
   void feed(const Move& m);
   void gouge(const Move& m, const Bite& bite);
   void neck(const Move& m, const Grid& grid);
+  void ring_up(const Move& m);
   void head(const Move& m);
   [[nodiscard]] bool follows_finished();
   void contact(const Move& m, const Bite& bite);
