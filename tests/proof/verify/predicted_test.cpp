@@ -184,6 +184,41 @@ TEST(PredictedSpeed, OfABallIsThatOfTheWidestCircleThatCuts) {
   EXPECT_FALSE(of(k, "CHK-SPEED-MATERIAL").empty() && of(k, "CHK-EDGE-LIFE").empty());
 }
 
+/// A spot of 2 mm with a cone of 90 degrees and 8 mm, which cuts on a circle of 4 mm.
+PlanMaker spot(double card, double rpm) {
+  PlanMaker k = plan_in(25, card, model::Substrate::kCarbide);
+  model::Cutter& c = k.plan.cutters[1];
+  c.cutter_class = model::CutterClass::kSpotDrill;
+  c.point_angle_rad = 0.5 * std::numbers::pi;
+  c.presets.clear();
+  model::CutterPath p;
+  p.start({15, 15, 10});
+  p.rapid({15, 15, 2});
+  p.line({15, 15, -2}, testing::MoveRole::kDrill);
+  p.rapid({15, 15, 10}, testing::MoveRole::kRetract);
+  const auto* drilled = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+  const auto feature = drilled->its_feature;
+  k.plan.steps.pop_back();
+  const auto& s = k.step<model::CenterDrilling>("spot", feature, "d8", p, 0.1 * rpm, rpm);
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(s.step);
+  k.plan.model.get<model::CenterDrilling>(ws->its_operation)->cutting_depth = 2.0;
+  return k;
+}
+
+bool told_of_spot(const PlanMaker& k) {
+  auto all = of(k, "CHK-SPEED-MATERIAL");
+  const auto life = of(k, "CHK-EDGE-LIFE");
+  all.insert(all.end(), life.begin(), life.end());
+  return std::any_of(all.begin(), all.end(), [](const auto& f) { return f.step == "spot"; });
+}
+
+// The card's speed on the small circle is twice that of the tool's diameter; three times as fast is not borne.
+TEST(PredictedSpeed, OfASpotIsThatOfTheCircleThatIsIn) {
+  const double rpm = 1000.0 * kSpeed / (std::numbers::pi * 4.0);
+  EXPECT_FALSE(told_of_spot(spot(kSpeed, rpm)));
+  EXPECT_TRUE(told_of_spot(spot(kSpeed, 3.0 * rpm)));
+}
+
 /// A finishing of a free surface with a ball of 10 mm, 0.5 mm deep, carbide's card at 41 m/min: on a level
 /// floor it cuts at 41 m/min, on a steep one at 94.
 PlanMaker freeform(double life_min) {

@@ -99,7 +99,7 @@ bool substrate_assumed(const model::Cutter& c) {
                      [](const auto& s) { return s.first == "substrate" && s.second.starts_with("default"); });
 }
 
-/// Whether it is the whole diameter that cuts; of cones nobody knows which part does.
+/// Whether it is the whole diameter that cuts; of cones it is the part that is in (`spot_diameter`).
 bool tells_speed(const model::Cutter& c) {
   if (cuts_by_point(c.cutter_class) || c.cutter_class == CutterClass::kTouchProbe) return false;
   return c.cutting_diameter_mm > 0.0;
@@ -112,6 +112,22 @@ double contact_diameter(const model::Cutter& c, double depth_mm) {
   const double r = c.cutter_class == CutterClass::kBallEndmill ? 0.5 * d : c.corner_radius_mm;
   if (!(r > 0.0) || !(depth_mm > 0.0) || depth_mm >= r) return d;
   return d - 2.0 * r + 2.0 * std::sqrt(depth_mm * (2.0 * r - depth_mm));
+}
+
+/// Of a cone that goes down to a stated depth, as spots and countersinks are made, the widest circle that
+/// cuts: tip + 2 depth tan(point / 2); 0: not known.
+double spot_diameter(const model::Plan& plan, const StepMoves& s) {
+  const model::Cutter& c = *s.cutter;
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.planned->step);
+  if (ws == nullptr || !cuts_by_point(c.cutter_class) || !(c.point_angle_rad > 0.0)) return 0.0;
+  const auto* spots = plan.model.get<model::CenterDrilling>(ws->its_operation);
+  const auto* sinks = plan.model.get<model::CounterSinking>(ws->its_operation);
+  const auto depth = spots != nullptr   ? spots->cutting_depth
+                     : sinks != nullptr ? sinks->cutting_depth
+                                        : std::optional<double>{};
+  if (!depth || !(*depth > 0.0)) return 0.0;
+  return std::min(c.cutting_diameter_mm,
+                  c.tip_diameter_mm + 2.0 * *depth * std::tan(0.5 * c.point_angle_rad));
 }
 
 /// Cutting of one tool, in edges that it takes.
@@ -158,7 +174,8 @@ class Speed {
 
  private:
   bool judged(const Reference& ref) {
-    const double level = tells_speed(c_) ? contact_diameter(c_, s_.planned->axial_depth_mm) : 0.0;
+    const double level =
+        tells_speed(c_) ? contact_diameter(c_, s_.planned->axial_depth_mm) : spot_diameter(plan_, s_);
     // On a steep surface a round nose touches up to its whole diameter, however thin the layer is.
     const double widest = level > 0.0 && freeform() ? c_.cutting_diameter_mm : level;
     vc_ = speed(widest);
