@@ -435,14 +435,24 @@ TEST(PredictedBending, OfAToolThatReachesTheFinishedWallIsTold) {
   ASSERT_NE(ws, nullptr);
   auto* op = k.plan.model.get<model::BottomAndSideMilling>(ws->its_operation);
   ASSERT_NE(op, nullptr);
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  // The next pass is to find five edge radii, 0.04 mm.
   op->allowance_side = 0.3;
-  k.plan.steps[0].loads.deflection_mm = 0.29;
+  k.plan.steps[0].loads.deflection_mm = 0.26;
   EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  k.plan.steps[0].loads.deflection_mm = 0.29;
+  EXPECT_EQ(of(k, "CHK-BENDING").size(), 1u);
   op->allowance_side = 0.1;
-  k.plan.steps[0].loads.deflection_mm = 0.11;
+  k.plan.steps[0].loads.deflection_mm = 0.1;
   const auto found = of(k, "CHK-BENDING");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_THAT(found[0].message, HasSubstr("what it leaves on its walls"));
+  EXPECT_THAT(found[0].message, HasSubstr("at most 0.06 mm of the 0.1 mm that it leaves on its walls"));
+  // An allowance of 3 mm does not let it bend by 3 mm.
+  op->allowance_side = 3.0;
+  k.plan.steps[0].loads.deflection_mm = 0.39;
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  k.plan.steps[0].loads.deflection_mm = 0.41;
+  EXPECT_EQ(of(k, "CHK-BENDING").size(), 1u);
 }
 
 // Flutes of 25 mm on 10 mm of carbide: I = pi 8^4 / 64 = 201.06 mm4, so that 2000 N are 2000 * 25 * 5 / I =

@@ -43,6 +43,9 @@ constexpr double kBreakingNMm2 = 3500.0;
 /// Of a tolerance zone: what one wall may be pushed by and be within it at all, and what both walls of a
 /// pocket or slot may be, each. Derived: a size in the middle of its zone has half of it on either side.
 constexpr double kWallOfZone = 0.5, kBothOfZone = 0.25;
+constexpr double kAsWritten = 1.001;  ///< by which a length may be off through its decimals
+/// However much is left, a tool that bends by more is not cutting where it is led. Default, unsourced.
+constexpr double kMostIntoLeftMm = 0.4;
 constexpr double kModelErrorMm = 0.005;  ///< below, the model's own error rules; default, unsourced
 
 /// What is known of a cutter's speed in a material.
@@ -355,6 +358,14 @@ double left_on_walls(const model::Plan& plan, const model::MachiningWorkingstep*
   return 0.0;
 }
 
+/// How far into what a step leaves its tool may bend, mm: the next pass must find what it can cut at all, but
+/// a thin allowance may be used by half.
+double into_left(const model::Plan& plan, const model::Cutter& c, double left_mm) {
+  const double next = mechanics::least_depth_mm(c.cutting_diameter_mm, c.substrate == Substrate::kHss,
+                                                plan.material.iso_group);
+  return std::min(kMostIntoLeftMm, std::max(0.5 * left_mm, left_mm - next));
+}
+
 void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMoves& s, Findings& findings) {
   const model::StepLoads& l = s.planned->loads;
   const model::Cutter& c = *s.cutter;
@@ -392,18 +403,17 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
                     wall);
     return;
   }
-  // What no tolerance judges is held against what the step leaves on its walls: bent by more, a tool reaches
-  // the finished wall. And a tool that bends by less than that may still be bent too often.
+  // What no tolerance judges is held against what the step leaves on its walls: bent by all of it, a tool
+  // reaches the finished wall. And a tool that bends by less than that may still be bent too often.
   const double bent = std::max(l.deflection_mm, wall);
   if (stress > kBreakingNMm2 || !mills) return;
   const double left = left_on_walls(plan, ws);
-  const double most = left > 0.0 ? left : kMeasured * kMostBentMm;
+  const double bears = left > 0.0 ? into_left(plan, c, left) : kMostBentMm;
   const double tires = flute_stress(c, l.peak_force_n);
-  if (bent > most)
+  if (bent > (left > 0.0 ? kAsWritten : kMeasured) * bears)
     findings.warn(21, "CHK-BENDING", at,
-                  "tool " + c.id + " bends by " + mm(bent) + load + "; at most " +
-                      mm(left > 0.0 ? left : kMostBentMm) +
-                      (left > 0.0 ? ", what it leaves on its walls" : "") + stiffer,
+                  "tool " + c.id + " bends by " + mm(bent) + load + "; at most " + mm(bears) +
+                      (left > 0.0 ? " of the " + mm(left) + " that it leaves on its walls" : "") + stiffer,
                   bent);
   else if (tires > kMeasured * endurance(c))
     findings.warn(21, "CHK-BENDING", at,
