@@ -474,6 +474,30 @@ TEST(PredictedBending, ThatTiresTheToolIsTold) {
   EXPECT_THAT(found[0].message, HasSubstr("a stress of 1243 N/mm2"));
 }
 
+// A neck of 8 mm that ends 38 mm above the tip: 32 x 1500 N x 38 / (pi 8^3) = 1134; the flutes bear 932.
+TEST(PredictedBending, ThatTiresTheNeckIsTold) {
+  PlanMaker k = testing::good_plan();
+  model::Cutter& c = k.plan.cutters[0];
+  c.substrate = model::Substrate::kCarbide;
+  c.maximum_depth_of_cut_mm = 25.0;
+  c.stick_out_mm = 40.0;
+  k.plan.steps[0].loads.deflection_mm = 0.05;
+  k.plan.steps[0].loads.peak_force_n = 1500.0;
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  c.neck_diameter_mm = 8.0;
+  c.neck_length_mm = 38.0;
+  auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("a stress of 1134 N/mm2 in its neck"));
+  // A shank of 8 mm that is 70 mm out: 32 x 1500 x 70 / (pi 8^3) = 2089.
+  c.neck_diameter_mm = 0.0;
+  c.shank_diameter_mm = 8.0;
+  c.stick_out_mm = 70.0;
+  found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("a stress of 2089 N/mm2 in its shank"));
+}
+
 // Carbide of 10 mm, 40 mm out, bent by 1 mm: 1.5 x 580000 x 10 x 1 / 40^2 = 5437 N/mm2.
 TEST(PredictedBending, ThatBreaksTheToolIsAnError) {
   PlanMaker k = testing::good_plan();

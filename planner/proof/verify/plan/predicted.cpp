@@ -38,7 +38,9 @@ constexpr double kCardShort = 1.5;
 /// textbook's law are uncertain by a factor of two (mechanics/life/life.h).
 constexpr double kSurelyWorn = 2.0;
 /// Bending stress at which a shank surely breaks or stays bent, N/mm2: transverse rupture strengths of
-/// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced.
+/// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced. The
+/// 2131 behind kCarbideEnduranceNMm2 (mechanics/constants.h) are the mean of one test's blanks, from which
+/// a tool is not to be loaded; an error is only what hardly any grade bears.
 constexpr double kBreakingNMm2 = 3500.0;
 /// Of a tolerance zone: what one wall may be pushed by and be within it at all, and what both walls of a
 /// pocket or slot may be, each. Derived: a size in the middle of its zone has half of it on either side.
@@ -344,6 +346,29 @@ double flute_stress(const model::Cutter& c, double force_n) {
   return lever > 0.0 ? force_n * lever * 0.5 * c.cutting_diameter_mm / inertia : 0.0;
 }
 
+/// The largest stress of a tool that is loaded at its tip, N/mm2, and the part of it that bears that.
+struct Weakest {
+  double stress_n_mm2;
+  const char* part;
+};
+
+/// Of flutes, neck and shank, each where it is held: a round bar bears 32 F L / (pi d^3) there, L from the
+/// tip. What a longer part hides is none.
+Weakest weakest(const model::Cutter& c, double force_n) {
+  Weakest out{flute_stress(c, force_n), "flutes"};
+  double from = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
+  const auto bar = [&](const char* part, double diameter_mm, double to_mm) {
+    const double lever = std::min(to_mm, c.stick_out_mm);
+    if (!(diameter_mm > 0.0) || lever <= from) return;
+    from = lever;
+    const double stress = 32.0 * force_n * lever / (std::numbers::pi * std::pow(diameter_mm, 3));
+    if (stress > out.stress_n_mm2) out = {stress, part};
+  };
+  bar("neck", c.neck_diameter_mm, c.neck_length_mm);
+  bar("shank", c.shank_diameter_mm, c.stick_out_mm);
+  return out;
+}
+
 double endurance(const model::Cutter& c) {
   return c.substrate == Substrate::kCarbide ? mechanics::kCarbideEnduranceNMm2 : mechanics::kHssEnduranceNMm2;
 }
@@ -409,17 +434,18 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
   if (stress > kBreakingNMm2 || !mills) return;
   const double left = left_on_walls(plan, ws);
   const double bears = left > 0.0 ? into_left(plan, c, left) : kMostBentMm;
-  const double tires = flute_stress(c, l.peak_force_n);
+  const Weakest tires = weakest(c, l.peak_force_n);
   if (bent > (left > 0.0 ? kAsWritten : kMeasured) * bears)
     findings.warn(21, "CHK-BENDING", at,
                   "tool " + c.id + " bends by " + mm(bent) + load + "; at most " + mm(bears) +
                       (left > 0.0 ? " of the " + mm(left) + " that it leaves on its walls" : "") + stiffer,
                   bent);
-  else if (tires > kMeasured * endurance(c))
+  else if (tires.stress_n_mm2 > kMeasured * endurance(c))
     findings.warn(21, "CHK-BENDING", at,
-                  "the flutes of tool " + c.id + " bear a stress of " + trimmed(tires, 0) + " N/mm2" + load +
-                      "; for all the bites of its life they bear " + trimmed(endurance(c), 0) + stiffer,
-                  tires);
+                  "tool " + c.id + " bears a stress of " + trimmed(tires.stress_n_mm2, 0) + " N/mm2 in its " +
+                      tires.part + load + "; for all the bites of its life it bears " +
+                      trimmed(endurance(c), 0) + stiffer,
+                  tires.stress_n_mm2);
 }
 
 }  // namespace
