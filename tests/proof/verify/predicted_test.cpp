@@ -83,6 +83,10 @@ TEST(PredictedSpeed, ThatBurnsTheEdgeWithinItsStepIsAnError) {
   EXPECT_EQ(found[0].step, "pocket");
 }
 
+bool speed_told(const PlanMaker& k) {
+  return !of(k, "CHK-SPEED-MATERIAL").empty() || !of(k, "CHK-EDGE-LIFE").empty();
+}
+
 /// The pocket's step instead goes to and fro along the block's side, `width` further in with each pass, its
 /// first one from outside: all of its cuts are as wide.
 PlanMaker along_the_side(double card, double width) {
@@ -122,6 +126,29 @@ TEST(PredictedSpeed, IsToldOfWhereItIsMoreThanShortArcsBear) {
 TEST(PredictedSpeed, ThatShortArcsBearIsToldOfInASlot) {
   EXPECT_EQ(of(along_the_side(kSpeed / 1.6, 10.0), "CHK-SPEED-MATERIAL").size(), 1u);
   EXPECT_EQ(of(plan_in(25, kSpeed / 1.6, model::Substrate::kCarbide), "CHK-SPEED-MATERIAL").size(), 1u);
+}
+
+// Six cuts of a tenth of the diameter, the last of them at y = 1, and a short slot at its end.
+TEST(PredictedSpeed, ThatShortArcsBearIsToldOfWhereASlotIsAmongThem) {
+  PlanMaker k = along_the_side(kSpeed / 1.6, 1.0);
+  EXPECT_FALSE(speed_told(k));
+  model::CutterPath p = *k.plan.steps[0].path;
+  model::FeedSchedule s = *k.plan.steps[0].schedule;
+  p.line({50, 1, 2}, model::MoveRole::kLink);
+  p.line({50, -6, 2}, model::MoveRole::kLink);
+  p.line({50, -6, -4}, model::MoveRole::kApproach);
+  p.line({50, 30, -4}, model::MoveRole::kCut);
+  p.rapid({50, 30, 10}, model::MoveRole::kRetract);
+  s.feed_mm_min.resize(p.size(), 600.0);
+  s.spindle_rpm.resize(p.size(), 3000.0);
+  s.dwell_s.resize(p.size(), 0.0);
+  k.plan.steps[0].path = std::make_shared<model::CutterPath>(p);
+  k.plan.steps[0].schedule = std::make_shared<model::FeedSchedule>(s);
+  EXPECT_TRUE(speed_told(k));
+  // At the table's speed it is right.
+  for (std::size_t i = p.size() - 3; i < p.size(); ++i) s.spindle_rpm[i] = 3000.0 / 1.6;
+  k.plan.steps[0].schedule = std::make_shared<model::FeedSchedule>(s);
+  EXPECT_FALSE(speed_told(k));
 }
 
 TEST(PredictedSpeed, ThatShortArcsOfCarbideBearIsToldOfWithHssAndInAluminium) {
@@ -230,10 +257,6 @@ PlanMaker freeform(double life_min) {
   k.plan.steps[0].axial_depth_mm = 0.5;
   k.plan.steps[0].loads.tool_life_min = life_min;
   return k;
-}
-
-bool speed_told(const PlanMaker& k) {
-  return !of(k, "CHK-SPEED-MATERIAL").empty() || !of(k, "CHK-EDGE-LIFE").empty();
 }
 
 // 15 min at 41 m/min; at 1.25 times less speed 15 x 1.25^4 = 36.6 min, and at 1.25 times more 6.1.

@@ -29,7 +29,7 @@ class StepChecks {
   /// Whether it cut anything: known after `run`.
   [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
   /// After `run`: the speed at which an edge in the cut for a quarter turn would wear as the step's edges do,
-  /// over their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material
+  /// and no less than that of its wide cuts, over their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material
   /// whose speed no heat bounds).
   [[nodiscard]] double speed_share() const;
   /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
@@ -51,7 +51,7 @@ class StepChecks {
   void spindle(const Move& m, const Bite& bite);
   void account(const Move& m, const Bite& bite);
   void settle();
-  void heat();
+  void heat(bool measured);
   void power(double volume, double minutes, double chip_mm);
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
   void chips(const Move& m, const Bite& bite, double fz);
@@ -107,6 +107,7 @@ class StepChecks {
   } sum_;
   bool arcs_count_ = false;                                     ///< a short arc of contact bears more speed
   double heated_min_ = 0.0, heated_ = 0.0, fastest_rpm_ = 0.0;  ///< minutes; times speed to 1 / n; 1/min
+  double widest_rpm_ = 0.0;                                     ///< the fastest of cuts half as wide as it is
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };
 
