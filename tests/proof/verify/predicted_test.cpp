@@ -474,7 +474,7 @@ TEST(PredictedBending, OfAToolThatReachesTheFinishedWallIsTold) {
   op->allowance_side = 3.0;
   k.plan.steps[0].loads.deflection_mm = 0.39;
   EXPECT_TRUE(of(k, "CHK-BENDING").empty());
-  k.plan.steps[0].loads.deflection_mm = 0.41;
+  k.plan.steps[0].loads.deflection_mm = 0.45;
   EXPECT_EQ(of(k, "CHK-BENDING").size(), 1u);
 }
 

@@ -45,7 +45,6 @@ constexpr double kBreakingNMm2 = 3500.0;
 /// Of a tolerance zone: what one wall may be pushed by and be within it at all, and what both walls of a
 /// pocket or slot may be, each. Derived: a size in the middle of its zone has half of it on either side.
 constexpr double kWallOfZone = 0.5, kBothOfZone = 0.25;
-constexpr double kAsWritten = 1.001;  ///< by which a length may be off through its decimals
 /// However much is left, a tool that bends by more is not cutting where it is led. Default, unsourced.
 constexpr double kMostIntoLeftMm = 0.4;
 constexpr double kModelErrorMm = 0.005;  ///< below, the model's own error rules; default, unsourced
@@ -435,7 +434,7 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
   const double left = left_on_walls(plan, ws);
   const double bears = left > 0.0 ? into_left(plan, c, left) : kMostBentMm;
   const Weakest tires = weakest(c, l.peak_force_n);
-  if (bent > (left > 0.0 ? kAsWritten : kMeasured) * bears)
+  if (bent > kMeasured * bears)
     findings.warn(21, "CHK-BENDING", at,
                   "tool " + c.id + " bends by " + mm(bent) + load + "; at most " + mm(bears) +
                       (left > 0.0 ? " of the " + mm(left) + " that it leaves on its walls" : "") + stiffer,
