@@ -15,7 +15,6 @@ namespace capstan::verify {
 using geometry::Vec2;
 using model::CutterClass;
 using model::MoveKind;
-using model::MoveRole;
 
 namespace {
 
@@ -61,17 +60,6 @@ double into_hole_walls(const std::vector<volumes::Form>& shapes, const geometry:
   }
   return worst;
 }
-bool cuts_to_centre(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-      return true;
-    default:
-      return c.centre_cutting;
-  }
-}
-
 /// What a neck must be thicker than to be judged on these cells.
 double neck_slack(const Grid& grid) { return 1.5 * grid.cell(); }
 
@@ -125,6 +113,7 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
   arcs_count_ = op != nullptr && !finishes(model::AnyRef(ws->its_operation).type) && is_mill(cutter_) &&
                 cutter_.substrate == model::Substrate::kCarbide && outline_->ball() == nullptr &&
                 cutter_.taper_angle_rad == 0.0 && cutter_.lead_angle_rad == 0.0;
+  ramp_chosen_ = ws != nullptr && chose_ramp(plan, *ws);
   std::string why;
   if (undercuts(cutter_.cutter_class)) {
     why = "an undercut is not held as heights";
@@ -377,45 +366,6 @@ void StepChecks::body(const Move& m) {
                      here(xy(at_point)) + " with the tip at z = " + plain(z),
                  into);
     }
-  }
-}
-
-void StepChecks::entry(const Move& m, const Bite& bite) {
-  const double dz = m.to.z - m.from.z;
-  if (dz >= -1e-9) {
-    helix_turned_ = 0.0;
-    return;
-  }
-  const double along = is_arc(m.kind) ? norm(xy(m.to) - m.centre) * sweep_of(m) : norm(xy(m.to) - xy(m.from));
-  const double angle = std::atan2(-dz, along);
-  const bool core = bite.core_mm > 0.05;
-  if (along < 1e-6 || angle > 1.5533) {  // steeper than 89 degrees
-    if (core && !cuts_to_centre(cutter_)) {
-      out_.error(14, "CHK-PLUNGE", at(m),
-                 "the tool does not cut to its centre, but plunges " + mm(-dz) + " into solid material", -dz);
-    }
-    return;
-  }
-  // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
-  const bool ramp = m.role_known && m.role == MoveRole::kRamp;
-  const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
-  if (!core || mills_threads(cutter_.cutter_class) || (shaped && !ramp)) return;
-  const double most = cutter_.maximum_ramp_angle_rad;
-  const double degrees = 180.0 / std::numbers::pi;
-  if (angle > most + 1e-4) {
-    out_.error(14, "CHK-RAMP", at(m),
-               "a ramp of " + plain(angle * degrees) + " degrees; the tool may " +
-                   (most > 0.0 ? "ramp at " + plain(most * degrees) + " degrees at most" : "not ramp"),
-               angle);
-  }
-  if (!is_arc(m.kind)) return;
-  helix_turned_ += sweep_of(m);
-  const double helix = norm(xy(m.to) - m.centre);
-  if (helix_turned_ > 2.0 * std::numbers::pi - 1e-6 && helix > radius_ + 1e-6) {
-    out_.error(14, "CHK-HELIX", at(m),
-               "a helix of diameter " + mm(2.0 * helix) + " leaves a core; the cutter's diameter is " +
-                   mm(2.0 * radius_),
-               helix);
   }
 }
 

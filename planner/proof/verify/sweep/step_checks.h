@@ -48,6 +48,7 @@ class StepChecks {
   void reach(const Move& m);
   void body(const Move& m);
   void entry(const Move& m, const Bite& bite);
+  void chosen_ramp(const Move& m, double angle_rad);
   void spindle(const Move& m, const Bite& bite);
   void account(const Move& m, const Bite& bite);
   void settle();
@@ -89,6 +90,7 @@ class StepChecks {
   double rubbed_mm_ = 0.0;     ///< way in material at feeds below the thinnest chip
   double rubbed_at_mm_ = 0.0;  ///< the lowest feed per tooth there
   Findings::Where rubbed_ = {};
+  bool ramp_chosen_ = false;   ///< by planning: neither the path nor its angle is the file's
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
   double cut_mm3_ = 0.0;       ///< by the step so far
   bool met_ = false;           ///< a head that heights do not follow was in material
@@ -111,6 +113,8 @@ class StepChecks {
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };
 
+/// Whether planning chose how steep the step goes down: it made the path, and the file asks for no angle.
+[[nodiscard]] bool chose_ramp(const model::Plan& plan, const model::MachiningWorkingstep& ws);
 [[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);
 [[nodiscard]] bool works_along_axis(const model::Cutter& c);
 /// Motor power and torque for continuous running at a speed, between the curve's points; power linear
