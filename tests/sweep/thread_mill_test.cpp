@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "planner/door/pipeline/pipeline.h"
+#include "tests/removal/drawing.h"
+#include "tests/support/shop.h"
 #include "tests/sweep/sweep.h"
 
 // A thread mill of the library is a ring of teeth on a neck. Heights hold no groove, so that the check looks
@@ -55,6 +57,99 @@ TEST(ThreadMill, WhoseNeckDoesNotPassTheCoreIsFound) {
 
 TEST(ThreadMill, WhoseNeckIsNotStatedCutsWithAllOfItsLength) {
   EXPECT_TRUE(has(with_neck(0.0), "CHK-FLUTE"));
+}
+
+model::StepResult& milling_step(model::Plan& plan) {
+  return *std::find_if(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
+    return model::find_cutter(plan, s.cutter_id)->cutter_class == model::CutterClass::kThreadMill;
+  });
+}
+
+/// What the check says where the step ends in the middle of its thread: `kind` straight up from there.
+std::vector<model::Finding> pulled_up(model::MoveKind kind) {
+  model::Plan plan = milled_thread().made.plan;
+  model::StepResult& s = milling_step(plan);
+  model::CutterPath path = *s.path;
+  model::FeedSchedule schedule = *s.schedule;
+  const std::size_t last = path.size() - 1, at = last / 2;
+  EXPECT_EQ(path.role[at], model::MoveRole::kCut);
+  const geometry::Vec3 up{path.x[at], path.y[at], path.z[last]};
+  model::CutterPath cut;
+  cut.start({path.x[0], path.y[0], path.z[0]});
+  model::FeedSchedule fed{{schedule.feed_mm_min[0]}, {schedule.spindle_rpm[0]}, {0.0}};
+  for (std::size_t i = 1; i <= at + 1; ++i) {
+    const geometry::Vec3 to{path.x[i], path.y[i], path.z[i]};
+    if (i > at && kind == model::MoveKind::kRapid)
+      cut.rapid(up, model::MoveRole::kRetract);
+    else if (i > at)
+      cut.line(up, model::MoveRole::kCut);
+    else if (path.kind[i] == model::MoveKind::kRapid)
+      cut.rapid(to, path.role[i]);
+    else if (path.kind[i] == model::MoveKind::kLine)
+      cut.line(to, path.role[i]);
+    else
+      cut.arc(to, {path.cx[i], path.cy[i]}, path.kind[i] == model::MoveKind::kArcCw, path.role[i]);
+    fed.feed_mm_min.push_back(schedule.feed_mm_min[i]);
+    fed.spindle_rpm.push_back(schedule.spindle_rpm[i]);
+    fed.dwell_s.push_back(0.0);
+  }
+  s.path = std::make_shared<model::CutterPath>(std::move(cut));
+  s.schedule = std::make_shared<model::FeedSchedule>(std::move(fed));
+  Job quiet;
+  return pipeline::checked(std::move(plan), quiet).findings;
+}
+
+// MakesAThreadWhereTheMachineDoesNotTap is the same thread with its lead-out.
+TEST(ThreadMill, ThatIsPulledUpThroughItsThreadIsFound) {
+  EXPECT_TRUE(has(pulled_up(model::MoveKind::kRapid), "CHK-HEAD"));
+  EXPECT_TRUE(has(pulled_up(model::MoveKind::kLine), "CHK-HEAD"));
+}
+
+/// A left-hand M10 on a machine that taps: the library has no tap that turns left.
+pipeline::Checked left_hand(bool through) {
+  removal::Drawing d("LEFT HAND", {{0.0, 0.0, -24.0}, {40.0, 40.0, 0.0}});
+  const auto at = d.placement({20, 20, 0});
+  const auto core = through ? d.hole_of("CORE", at, 24, d.length(8.5, 0.15, 0.05), d.through_bottom())
+                            : d.hole_of("CORE", at, 18, d.length(8.5, 0.15, 0.05), d.conical_bottom(118));
+  d.thread("M10", at, through ? 24 : 12, core, 10, 1.5);
+  std::string text = d.text();
+  const std::string right = "DESCRIPTIVE_PARAMETER('hand','right')";
+  text.replace(text.find(right), right.size(), "DESCRIPTIVE_PARAMETER('hand','left')");
+  Job quiet;
+  pipeline::ShopFiles files;
+  files.machine = "generic_vmc";
+  auto in = pipeline::load_shop(files, quiet);
+  in->material_name = "C45";
+  return *pipeline::bind_checked(*pipeline::read_plan(text, "left.p21", quiet), *in, {}, quiet);
+}
+
+// A right-hand cutter climbs counter-clockwise: the left-hand helix goes down.
+TEST(ThreadMill, MakesALeftHandThreadFromTheTopDown) {
+  for (const bool through : {true, false}) {
+    const pipeline::Checked made = left_hand(through);
+    ASSERT_TRUE(made.plan.unplanned.empty()) << made.plan.unplanned.front().reason;
+    for (const auto& f : made.findings) EXPECT_NE(f.severity, Severity::kError) << f.code << " " << f.message;
+    model::Plan plan = made.plan;
+    const model::CutterPath& path = *milling_step(plan).path;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      EXPECT_TRUE(path.role[i] != model::MoveRole::kCut || path.z[i] < path.z[i - 1]) << i;
+  }
+}
+
+// Straight down its teeth have nothing that cuts.
+TEST(ThreadMill, ThatGoesStraightDownIntoItsThreadIsFound) {
+  model::Plan plan = left_hand(false).plan;
+  model::StepResult& s = milling_step(plan);
+  model::CutterPath path = *s.path;
+  const auto first = static_cast<std::size_t>(
+      std::find_if(path.kind.begin(), path.kind.end(), [](model::MoveKind k) { return model::is_arc(k); }) - path.kind.begin());
+  ASSERT_LT(first + 2, path.size());
+  path.kind[first + 1] = model::MoveKind::kLine;
+  path.x[first + 1] = path.x[first];
+  path.y[first + 1] = path.y[first];
+  s.path = std::make_shared<model::CutterPath>(std::move(path));
+  Job quiet;
+  EXPECT_TRUE(has(pipeline::checked(std::move(plan), quiet).findings, "CHK-HEAD"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace capstan::verify {
 
@@ -112,6 +113,13 @@ double speed_by_arc(double width_ratio, const std::string& group) {
   }
   if (width_ratio > 0.0 && width_ratio < kWidth[0]) speed = kSpeed[0];
   return speed;
+}
+
+double usual_ramp(const model::Cutter& c, const std::string& group) {
+  double degrees = 3.0;
+  if (group == "N") degrees = 10.0;
+  if (c.substrate == model::Substrate::kCarbide && (group == "P" || group == "K")) degrees = 5.0;
+  return std::min(c.maximum_ramp_angle_rad, degrees / 180.0 * std::numbers::pi);
 }
 
 geometry::CutterProfile outline_of(const model::Cutter& c) {

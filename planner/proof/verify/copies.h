@@ -32,6 +32,9 @@ namespace capstan::verify {
 /// How much faster than a table's speed an edge of carbide may be where its cut is this wide, over the
 /// diameter, for the same life; in a group of ISO 513. The copy of mechanics::speed_by_arc; source there.
 [[nodiscard]] double speed_by_arc(double width_ratio, const std::string& iso_group);
+/// The steepest ramp that planning chooses at the feed of slots, rad: the lesser of the cutter's own angle and
+/// that of its substrate in a group of ISO 513. The copy of the table of model::ramp_of; sources there.
+[[nodiscard]] double usual_ramp(const model::Cutter& c, const std::string& iso_group);
 /// What a cutter's edges sweep, by its class and its stated sizes: a cone to a point, a cone over a flat tip,
 /// a ball, else a flat end with rounded corners.
 [[nodiscard]] geometry::CutterProfile outline_of(const model::Cutter& c);

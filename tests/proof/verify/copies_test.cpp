@@ -7,6 +7,7 @@
 
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/ground/vocabulary/thread_mill.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/life/arc_speed.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
@@ -59,6 +60,22 @@ TEST(Copies, TurnFasterInNarrowCutsAsPlanningDoes) {
       EXPECT_NEAR(speed_by_arc(width, group),
                   mechanics::speed_by_arc(width, 1.0, model::Substrate::kCarbide, group), 1e-12)
           << group << " " << width;
+    }
+  }
+}
+
+// The cutter's angle is stated by nobody: planning never takes it for a steeper ramp at a lower feed.
+TEST(Copies, RampAsFlatAsPlanningDoes) {
+  for (const char* group : {"P", "M", "K", "N", "S", "H", ""}) {
+    for (const auto substrate : {model::Substrate::kCarbide, model::Substrate::kHss}) {
+      for (const double own_rad : {0.0, 0.02, 0.06, 0.1, 0.2, 0.78}) {
+        model::Cutter c;
+        c.substrate = substrate;
+        c.maximum_ramp_angle_rad = own_rad;
+        model::WorkMaterial m;
+        m.iso_group = group;
+        EXPECT_NEAR(usual_ramp(c, m.iso_group), model::ramp_of(c, m).angle_rad, 1e-12) << group << own_rad;
+      }
     }
   }
 }

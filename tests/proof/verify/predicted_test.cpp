@@ -125,6 +125,29 @@ TEST(PredictedSpeed, ThatShortArcsBearIsToldOfInASlot) {
   EXPECT_EQ(of(plan_in(25, kSpeed / 1.6, model::Substrate::kCarbide), "CHK-SPEED-MATERIAL").size(), 1u);
 }
 
+// Six cuts of a tenth of the diameter, the last of them at y = 1, and a short slot at its end.
+TEST(PredictedSpeed, ThatShortArcsBearIsToldOfWhereASlotIsAmongThem) {
+  PlanMaker k = along_the_side(kSpeed / 1.6, 1.0);
+  EXPECT_FALSE(speed_told(k));
+  model::CutterPath p = *k.plan.steps[0].path;
+  model::FeedSchedule s = *k.plan.steps[0].schedule;
+  p.line({50, 1, 2}, model::MoveRole::kLink);
+  p.line({50, -6, 2}, model::MoveRole::kLink);
+  p.line({50, -6, -4}, model::MoveRole::kApproach);
+  p.line({50, 30, -4}, model::MoveRole::kCut);
+  p.rapid({50, 30, 10}, model::MoveRole::kRetract);
+  s.feed_mm_min.resize(p.size(), 600.0);
+  s.spindle_rpm.resize(p.size(), 3000.0);
+  s.dwell_s.resize(p.size(), 0.0);
+  k.plan.steps[0].path = std::make_shared<model::CutterPath>(p);
+  k.plan.steps[0].schedule = std::make_shared<model::FeedSchedule>(s);
+  EXPECT_TRUE(speed_told(k));
+  // At the table's speed it is right.
+  for (std::size_t i = p.size() - 3; i < p.size(); ++i) s.spindle_rpm[i] = 3000.0 / 1.6;
+  k.plan.steps[0].schedule = std::make_shared<model::FeedSchedule>(s);
+  EXPECT_FALSE(speed_told(k));
+}
+
 TEST(PredictedSpeed, ThatShortArcsOfCarbideBearIsToldOfWithHssAndInAluminium) {
   auto hss = along_the_side(60, 1.0);
   hss.plan.material.vc_hss_m_min = kSpeed / 1.6;
@@ -185,6 +208,41 @@ TEST(PredictedSpeed, OfABallIsThatOfTheWidestCircleThatCuts) {
   EXPECT_FALSE(of(k, "CHK-SPEED-MATERIAL").empty() && of(k, "CHK-EDGE-LIFE").empty());
 }
 
+/// A spot of 2 mm with a cone of 90 degrees and 8 mm, which cuts on a circle of 4 mm.
+PlanMaker spot(double card, double rpm) {
+  PlanMaker k = plan_in(25, card, model::Substrate::kCarbide);
+  model::Cutter& c = k.plan.cutters[1];
+  c.cutter_class = model::CutterClass::kSpotDrill;
+  c.point_angle_rad = 0.5 * std::numbers::pi;
+  c.presets.clear();
+  model::CutterPath p;
+  p.start({15, 15, 10});
+  p.rapid({15, 15, 2});
+  p.line({15, 15, -2}, testing::MoveRole::kDrill);
+  p.rapid({15, 15, 10}, testing::MoveRole::kRetract);
+  const auto* drilled = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[1].step);
+  const auto feature = drilled->its_feature;
+  k.plan.steps.pop_back();
+  const auto& s = k.step<model::CenterDrilling>("spot", feature, "d8", p, 0.1 * rpm, rpm);
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(s.step);
+  k.plan.model.get<model::CenterDrilling>(ws->its_operation)->cutting_depth = 2.0;
+  return k;
+}
+
+bool told_of_spot(const PlanMaker& k) {
+  auto all = of(k, "CHK-SPEED-MATERIAL");
+  const auto life = of(k, "CHK-EDGE-LIFE");
+  all.insert(all.end(), life.begin(), life.end());
+  return std::any_of(all.begin(), all.end(), [](const auto& f) { return f.step == "spot"; });
+}
+
+// The card's speed on the small circle is twice that of the tool's diameter; three times as fast is not borne.
+TEST(PredictedSpeed, OfASpotIsThatOfTheCircleThatIsIn) {
+  const double rpm = 1000.0 * kSpeed / (std::numbers::pi * 4.0);
+  EXPECT_FALSE(told_of_spot(spot(kSpeed, rpm)));
+  EXPECT_TRUE(told_of_spot(spot(kSpeed, 3.0 * rpm)));
+}
+
 /// A finishing of a free surface with a ball of 10 mm, 0.5 mm deep, carbide's card at 41 m/min: on a level
 /// floor it cuts at 41 m/min, on a steep one at 94.
 PlanMaker freeform(double life_min) {
@@ -196,10 +254,6 @@ PlanMaker freeform(double life_min) {
   k.plan.steps[0].axial_depth_mm = 0.5;
   k.plan.steps[0].loads.tool_life_min = life_min;
   return k;
-}
-
-bool speed_told(const PlanMaker& k) {
-  return !of(k, "CHK-SPEED-MATERIAL").empty() || !of(k, "CHK-EDGE-LIFE").empty();
 }
 
 // 15 min at 41 m/min; at 1.25 times less speed 15 x 1.25^4 = 36.6 min, and at 1.25 times more 6.1.
@@ -401,14 +455,24 @@ TEST(PredictedBending, OfAToolThatReachesTheFinishedWallIsTold) {
   ASSERT_NE(ws, nullptr);
   auto* op = k.plan.model.get<model::BottomAndSideMilling>(ws->its_operation);
   ASSERT_NE(op, nullptr);
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  // The next pass is to find five edge radii, 0.04 mm.
   op->allowance_side = 0.3;
-  k.plan.steps[0].loads.deflection_mm = 0.29;
+  k.plan.steps[0].loads.deflection_mm = 0.26;
   EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  k.plan.steps[0].loads.deflection_mm = 0.29;
+  EXPECT_EQ(of(k, "CHK-BENDING").size(), 1u);
   op->allowance_side = 0.1;
-  k.plan.steps[0].loads.deflection_mm = 0.11;
+  k.plan.steps[0].loads.deflection_mm = 0.1;
   const auto found = of(k, "CHK-BENDING");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_THAT(found[0].message, HasSubstr("what it leaves on its walls"));
+  EXPECT_THAT(found[0].message, HasSubstr("at most 0.06 mm of the 0.1 mm that it leaves on its walls"));
+  // An allowance of 3 mm does not let it bend by 3 mm.
+  op->allowance_side = 3.0;
+  k.plan.steps[0].loads.deflection_mm = 0.39;
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  k.plan.steps[0].loads.deflection_mm = 0.45;
+  EXPECT_EQ(of(k, "CHK-BENDING").size(), 1u);
 }
 
 // Flutes of 25 mm on 10 mm of carbide: I = pi 8^4 / 64 = 201.06 mm4, so that 2000 N are 2000 * 25 * 5 / I =
@@ -428,6 +492,30 @@ TEST(PredictedBending, ThatTiresTheToolIsTold) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].severity, Severity::kWarning);
   EXPECT_THAT(found[0].message, HasSubstr("a stress of 1243 N/mm2"));
+}
+
+// A neck of 8 mm that ends 38 mm above the tip: 32 x 1500 N x 38 / (pi 8^3) = 1134; the flutes bear 932.
+TEST(PredictedBending, ThatTiresTheNeckIsTold) {
+  PlanMaker k = testing::good_plan();
+  model::Cutter& c = k.plan.cutters[0];
+  c.substrate = model::Substrate::kCarbide;
+  c.maximum_depth_of_cut_mm = 25.0;
+  c.stick_out_mm = 40.0;
+  k.plan.steps[0].loads.deflection_mm = 0.05;
+  k.plan.steps[0].loads.peak_force_n = 1500.0;
+  EXPECT_TRUE(of(k, "CHK-BENDING").empty());
+  c.neck_diameter_mm = 8.0;
+  c.neck_length_mm = 38.0;
+  auto found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("a stress of 1134 N/mm2 in its neck"));
+  // A shank of 8 mm that is 70 mm out: 32 x 1500 x 70 / (pi 8^3) = 2089.
+  c.neck_diameter_mm = 0.0;
+  c.shank_diameter_mm = 8.0;
+  c.stick_out_mm = 70.0;
+  found = of(k, "CHK-BENDING");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("a stress of 2089 N/mm2 in its shank"));
 }
 
 // Carbide of 10 mm, 40 mm out, bent by 1 mm: 1.5 x 580000 x 10 x 1 / 40^2 = 5437 N/mm2.

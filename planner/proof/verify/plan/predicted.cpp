@@ -38,11 +38,15 @@ constexpr double kCardShort = 1.5;
 /// textbook's law are uncertain by a factor of two (mechanics/life/life.h).
 constexpr double kSurelyWorn = 2.0;
 /// Bending stress at which a shank surely breaks or stays bent, N/mm2: transverse rupture strengths of
-/// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced.
+/// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced. The
+/// 2131 behind kCarbideEnduranceNMm2 (mechanics/constants.h) are the mean of one test's blanks, from which
+/// a tool is not to be loaded; an error is only what hardly any grade bears.
 constexpr double kBreakingNMm2 = 3500.0;
 /// Of a tolerance zone: what one wall may be pushed by and be within it at all, and what both walls of a
 /// pocket or slot may be, each. Derived: a size in the middle of its zone has half of it on either side.
 constexpr double kWallOfZone = 0.5, kBothOfZone = 0.25;
+/// However much is left, a tool that bends by more is not cutting where it is led. Default, unsourced.
+constexpr double kMostIntoLeftMm = 0.4;
 constexpr double kModelErrorMm = 0.005;  ///< below, the model's own error rules; default, unsourced
 
 /// What is known of a cutter's speed in a material.
@@ -99,7 +103,7 @@ bool substrate_assumed(const model::Cutter& c) {
                      [](const auto& s) { return s.first == "substrate" && s.second.starts_with("default"); });
 }
 
-/// Whether it is the whole diameter that cuts; of cones nobody knows which part does.
+/// Whether it is the whole diameter that cuts; of cones it is the part that is in (`spot_diameter`).
 bool tells_speed(const model::Cutter& c) {
   if (cuts_by_point(c.cutter_class) || c.cutter_class == CutterClass::kTouchProbe) return false;
   return c.cutting_diameter_mm > 0.0;
@@ -112,6 +116,22 @@ double contact_diameter(const model::Cutter& c, double depth_mm) {
   const double r = c.cutter_class == CutterClass::kBallEndmill ? 0.5 * d : c.corner_radius_mm;
   if (!(r > 0.0) || !(depth_mm > 0.0) || depth_mm >= r) return d;
   return d - 2.0 * r + 2.0 * std::sqrt(depth_mm * (2.0 * r - depth_mm));
+}
+
+/// Of a cone that goes down to a stated depth, as spots and countersinks are made, the widest circle that
+/// cuts: tip + 2 depth tan(point / 2); 0: not known.
+double spot_diameter(const model::Plan& plan, const StepMoves& s) {
+  const model::Cutter& c = *s.cutter;
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.planned->step);
+  if (ws == nullptr || !cuts_by_point(c.cutter_class) || !(c.point_angle_rad > 0.0)) return 0.0;
+  const auto* spots = plan.model.get<model::CenterDrilling>(ws->its_operation);
+  const auto* sinks = plan.model.get<model::CounterSinking>(ws->its_operation);
+  const auto depth = spots != nullptr   ? spots->cutting_depth
+                     : sinks != nullptr ? sinks->cutting_depth
+                                        : std::optional<double>{};
+  if (!depth || !(*depth > 0.0)) return 0.0;
+  return std::min(c.cutting_diameter_mm,
+                  c.tip_diameter_mm + 2.0 * *depth * std::tan(0.5 * c.point_angle_rad));
 }
 
 /// Cutting of one tool, in edges that it takes.
@@ -158,7 +178,8 @@ class Speed {
 
  private:
   bool judged(const Reference& ref) {
-    const double level = tells_speed(c_) ? contact_diameter(c_, s_.planned->axial_depth_mm) : 0.0;
+    const double level =
+        tells_speed(c_) ? contact_diameter(c_, s_.planned->axial_depth_mm) : spot_diameter(plan_, s_);
     // On a steep surface a round nose touches up to its whole diameter, however thin the layer is.
     const double widest = level > 0.0 && freeform() ? c_.cutting_diameter_mm : level;
     vc_ = speed(widest);
@@ -324,6 +345,29 @@ double flute_stress(const model::Cutter& c, double force_n) {
   return lever > 0.0 ? force_n * lever * 0.5 * c.cutting_diameter_mm / inertia : 0.0;
 }
 
+/// The largest stress of a tool that is loaded at its tip, N/mm2, and the part of it that bears that.
+struct Weakest {
+  double stress_n_mm2;
+  const char* part;
+};
+
+/// Of flutes, neck and shank, each where it is held: a round bar bears 32 F L / (pi d^3) there, L from the
+/// tip. What a longer part hides is none.
+Weakest weakest(const model::Cutter& c, double force_n) {
+  Weakest out{flute_stress(c, force_n), "flutes"};
+  double from = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
+  const auto bar = [&](const char* part, double diameter_mm, double to_mm) {
+    const double lever = std::min(to_mm, c.stick_out_mm);
+    if (!(diameter_mm > 0.0) || lever <= from) return;
+    from = lever;
+    const double stress = 32.0 * force_n * lever / (std::numbers::pi * std::pow(diameter_mm, 3));
+    if (stress > out.stress_n_mm2) out = {stress, part};
+  };
+  bar("neck", c.neck_diameter_mm, c.neck_length_mm);
+  bar("shank", c.shank_diameter_mm, c.stick_out_mm);
+  return out;
+}
+
 double endurance(const model::Cutter& c) {
   return c.substrate == Substrate::kCarbide ? mechanics::kCarbideEnduranceNMm2 : mechanics::kHssEnduranceNMm2;
 }
@@ -336,6 +380,14 @@ double left_on_walls(const model::Plan& plan, const model::MachiningWorkingstep*
   if (const auto* o = plan.model.get<model::SideMilling>(ws->its_operation))
     return o->allowance_side.value_or(0.0);
   return 0.0;
+}
+
+/// How far into what a step leaves its tool may bend, mm: the next pass must find what it can cut at all, but
+/// a thin allowance may be used by half.
+double into_left(const model::Plan& plan, const model::Cutter& c, double left_mm) {
+  const double next = mechanics::least_depth_mm(c.cutting_diameter_mm, c.substrate == Substrate::kHss,
+                                                plan.material.iso_group);
+  return std::min(kMostIntoLeftMm, std::max(0.5 * left_mm, left_mm - next));
 }
 
 void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMoves& s, Findings& findings) {
@@ -375,24 +427,24 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
                     wall);
     return;
   }
-  // What no tolerance judges is held against what the step leaves on its walls: bent by more, a tool reaches
-  // the finished wall. And a tool that bends by less than that may still be bent too often.
+  // What no tolerance judges is held against what the step leaves on its walls: bent by all of it, a tool
+  // reaches the finished wall. And a tool that bends by less than that may still be bent too often.
   const double bent = std::max(l.deflection_mm, wall);
   if (stress > kBreakingNMm2 || !mills) return;
   const double left = left_on_walls(plan, ws);
-  const double most = left > 0.0 ? left : kMeasured * kMostBentMm;
-  const double tires = flute_stress(c, l.peak_force_n);
-  if (bent > most)
+  const double bears = left > 0.0 ? into_left(plan, c, left) : kMostBentMm;
+  const Weakest tires = weakest(c, l.peak_force_n);
+  if (bent > kMeasured * bears)
     findings.warn(21, "CHK-BENDING", at,
-                  "tool " + c.id + " bends by " + mm(bent) + load + "; at most " +
-                      mm(left > 0.0 ? left : kMostBentMm) +
-                      (left > 0.0 ? ", what it leaves on its walls" : "") + stiffer,
+                  "tool " + c.id + " bends by " + mm(bent) + load + "; at most " + mm(bears) +
+                      (left > 0.0 ? " of the " + mm(left) + " that it leaves on its walls" : "") + stiffer,
                   bent);
-  else if (tires > kMeasured * endurance(c))
+  else if (tires.stress_n_mm2 > kMeasured * endurance(c))
     findings.warn(21, "CHK-BENDING", at,
-                  "the flutes of tool " + c.id + " bear a stress of " + trimmed(tires, 0) + " N/mm2" + load +
-                      "; for all the bites of its life they bear " + trimmed(endurance(c), 0) + stiffer,
-                  tires);
+                  "tool " + c.id + " bears a stress of " + trimmed(tires.stress_n_mm2, 0) + " N/mm2 in its " +
+                      tires.part + load + "; for all the bites of its life it bears " +
+                      trimmed(endurance(c), 0) + stiffer,
+                  tires.stress_n_mm2);
 }
 
 }  // namespace

@@ -157,19 +157,25 @@ void StepChecks::settle() {
     if (sum_.axial || works_along_axis(cutter_))
       axial_feed(sum_.feed_mm_min / (sum_.rpm * std::max(1, cutter_.teeth)));
     power(sum_.volume_mm3, sum_.minutes, chip_of(sum_));
-    heat();
+    heat(true);
+  } else if (sum_.length_mm > 0.0 && sum_.rpm > 0.0) {
+    heat(false);
   }
   sum_ = {};
 }
 
 // Wear adds up over the way: by Taylor's law an edge at speed v wears as v^(1/n), and one that is in the cut
 // for a short arc as one that turns slower by `speed_by_arc`. Where the material's depth varies, its thickest
-// makes the width too small by less than the arc of a ramp is too wide: a slot stays a slot.
-void StepChecks::heat() {
-  if (!arcs_count_ || !(sum_.depth_mm > 0.0)) return;
+// makes the width too small by less than the arc of a ramp is too wide: a slot stays a slot. What is too
+// short to be measured counts as the table's arc. Wear averages, but an edge that is in for a quarter turn or
+// more gets as hot as the table's, however long it cuts little after: there its speed is what is turned.
+void StepChecks::heat(bool measured) {
+  if (!arcs_count_) return;
   const double d = std::max(1e-6, cutter_.cutting_diameter_mm);
-  const double width = sum_.axial ? d : sum_.volume_mm3 / sum_.length_mm / sum_.depth_mm;
-  const double rpm = sum_.rpm / speed_by_arc(width / d, plan_.material.iso_group);
+  const bool known = measured && sum_.depth_mm > 0.0;
+  const double width = known && !sum_.axial ? sum_.volume_mm3 / sum_.length_mm / sum_.depth_mm : d;
+  const double rpm = sum_.rpm / (known ? speed_by_arc(width / d, plan_.material.iso_group) : 1.0);
+  if (known && width >= 0.5 * d) widest_rpm_ = std::max(widest_rpm_, sum_.rpm);
   heated_min_ += sum_.minutes;
   heated_ += sum_.minutes * std::pow(rpm, 1.0 / mechanics::kTaylorExponentCarbide);
   fastest_rpm_ = std::max(fastest_rpm_, sum_.rpm);
@@ -178,7 +184,7 @@ void StepChecks::heat() {
 double StepChecks::speed_share() const {
   if (!(heated_min_ > 0.0) || !(fastest_rpm_ > 0.0)) return 1.0;
   const double rpm = std::pow(heated_ / heated_min_, mechanics::kTaylorExponentCarbide);
-  return std::min(1.0, rpm / fastest_rpm_);
+  return std::min(1.0, std::max(rpm, widest_rpm_) / fastest_rpm_);
 }
 
 double StepChecks::feed_per_tooth(const Move& m) const {

@@ -15,7 +15,6 @@ namespace capstan::verify {
 using geometry::Vec2;
 using model::CutterClass;
 using model::MoveKind;
-using model::MoveRole;
 
 namespace {
 
@@ -61,23 +60,21 @@ double into_hole_walls(const std::vector<volumes::Form>& shapes, const geometry:
   }
   return worst;
 }
-bool cuts_to_centre(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-      return true;
-    default:
-      return c.centre_cutting;
-  }
-}
-
 /// What a neck must be thicker than to be judged on these cells.
 double neck_slack(const Grid& grid) { return 1.5 * grid.cell(); }
 
 bool ring_on_a_neck(const model::Cutter& c, const Grid& grid) {
   return mills_threads(c.cutter_class) && c.neck_length_mm > c.maximum_depth_of_cut_mm &&
          0.5 * c.neck_diameter_mm > neck_slack(grid);
+}
+
+/// A helix that goes up or down by no more in a turn than the teeth are high, and no steeper than 45 degrees
+/// (default, unsourced): the flanks of its teeth cut its way. A left-hand thread is milled downwards.
+bool winds(const Move& m, double head_mm) {
+  if (!is_arc(m.kind)) return false;
+  const double turned = sweep_of(m), rise = std::abs(m.to.z - m.from.z);
+  if (!(turned > 0.0)) return false;
+  return rise * 2.0 * std::numbers::pi <= head_mm * turned && rise <= norm(xy(m.to) - m.centre) * turned;
 }
 
 /// Of what heights lose to a ring of teeth, what the ring itself takes from an upright wall: its own height.
@@ -116,6 +113,7 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
   arcs_count_ = op != nullptr && !finishes(model::AnyRef(ws->its_operation).type) && is_mill(cutter_) &&
                 cutter_.substrate == model::Substrate::kCarbide && outline_->ball() == nullptr &&
                 cutter_.taper_angle_rad == 0.0 && cutter_.lead_angle_rad == 0.0;
+  ramp_chosen_ = ws != nullptr && chose_ramp(plan, *ws);
   std::string why;
   if (undercuts(cutter_.cutter_class)) {
     why = "an undercut is not held as heights";
@@ -153,6 +151,7 @@ void StepChecks::run() {
 void StepChecks::rapid(const Move& m) {
   helix_turned_ = 0.0;
   body(m);
+  ring_up(m);
   Vec2 where;
   const double dip = rapid_collision(grid_, m, *outline_, kRapidClearanceMm, where);
   if (dip > 0.0) {
@@ -183,7 +182,10 @@ void StepChecks::feed(const Move& m) {
     neck(m, grid_);
     return;
   }
-  if (before_ != nullptr) neck(m, *before_);
+  if (before_ != nullptr) {
+    neck(m, *before_);
+    ring_up(m);
+  }
   const double allowed = target_.allowed();
   const double fz = feed_per_tooth(m);
   const double flutes = cutter_.maximum_depth_of_cut_mm, low = std::min(m.from.z, m.to.z);
@@ -242,7 +244,7 @@ void StepChecks::neck(const Move& m, const Grid& grid) {
   if (radius <= slack) return;  // not known, or too thin to be judged on these cells
   const double length = length_of(m);
   const int n = std::max(1, static_cast<int>(std::ceil(length / std::max(grid.cell(), 0.5 * radius))));
-  const bool falls = m.to.z < m.from.z - 1e-9;
+  const bool falls = m.to.z < m.from.z - 1e-9 && !(mills_threads(cutter_.cutter_class) && winds(m, head));
   for (int i = 0; i <= n; ++i) {
     const geometry::Vec3 p = point_of(m, static_cast<double>(i) / n);
     const double beside = grid.highest(xy(p), radius - slack) - (p.z + head);
@@ -257,6 +259,21 @@ void StepChecks::neck(const Move& m, const Grid& grid) {
       return;
     }
   }
+}
+
+// A ring of teeth that leaves its groove upwards tears off the thread: only a helix, or a way that goes aside
+// at least as far as up, leads it out. Heights do not show it, for they lose all material over the ring.
+void StepChecks::ring_up(const Move& m) {
+  const double rise = m.to.z - m.from.z, head = cutter_.maximum_depth_of_cut_mm;
+  if (before_ == nullptr || rise <= 1e-9) return;
+  const bool aside = !is_arc(m.kind) && norm(xy(m.to) - xy(m.from)) >= rise;
+  if (m.kind != MoveKind::kRapid && (aside || winds(m, head))) return;
+  const double into = before_->highest(xy(m.from), radius_ - neck_slack(grid_)) - (m.from.z + head);
+  if (into <= kSlackMm) return;
+  out_.error(11, "CHK-HEAD", at(m),
+             "the tool goes up and its head runs " + mm(into) + " into material at " + here(xy(m.from)) +
+                 " (cells of " + mm(grid_.cell()) + ")",
+             into);
 }
 
 void StepChecks::gouge(const Move& m, const Bite& bite) {
@@ -349,45 +366,6 @@ void StepChecks::body(const Move& m) {
                      here(xy(at_point)) + " with the tip at z = " + plain(z),
                  into);
     }
-  }
-}
-
-void StepChecks::entry(const Move& m, const Bite& bite) {
-  const double dz = m.to.z - m.from.z;
-  if (dz >= -1e-9) {
-    helix_turned_ = 0.0;
-    return;
-  }
-  const double along = is_arc(m.kind) ? norm(xy(m.to) - m.centre) * sweep_of(m) : norm(xy(m.to) - xy(m.from));
-  const double angle = std::atan2(-dz, along);
-  const bool core = bite.core_mm > 0.05;
-  if (along < 1e-6 || angle > 1.5533) {  // steeper than 89 degrees
-    if (core && !cuts_to_centre(cutter_)) {
-      out_.error(14, "CHK-PLUNGE", at(m),
-                 "the tool does not cut to its centre, but plunges " + mm(-dz) + " into solid material", -dz);
-    }
-    return;
-  }
-  // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
-  const bool ramp = m.role_known && m.role == MoveRole::kRamp;
-  const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
-  if (!core || mills_threads(cutter_.cutter_class) || (shaped && !ramp)) return;
-  const double most = cutter_.maximum_ramp_angle_rad;
-  const double degrees = 180.0 / std::numbers::pi;
-  if (angle > most + 1e-4) {
-    out_.error(14, "CHK-RAMP", at(m),
-               "a ramp of " + plain(angle * degrees) + " degrees; the tool may " +
-                   (most > 0.0 ? "ramp at " + plain(most * degrees) + " degrees at most" : "not ramp"),
-               angle);
-  }
-  if (!is_arc(m.kind)) return;
-  helix_turned_ += sweep_of(m);
-  const double helix = norm(xy(m.to) - m.centre);
-  if (helix_turned_ > 2.0 * std::numbers::pi - 1e-6 && helix > radius_ + 1e-6) {
-    out_.error(14, "CHK-HELIX", at(m),
-               "a helix of diameter " + mm(2.0 * helix) + " leaves a core; the cutter's diameter is " +
-                   mm(2.0 * radius_),
-               helix);
   }
 }
 

@@ -29,7 +29,7 @@ class StepChecks {
   /// Whether it cut anything: known after `run`.
   [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
   /// After `run`: the speed at which an edge in the cut for a quarter turn would wear as the step's edges do,
-  /// over their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material
+  /// and no less than that of its wide cuts, over their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material
   /// whose speed no heat bounds).
   [[nodiscard]] double speed_share() const;
   /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
@@ -41,16 +41,18 @@ class StepChecks {
   void feed(const Move& m);
   void gouge(const Move& m, const Bite& bite);
   void neck(const Move& m, const Grid& grid);
+  void ring_up(const Move& m);
   void head(const Move& m);
   [[nodiscard]] bool follows_finished();
   void contact(const Move& m, const Bite& bite);
   void reach(const Move& m);
   void body(const Move& m);
   void entry(const Move& m, const Bite& bite);
+  void chosen_ramp(const Move& m, double angle_rad);
   void spindle(const Move& m, const Bite& bite);
   void account(const Move& m, const Bite& bite);
   void settle();
-  void heat();
+  void heat(bool measured);
   void power(double volume, double minutes, double chip_mm);
   [[nodiscard]] double feed_per_tooth(const Move& m) const;
   void chips(const Move& m, const Bite& bite, double fz);
@@ -88,6 +90,7 @@ class StepChecks {
   double rubbed_mm_ = 0.0;     ///< way in material at feeds below the thinnest chip
   double rubbed_at_mm_ = 0.0;  ///< the lowest feed per tooth there
   Findings::Where rubbed_ = {};
+  bool ramp_chosen_ = false;   ///< by planning: neither the path nor its angle is the file's
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
   double cut_mm3_ = 0.0;       ///< by the step so far
   bool met_ = false;           ///< a head that heights do not follow was in material
@@ -106,9 +109,12 @@ class StepChecks {
   } sum_;
   bool arcs_count_ = false;                                     ///< a short arc of contact bears more speed
   double heated_min_ = 0.0, heated_ = 0.0, fastest_rpm_ = 0.0;  ///< minutes; times speed to 1 / n; 1/min
+  double widest_rpm_ = 0.0;                                     ///< the fastest of cuts half as wide as it is
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };
 
+/// Whether planning chose how steep the step goes down: it made the path, and the file asks for no angle.
+[[nodiscard]] bool chose_ramp(const model::Plan& plan, const model::MachiningWorkingstep& ws);
 [[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);
 [[nodiscard]] bool works_along_axis(const model::Cutter& c);
 /// Motor power and torque for continuous running at a speed, between the curve's points; power linear

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/sweep/step_checks.h"
+
+// How a mill goes down into solid material: straight, on a slope, along a helix.
+
+namespace capstan::verify {
+
+using model::CutterClass;
+using model::MoveRole;
+
+namespace {
+
+constexpr double kWritten = 0.005;  ///< by which a feed may be off through its decimals
+
+bool cuts_to_centre(const model::Cutter& c) {
+  switch (c.cutter_class) {
+    case CutterClass::kTwistDrill:
+    case CutterClass::kCenterDrill:
+    case CutterClass::kSpotDrill:
+      return true;
+    default:
+      return c.centre_cutting;
+  }
+}
+
+/// Whether a maker or the shop states how steep the cutter may ramp.
+bool states_ramp(const model::Cutter& c) {
+  for (const std::string_view of : {"maximum_ramp_angle_rad", "*"}) {
+    for (const auto& [field, source] : c.sources)
+      if (field == of) return source.starts_with("stated");
+  }
+  return false;
+}
+
+}  // namespace
+
+bool chose_ramp(const model::Plan& plan, const model::MachiningWorkingstep& ws) {
+  const auto* made = plan.ledger.find(ws.its_operation, "its_toolpath");
+  if (made == nullptr || made->binder == model::Binder::kGiven || made->pinned) return false;
+  const auto* op = plan.model.get<model::Two5dMillingOperation>(ws.its_operation);
+  if (op == nullptr) return true;
+  if (const auto* r = plan.model.get<model::PlungeRamp>(op->approach)) return !(r->angle.value_or(0.0) > 0.0);
+  if (const auto* h = plan.model.get<model::PlungeHelix>(op->approach)) return !(h->angle.value_or(0.0) > 0.0);
+  if (const auto* z = plan.model.get<model::PlungeZigzag>(op->approach))
+    return !(z->angle.value_or(0.0) > 0.0);
+  return true;
+}
+
+void StepChecks::entry(const Move& m, const Bite& bite) {
+  const double dz = m.to.z - m.from.z;
+  if (dz >= -1e-9) {
+    helix_turned_ = 0.0;
+    return;
+  }
+  const double along = is_arc(m.kind) ? norm(xy(m.to) - m.centre) * sweep_of(m) : norm(xy(m.to) - xy(m.from));
+  const double angle = std::atan2(-dz, along);
+  const bool core = bite.core_mm > 0.05;
+  if (along < 1e-6 || angle > 1.5533) {  // steeper than 89 degrees
+    if (core && !cuts_to_centre(cutter_)) {
+      out_.error(14, "CHK-PLUNGE", at(m),
+                 "the tool does not cut to its centre, but plunges " + mm(-dz) + " into solid material", -dz);
+    }
+    return;
+  }
+  // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
+  const bool ramp = m.role_known && m.role == MoveRole::kRamp;
+  const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
+  if (!core || mills_threads(cutter_.cutter_class) || (shaped && !ramp)) return;
+  const double most = cutter_.maximum_ramp_angle_rad;
+  const double degrees = 180.0 / std::numbers::pi;
+  if (angle > most + 1e-4) {
+    out_.error(14, "CHK-RAMP", at(m),
+               "a ramp of " + plain(angle * degrees) + " degrees; the tool may " +
+                   (most > 0.0 ? "ramp at " + plain(most * degrees) + " degrees at most" : "not ramp"),
+               angle);
+  } else if (ramp && ramp_chosen_) {
+    chosen_ramp(m, angle);
+  }
+  if (!is_arc(m.kind)) return;
+  helix_turned_ += sweep_of(m);
+  const double helix = norm(xy(m.to) - m.centre);
+  if (helix_turned_ > 2.0 * std::numbers::pi - 1e-6 && helix > radius_ + 1e-6) {
+    out_.error(14, "CHK-HELIX", at(m),
+               "a helix of diameter " + mm(2.0 * helix) + " leaves a core; the cutter's diameter is " +
+                   mm(2.0 * radius_),
+               helix);
+  }
+}
+
+// What planning chooses by itself is no steeper than its table by material says; steeper only where somebody
+// states the cutter's angle, and then at half of the feed (sources: model/plan/cutter/ramp.cpp). Which feed
+// that is a half of is not known here: the largest that the cutter bears, or that of the step.
+void StepChecks::chosen_ramp(const Move& m, double angle) {
+  constexpr double kHalf = 0.5;
+  const double usual = usual_ramp(cutter_, plan_.material.iso_group), degrees = 180.0 / std::numbers::pi;
+  if (angle <= usual + 1e-4) return;
+  const double fz = feed_per_tooth(m);
+  const double slow =
+      std::max(kHalf * std::max(feed_limit_.mm, step_.planned->fz_mm), least_chip_mm_) * (1.0 + kWritten);
+  if (states_ramp(cutter_) && fz <= slow) return;
+  out_.error(14, "CHK-RAMP", at(m),
+             "a ramp of " + plain(angle * degrees) + " degrees at " + mm(fz) + " per tooth; in " +
+                 plan_.material.id + " one of more than " + plain(usual * degrees) + " degrees is " +
+                 (states_ramp(cutter_) ? "fed at " + mm(slow) + " at most"
+                                       : "for cutters of which it is stated that they bear it"),
+             angle);
+}
+
+}  // namespace capstan::verify
