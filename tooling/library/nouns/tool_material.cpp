@@ -22,8 +22,8 @@ using model::Substrate;
 /// themselves by about this. Default, unsourced; the check warns from the same factor on
 /// (CHK-SPEED-MATERIAL).
 constexpr double kOverCard = 1.25;
-/// By how much a coated edge runs faster than the cards' bare one. Source: HSS: end mills coated with TiCN run
-/// up to 50 % faster than bare ones (bolt.com.au, tooling). Carbide: the least that `coated_mill` of
+/// By how much a coated edge runs faster than the cards' bare one. Source: HSS: end mills coated with TiCN
+/// run up to 50 % faster than bare ones (bolt.com.au, tooling). Carbide: the least that `coated_mill` of
 /// data/cutters.yaml says of steel.
 constexpr double kCoatedHssOverBare = 1.5;
 constexpr double kCoatedCarbideOverBare = 1.7;
@@ -41,9 +41,8 @@ std::optional<ToolMaterial> by_speed(const ToolMaterialHints& hints) {
   const std::string in_file = "the file's " + speed(v) + " in " + m.id;
   if (v <= kOverCard * kCoatedHssOverBare * hss) {
     const std::string edge = v <= kOverCard * hss ? "HSS (" : "coated HSS (bare: ";
-    return ToolMaterial{
-        Substrate::kHss,
-        assumed_source(Substrate::kHss, in_file + " is a speed of " + edge + speed(hss) + ")")};
+    return ToolMaterial{Substrate::kHss, assumed_source(Substrate::kHss, in_file + " is a speed of " + edge +
+                                                                             speed(hss) + ")")};
   }
   if (v > kOverCard * kCoatedCarbideOverBare * carbide) return std::nullopt;
   return ToolMaterial{
