@@ -39,10 +39,13 @@ model::Plan read(const std::string& text, const std::string& name = "part.p21") 
 
 std::string pocket() { return testing::slurp(testing::source_dir() + "/examples/reference_pocket.p21"); }
 
-model::Plan bound(model::Plan plan, const Inputs& in, unsigned threads = 1) {
+model::Plan bound(model::Plan plan, const Inputs& in, unsigned threads = 1,
+                  Reopen reopen = Reopen::kNothing) {
   Job job;
   job.threads = threads;
-  auto made = bind(std::move(plan), in, {}, job);
+  Policy options;
+  options.reopen = reopen;
+  auto made = bind(std::move(plan), in, options, job);
   EXPECT_TRUE(made) << (made ? "" : to_text(made.error()));
   return made ? *std::move(made) : model::Plan{};
 }
@@ -168,9 +171,7 @@ TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
   rings.cutmode = model::CutmodeType::kClimb;
   const auto made = plan.model.add(rings);
   plan.model.get<model::Two5dMillingOperation>(operation)->its_machining_strategy = made;
-  Inputs again = in;
-  again.reopen = Reopen::kTools;
-  const auto kept = bound(read(written(plan, Format::kIso14649)), again);
+  const auto kept = bound(read(written(plan, Format::kIso14649)), in, 1, Reopen::kTools);
   ASSERT_FALSE(kept.steps.empty());
   const auto* o = kept.model.get<model::Two5dMillingOperation>(roughing(kept));
   ASSERT_NE(o, nullptr);
