@@ -140,7 +140,7 @@ class Adaptive {
       const Unreached& left = passes.error();
       return refused(
           c_.task, "about x " + trimmed(left.at.x, 1) + ", y " + trimmed(left.at.y, 1) + " no pass reaches " +
-                       trimmed(left.area_mm2, 2) +
+                       trimmed(left.area_mm2, 1) +
                        " mm2 of where the cutter's axis is to go; rings or a cutter of less than " +
                        trimmed(c_.task.cutter.cutting_diameter_mm, 3) + " mm may");
     }
