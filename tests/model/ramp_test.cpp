@@ -54,9 +54,9 @@ TEST(Ramp, AStatedSlopeIsTakenAtHalfTheFeedWhereItGoesDownFaster) {
   c.sources = {{"maximum_ramp_angle_rad", "stated: the maker"}};
   EXPECT_NEAR(degrees(c, "P"), 15.0, kRounding);
   EXPECT_EQ(ramp_of(c, of("P")).feed_share, 0.5);
-  // Half the feed at 15 degrees goes down more slowly than all of it at 10.
+  // Half the feed at 15 degrees goes down more slowly than three quarters of it at 10.
   EXPECT_NEAR(degrees(c, "N"), 10.0, kRounding);
-  EXPECT_EQ(ramp_of(c, of("N")).feed_share, 1.0);
+  EXPECT_EQ(ramp_of(c, of("N")).feed_share, 0.75);
 }
 
 TEST(Ramp, OfACutterWhoseEdgesDoNotReachTheCentreHasHalfTheFeed) {

@@ -1,9 +1,9 @@
 #include "tests/sweep/sweep.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/file.h"
@@ -176,13 +176,10 @@ std::string broken(const Case& c, const Outcome& o) {
 }
 
 bool helps(const std::string& reason) {
-  const bool number =
-      std::any_of(reason.begin(), reason.end(), [](unsigned char ch) { return std::isdigit(ch) != 0; });
-  constexpr const char* kThings[] = {"tool",    "drill", "mill",  "cutter", "reamer",   "tap",    "machine",
-                                     "spindle", "speed", "depth", "radius", "diameter", "length", "--"};
-  const bool thing = std::any_of(std::begin(kThings), std::end(kThings),
-                                 [&](const char* w) { return reason.find(w) != std::string::npos; });
-  return thing && (number || reason.find("--") != std::string::npos);
+  static const std::regex kFigure(
+      R"([0-9] ?(mm2?|um|deg|m/min|mm/min|1/min|min|s|N|Nm|kW|W|HRC|HB|%)(?![A-Za-z0-9]))");
+  static const std::regex kOption("--[a-z]+");
+  return std::regex_search(reason, kFigure) || std::regex_search(reason, kOption);
 }
 
 }  // namespace capstan::testing::sweep

@@ -64,7 +64,7 @@ class Sweep {
 ///     a feature that is not planned says why and what would help.
 [[nodiscard]] std::string broken(const Case& c, const Outcome& o);
 
-/// Whether the reason of a refusal helps: it names a thing (tool, machine, size ...) and a number or an
+/// Whether the reason of a refusal helps: it gives a figure with its unit, which says what would do, or an
 /// option.
 [[nodiscard]] bool helps(const std::string& reason);
 

@@ -48,11 +48,13 @@ TEST(SweepProperty, PlansKeepTheLeastChipTolerancesAndLimitsRefusalsHelpAndAMach
     if (only == nullptr || all[i].name().find(only) != std::string::npos) holds(sweep, all[i], true);
 }
 
-TEST(SweepHelp, NeedsAThingAndANumberOrAnOption) {
+TEST(SweepHelp, NeedsAFigureWithItsUnitOrAnOption) {
   EXPECT_TRUE(helps("no reamer of 10 mm in the library"));
   EXPECT_TRUE(helps("state the tool's material (--assume)"));
   EXPECT_FALSE(helps("it cannot be made"));
   EXPECT_FALSE(helps("no tool fits"));
+  EXPECT_FALSE(helps("no tool fits feature 12 of machine 2"));
+  EXPECT_FALSE(helps("needs tool 3 mounted -- or not"));
 }
 
 TEST(SweepCases, MeetEachFeatureAndEachMaterialOnceInTheSample) {

@@ -47,7 +47,7 @@ constexpr double kThinnerAnew = 0.7;     // each time that the check condemned t
 /// Constant engagement is taken where its path takes less than this share of the rings' time: the spindle
 /// comes up to its speed, and its program is longer. Default, unsourced.
 constexpr double kWorthwhile = 0.99;
-constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
+constexpr double kThinnest = 0.02;  // of the cut that keeps the limits off the path; default, unsourced
 
 /// Depth and width of a cut, for people.
 std::string sizes(const optimise::CutAnswer& a) {
@@ -265,35 +265,43 @@ class PathMaker {
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto other = step::constant_cut(p_, step, candidate, means_);
     if (!other) return with_strategy(step, i);
-    const auto before = stocks_.before(step.setup);
     auto said = job_.take_diagnostics();
-    const auto tell = [&](std::vector<Diagnostic> now) {
-      for (auto& d : said) job_.report(std::move(d));
-      for (auto& d : now) job_.report(std::move(d));
+    auto made = quicker_strategy(step, i, *other);
+    auto of_it = job_.take_diagnostics();
+    for (auto& d : said) job_.report(std::move(d));
+    for (auto& d : of_it) job_.report(std::move(d));
+    return made;
+  }
+
+  /// How long it takes, if it keeps the limits.
+  std::optional<double> kept_seconds(const StepDraft& step, const Result<step::MeasuredCut>& t) const {
+    if (!t || exceeds(step, *t)) return std::nullopt;
+    return step::seconds_of(plan_.machine, *t->path, t->feeds.schedule);
+  }
+
+  /// Rings, or constant engagement where that is worthwhile; of the other, only what is recorded is told.
+  Result<step::MeasuredCut> quicker_strategy(StepDraft& step, std::size_t i, const step::ConstantCut& other) {
+    const auto before = stocks_.before(step.setup);
+    const auto with = [&](bool constant_engagement) {
+      (void)job_.take_diagnostics();
+      stocks_.put_back(step.setup, before);
+      step.constant_engagement = constant_engagement;
+      return with_strategy(step, i);
     };
-    const auto seconds = [&](const Result<step::MeasuredCut>& t) -> std::optional<double> {
-      if (!t || exceeds(step, *t)) return std::nullopt;
-      return step::seconds_of(plan_.machine, *t->path, t->feeds.schedule);
-    };
-    step.constant_engagement = false;
-    auto rings = with_strategy(step, i);
-    auto said_of_rings = job_.take_diagnostics();
-    const auto of_rings = seconds(rings);
+    auto rings = with(false);
+    const auto of_rings = kept_seconds(step, rings);
     const double volume = of_rings ? rings->removed_mm3.value_or(0.0) : 0.0;
-    const double about = step::estimated_seconds(other->question, other->answer, volume, other->walled);
+    const double about = step::estimated_seconds(other.question, other.answer, volume, other.walled);
     step::StrategyChoice choice;
     if (of_rings && about >= kWorthwhile * *of_rings) {
-      choice.lost.push_back({step::words_of(true, other->answer),
+      choice.lost.push_back({step::words_of(true, other.answer),
                              "takes about " + motion::duration_text(about) +
                                  " by its rate and entry against " + motion::duration_text(*of_rings)});
       rings->strategy = std::move(choice);
-      tell(std::move(said_of_rings));
       return rings;
     }
-    stocks_.put_back(step.setup, before);
-    step.constant_engagement = true;
-    auto constant = with_strategy(step, i);
-    const auto of_constant = seconds(constant);
+    auto constant = with(true);
+    const auto of_constant = kept_seconds(step, constant);
     if (of_constant && (!of_rings || *of_constant < kWorthwhile * *of_rings)) {
       choice.constant_engagement = true;
       choice.taken = step::words_of(true, constant->made.answer) + ": " + motion::duration_text(*of_constant);
@@ -305,26 +313,18 @@ class PathMaker {
         choice.lost.push_back({"rings", rings ? excess_text(*rings) : rings.error().message});
       }
       constant->strategy = std::move(choice);
-      tell(job_.take_diagnostics());
       return constant;
     }
-    (void)job_.take_diagnostics();
-    stocks_.put_back(step.setup, before);
     // The same again, from what is remembered: the stock is to be cut by it.
-    step.constant_engagement = false;
-    rings = with_strategy(step, i);
-    said_of_rings = job_.take_diagnostics();
-    if (rings && (constant || constant.error().code != step::kNoSuchPath)) {
-      const std::string why = of_constant && of_rings
-                                  ? (*of_constant < *of_rings ? "saves too little: takes " : "takes ") +
-                                        motion::duration_text(*of_constant) + " against " +
-                                        motion::duration_text(*of_rings)
-                              : constant ? excess_text(*constant)
-                                         : constant.error().message;
-      choice.lost.push_back({step::words_of(true, constant ? constant->made.answer : other->answer), why});
-      rings->strategy = std::move(choice);
-    }
-    tell(std::move(said_of_rings));
+    rings = with(false);
+    if (!rings) return rings;
+    std::string why = constant ? excess_text(*constant) : constant.error().message;
+    if (of_constant && of_rings)
+      why = (*of_constant < *of_rings ? "saves too little: takes " : "takes ") +
+            motion::duration_text(*of_constant) + " against " + motion::duration_text(*of_rings);
+    choice.lost.push_back(
+        {step::words_of(true, constant ? constant->made.answer : other.answer), std::move(why)});
+    rings->strategy = std::move(choice);
     return rings;
   }
 

@@ -78,8 +78,8 @@ struct PathJob {
   model::Cutter cutter;
   model::StrategyKind strategy = model::StrategyKind::kNone;  ///< kNone: what suits the shape
   bool climb = true;
-  /// Roughing of areas between upright walls: passes that engage the cutter by `radial_depth_mm` at most, in
-  /// corners too, instead of rings. Where such a path is not known: TPA-UNSUPPORTED.
+  /// Not rings: passes that engage by `radial_depth_mm`, over less than 0.5 mm up to 1.35 times its arc (as
+  /// measured), in corners too. Roughing between upright walls; where no such path is known: TPA-UNSUPPORTED.
   bool constant_engagement = false;
 
   double axial_depth_mm = 0.0;   ///< at most, per level; 0: the whole depth at once

@@ -105,6 +105,24 @@ TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThe
   EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
 }
 
+TEST(ConstantEngagementPlanned, SaysWhyItHasNoPathWhereThereIsNone) {
+  // A round of 2 mm along the bottom is left by rings only.
+  std::string text = pocket();
+  const std::string sharp = "CLOSED_POCKET('POCKET',#4,(),#32,#35,(),$,#36,$,#38,#42);";
+  const auto at = text.find(sharp);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, sharp.size(),
+               "CLOSED_POCKET('POCKET',#4,(),#32,#35,(),$,#36,#44,#38,#42);\n"
+               "#44=TOLERANCED_LENGTH_MEASURE(2.,#37);");
+  const auto plan = bound(read(text), shop(kSlowToCut));
+  ASSERT_FALSE(constant(plan));
+  const auto* d = decided(plan);
+  ASSERT_NE(d, nullptr);
+  ASSERT_EQ(d->rejected.size(), 1u);
+  EXPECT_THAT(d->rejected[0].what, HasSubstr("constant engagement "));
+  EXPECT_THAT(d->rejected[0].why, HasSubstr("no path of constant engagement: a round leads"));
+}
+
 TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
   const auto plan = bound(read(pocket()), shop(weak()));
   ASSERT_TRUE(constant(plan));

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "planner/making/toolpath/path_job.h"
 #include "tests/making/toolpath/front_raster.h"
@@ -209,6 +211,29 @@ TEST(AdaptivePath, IsRefusedForWallsThatAreNotUprightAndForFinishing) {
   t.shape.bottom_radius_mm = 0.0;
   t.operation = model::TypeId::kBottomAndSideFinishMilling;
   EXPECT_EQ(refusal(t), "TPA-UNSUPPORTED");
+}
+
+// The stock stands over the open sides by less than the cutter's radius.
+TEST(AdaptivePath, SaysWhereNoPassReachesHowMuchIsLeftAndWhatMay) {
+  PathJob t = job_of(geometry::rectangle({0, 0}, {60, 40}), 6.0, 0.6);
+  t.shape.open = true;
+  t.shape.reach = geometry::rectangle({-40, 0}, {100, 40});
+  t.stock = geometry::rectangle({-2, 0}, {62, 40});
+  for (const bool climb : {true, false}) {
+    t.climb = climb;
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_FALSE(g);
+    const std::string& text = g.error().message;
+    const auto figure = [&](const std::string& after) {
+      const auto at = text.find(after);
+      return at == std::string::npos ? std::nan("") : std::strtod(text.c_str() + at + after.size(), nullptr);
+    };
+    EXPECT_NEAR(figure("about x "), 30.0, 35.0) << text;
+    EXPECT_NEAR(figure(", y "), 20.0, 20.0) << text;
+    EXPECT_GT(figure("no pass reaches "), 1.0) << text;
+    EXPECT_NE(text.find("; rings or a cutter of less than 6 mm may"), std::string::npos) << text;
+  }
 }
 
 TEST(AdaptivePath, ClearsRandomStars) {

@@ -61,6 +61,10 @@ TEST(PredictedSpeed, AQuarterAboveTheCardIsStillNone) {
   EXPECT_TRUE(of(k, "CHK-SPEED-MATERIAL").empty());
 }
 
+bool speed_told(const PlanMaker& k) {
+  return !of(k, "CHK-SPEED-MATERIAL").empty() || !of(k, "CHK-EDGE-LIFE").empty();
+}
+
 /// The pocket's step instead goes to and fro along the block's side, `width` further in with each pass, its
 /// first one from outside: all of its cuts are as wide.
 PlanMaker along_the_side(double card, double width) {

@@ -51,6 +51,17 @@ TEST(GenericLibrary, HasNoFaultAndNamesASourceForEverything) {
   }
 }
 
+TEST(GenericLibrary, LetsEndMillsOfFourFlutesRampAtThreeDegreesAtMost) {
+  // Their core leaves less room to the chips than two or three flutes do; no maker's figure says more.
+  int mills = 0;
+  for (const Cutter& c : library()) {
+    if (c.teeth < 4 || !model::has(c.cutter_class, model::CutterTrait::kEndMill)) continue;
+    ++mills;
+    EXPECT_LE(c.maximum_ramp_angle_rad, 3.0 * std::numbers::pi / 180.0 + 1e-12) << c.id;
+  }
+  EXPECT_GT(mills, 20);
+}
+
 TEST(GenericLibrary, GivesEveryCutterAPresetForEveryMaterialThatItsSubstrateCuts) {
   const auto materials = shipped_materials().value();
   for (const Cutter& c : library()) {

@@ -53,6 +53,12 @@ TEST(LikelyMaterial, IsHssWhereTheFileRunsTheToolAsHss) {
   EXPECT_EQ(likely(CutterClass::kFacemill, 63.0, kHss), Substrate::kHss);
 }
 
+TEST(LikelyMaterial, IsHssUpToTheSpeedOfACoatedEdge) {
+  // 1.5 times the bare edge's, and a quarter more, as cards differ.
+  EXPECT_EQ(likely(CutterClass::kEndmill, 10.0, 1.87 * kHss), Substrate::kHss);
+  EXPECT_EQ(likely(CutterClass::kEndmill, 10.0, 1.88 * kHss), Substrate::kCarbide);
+}
+
 TEST(LikelyMaterial, IsCarbideWhereOnlyCarbideBearsTheSpeedOfTheFile) {
   EXPECT_EQ(likely(CutterClass::kTwistDrill, 10.0, kCarbide), Substrate::kCarbide);
   EXPECT_EQ(likely(CutterClass::kReamer, 22.0, 1.5 * kCarbide), Substrate::kCarbide);

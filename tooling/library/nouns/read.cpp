@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
-#include <span>
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
@@ -14,6 +11,8 @@
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
 #include "tooling/library/nouns/nouns.h"
+#include "tooling/library/nouns/tool_kind.h"
+#include "tooling/library/nouns/tool_material.h"
 
 namespace capstan::tooling {
 namespace {
@@ -24,114 +23,8 @@ using model::MachiningTool;
 using model::Model;
 using model::Ref;
 
-/// Smaller face mills are not made; the word is used for end mills that face.
-constexpr double kLeastFacemillMm = 25.0;
 constexpr double kSizeSlackMm = 1e-4;
 constexpr double kSecondsPerMinute = 60.0;
-
-struct Parts {
-  const model::CuttingTool* tool = nullptr;
-  const model::MillingToolBody* body = nullptr;
-  const model::MillingToolDimension* dimension = nullptr;
-  model::AnyRef body_ref;
-  std::string name;
-  std::string told;  ///< what messages call it, also where it has no name
-};
-
-Result<Parts> parts_of(const Model& m, Ref<MachiningTool> tool) {
-  Parts p;
-  p.tool = m.get<model::CuttingTool>(tool);
-  if (p.tool == nullptr) return fail("TOOL-NONE", "there is no milling tool");
-  p.name = p.tool->its_id.value_or("");
-  const model::Origin& origin = m.origin(tool);
-  p.told = !p.name.empty()        ? "tool '" + p.name + "'"
-           : origin.instance != 0 ? "tool #" + std::to_string(origin.instance)
-                                  : "a tool without a name";
-  const auto refuse = [&](std::string message) {
-    return fail({.code = "TOOL-BODY",
-                 .message = std::move(message),
-                 .line = origin.line,
-                 .instance = origin.instance,
-                 .path = p.name});
-  };
-  p.body_ref = p.tool->its_tool_body;
-  p.body = m.get<model::MillingToolBody>(p.body_ref);
-  if (p.body == nullptr) return refuse("the tool has no milling tool body");
-  p.dimension = m.get<model::MillingToolDimension>(p.body->dimension);
-  if (p.dimension == nullptr || !p.dimension->diameter) return refuse("the tool has no diameter");
-  return p;
-}
-
-/// Files use tapered kinds without a taper for plain tools.
-bool is_tapered(const Model& m, model::AnyRef body) {
-  model::Real angle;
-  if (const auto* e = m.get<model::TaperedEndmill>(body)) angle = e->taper_angle;
-  if (const auto* d = m.get<model::TaperedDrill>(body)) angle = d->taper_angle;
-  if (const auto* r = m.get<model::TaperedReamer>(body)) angle = r->taper_angle;
-  if (const auto* t = m.get<model::TaperedTap>(body)) angle = t->taper_angle;
-  return angle.value_or(0.0) != 0.0;
-}
-
-/// Of side mills and woodruff cutters; 0: not stated, or another body.
-double width_of(const Model& m, model::AnyRef body) {
-  if (const auto* s = m.get<model::SideMill>(body)) return s->cutter_width.value_or(0.0);
-  if (const auto* w = m.get<model::WoodruffKeyseatMill>(body)) return w->cutter_width.value_or(0.0);
-  return 0.0;
-}
-
-/// The first class that is written as this noun, or as the nearest noun above it.
-std::optional<CutterClass> class_of_noun(model::TypeId body) {
-  for (model::TypeId t = body; t != model::TypeId::kNone; t = model::noun_type(t).parent) {
-    for (const model::CutterClassRow& r : model::cutter_classes())
-      if (r.body == t) return r.value;
-  }
-  return std::nullopt;
-}
-
-/// The class of a tool that the standard has no noun for, by its words.
-std::optional<CutterClass> class_of_words(const model::UserDefinedTool& u, double corner_mm) {
-  for (const model::CutterClassRow& r : model::cutter_classes()) {
-    if (r.body != model::TypeId::kUserDefinedTool || u.identifier.value_or("") != r.words) continue;
-    const bool rounds = r.value == CutterClass::kCornerRoundingMill;
-    return rounds && corner_mm <= 0.0 ? std::nullopt : std::optional(r.value);
-  }
-  return std::nullopt;
-}
-
-/// The class of a body: its noun decides, and if one noun has several classes, its stated values.
-std::optional<CutterClass> class_of_body(const Model& m, const Parts& p, double point_angle_rad) {
-  const double d = p.dimension->diameter.value_or(0.0), re = p.dimension->edge_radius.value_or(0.0);
-  const model::AnyRef b = p.body_ref;
-  if (is_tapered(m, b))
-    return m.holds<model::TaperedEndmill>(b) ? std::optional(CutterClass::kTaperedEndmill) : std::nullopt;
-  if (const auto* u = m.get<model::UserDefinedTool>(b)) return class_of_words(*u, re);
-  if (width_of(m, b) > 0.0) return CutterClass::kSideMill;
-  if (m.holds<model::CenterDrill>(b))
-    return point_angle_rad > 75.0 * kRadPerDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
-  if (m.holds<model::Drill>(b)) {
-    // Neither standard has a word for them: one lip, and coolant through it.
-    const bool gun = p.body->number_of_teeth.value_or(0) == 1 && p.body->coolant_through_tool.value_or(false);
-    return gun ? CutterClass::kGunDrill : CutterClass::kTwistDrill;
-  }
-  if (m.holds<model::Facemill>(b) && d < kLeastFacemillMm) return CutterClass::kEndmill;
-  if (m.holds<model::MillingThreadingTool>(b)) return CutterClass::kThreadMill;
-  // A side mill without a width, or a tapered kind without a taper, is the plain tool, or has no class.
-  const auto by_noun = m.holds<model::SideMill>(b) ? std::nullopt : class_of_noun(b.type);
-  const bool plain = by_noun == CutterClass::kEndmill || by_noun == CutterClass::kTaperedEndmill;
-  if (!plain) return by_noun;
-  if (re <= 0.0) return CutterClass::kEndmill;
-  return re >= 0.5 * d - kSizeSlackMm ? CutterClass::kBallEndmill : CutterClass::kBullnoseEndmill;
-}
-
-/// The points that each class is sold with, deg.
-std::span<const double> usual_points(CutterClass c) {
-  static constexpr std::array<double, 6> kDrill{118, 140, 135, 130, 120, 90};
-  static constexpr std::array<double, 3> kCentre{60, 90, 120};
-  static constexpr std::array<double, 5> kSink{90, 60, 82, 120, 30};
-  if (model::has(c, model::CutterTrait::kDrills)) return kDrill;
-  if (model::has(c, model::CutterTrait::kMarks)) return kCentre;
-  return kSink;
-}
 
 /// From the gage line to the tool's end; 0 when a placement is missing or they lie together.
 double gage_length(const Model& m, const model::ToolUsage* usage) {
@@ -173,7 +66,7 @@ int position_of(const model::ToolUsage* usage) {
 
 class Reader {
  public:
-  Reader(const Model& m, const Parts& p, Cutter& c, Job& job) : m_(m), p_(p), c_(c), job_(job) {}
+  Reader(const Model& m, const ToolParts& p, Cutter& c, Job& job) : m_(m), p_(p), c_(c), job_(job) {}
 
   void read(const std::string& reading, const ToolMaterialHints* hints) {
     c_.id = c_.description = p_.name.empty() ? "tool" : p_.name;
@@ -314,48 +207,10 @@ class Reader {
   }
 
   const Model& m_;
-  const Parts& p_;
+  const ToolParts& p_;
   Cutter& c_;
   Job& job_;
 };
-
-struct Kind {
-  CutterClass cutter_class;
-  double point_angle_rad;
-  std::string reading;
-};
-
-Result<Kind> kind_of(const Model& m, const Parts& p, Job& job) {
-  Kind k{CutterClass::kEndmill, 0.0, {}};
-  const bool centre = m.holds<model::CenterDrill>(p.body_ref);
-  const bool pointed = centre || m.holds<model::Drill>(p.body_ref) || m.holds<model::Countersink>(p.body_ref);
-  if (pointed) {
-    const CutterClass about = centre                              ? CutterClass::kCenterDrill
-                              : m.holds<model::Drill>(p.body_ref) ? CutterClass::kTwistDrill
-                                                                  : CutterClass::kCountersink;
-    const double a = p.dimension->tool_top_angle.value_or(0.0);
-    k.point_angle_rad = point_angle_from(a, about, k.reading);
-    if (a > 0.0 && !k.reading.starts_with("stated"))
-      job.note("TOOL-POINT",
-               p.told + ": tool_top_angle " + trimmed(a / kRadPerDegree, 2) + " deg " +
-                   (k.point_angle_rad > 0.0
-                        ? "read as a point of " + trimmed(k.point_angle_rad / kRadPerDegree, 1) + " deg; " +
-                              k.reading
-                        : std::string("is no usual point; the default is used")));
-  }
-  const auto cls = class_of_body(m, p, k.point_angle_rad);
-  if (!cls) {
-    return fail({.code = "TOOL-KIND",
-                 .message = "no cutter describes a " +
-                            std::string(model::noun_type(p.body_ref.type).keyword) + " of this form",
-                 .path = p.name});
-  }
-  k.cutter_class = *cls;
-  if (m.holds<model::Facemill>(p.body_ref) && *cls == CutterClass::kEndmill)
-    job.warn("TOOL-CLASS", p.told + ": face mill of " + trimmed(*p.dimension->diameter, 3) +
-                               " mm read as an end mill that is not centre-cutting");
-  return k;
-}
 
 /// The library's cutter that tool_usage names, and the name that it has in the plan.
 struct Named {
@@ -363,7 +218,7 @@ struct Named {
   std::string id;
 };
 
-Named named(const Model& m, const Parts& p, const std::vector<Cutter>& library) {
+Named named(const Model& m, const ToolParts& p, const std::vector<Cutter>& library) {
   const auto* usage = m.get<model::ToolUsage>(p.tool->its_usage);
   if (usage == nullptr) return {};
   const auto* product = m.get<model::Workpiece>(usage->its_product);
@@ -381,7 +236,7 @@ Named named(const Model& m, const Parts& p, const std::vector<Cutter>& library) 
   return {};
 }
 
-bool same_size(const Parts& p, const Cutter& c) {
+bool same_size(const ToolParts& p, const Cutter& c) {
   const bool d = std::abs(*p.dimension->diameter - c.cutting_diameter_mm) <= kSizeSlackMm;
   const bool set = c.adjustable_to_mm > 0.0 && *p.dimension->diameter >= c.cutting_diameter_mm &&
                    *p.dimension->diameter <= c.adjustable_to_mm;
@@ -390,7 +245,7 @@ bool same_size(const Parts& p, const Cutter& c) {
   return (d || set) && r;
 }
 
-int pocket_of(const Model& m, const Parts& p) {
+int pocket_of(const Model& m, const ToolParts& p) {
   return position_of(m.get<model::ToolUsage>(p.tool->its_usage));
 }
 
@@ -422,28 +277,6 @@ Result<Cutter> probe_from(const Model& m, const model::TouchProbe& probe,
 
 }  // namespace
 
-double point_angle_from(double tool_top_angle_rad, CutterClass c, std::string& reading) {
-  if (!(tool_top_angle_rad > 0.0)) {
-    reading = kNotStated;
-    return 0.0;
-  }
-  constexpr double kNearDeg = 1.0;
-  const double a = tool_top_angle_rad / kRadPerDegree;
-  const std::array<std::pair<double, const char*>, 3> readings{
-      {{2.0 * a, "stated: tool_top_angle, half of it"},
-       {180.0 - 2.0 * a, "derived: the file holds the complement of half the point angle"},
-       {a, "derived: the file holds the full point angle"}}};
-  for (const auto& [full, how] : readings) {
-    for (const double usual : usual_points(c)) {
-      if (std::abs(full - usual) > kNearDeg) continue;
-      reading = how;
-      return full * kRadPerDegree;
-    }
-  }
-  reading = "default: no reading of it is a usual point";
-  return 0.0;
-}
-
 bool is_requirement(const Model& m, Ref<MachiningTool> tool) {
   if (!tool.set()) return true;
   const auto* t = m.get<model::CuttingTool>(tool);
@@ -455,7 +288,7 @@ bool is_requirement(const Model& m, Ref<MachiningTool> tool) {
 Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& job,
                                  const std::vector<Cutter>& library, const ToolMaterialHints* hints) {
   if (const auto* probe = m.get<model::TouchProbe>(tool)) return probe_from(m, *probe, library);
-  const auto p = parts_of(m, tool);
+  const auto p = tool_parts(m, tool);
   if (!p) return fail(p.error());
   const auto [known, name] = named(m, *p, library);
   if (known != nullptr) {
@@ -469,7 +302,7 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
     job.warn("TOOL-DIFFERS", p->name + ": the file's sizes are not those of '" + known->id +
                                  "' in the library; the file's hold");
   }
-  const auto k = kind_of(m, *p, job);
+  const auto k = tool_kind(m, *p, job);
   if (!k) return fail(k.error());
   Cutter c;
   c.cutter_class = k->cutter_class;
@@ -502,9 +335,9 @@ Result<Cutter> cutter_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& j
 Result<model::ToolRequirement> requirement_from_nouns(const Model& m, Ref<MachiningTool> tool, Job& job) {
   model::ToolRequirement r;
   if (!tool.set()) return r;
-  const auto p = parts_of(m, tool);
+  const auto p = tool_parts(m, tool);
   if (!p) return fail(p.error());
-  const auto k = kind_of(m, *p, job);
+  const auto k = tool_kind(m, *p, job);
   if (!k) return fail(k.error());
   const double d = *p->dimension->diameter;
   if (!(d > 0.0) || !std::isfinite(d))

@@ -12,9 +12,6 @@
 
 namespace capstan::step {
 
-/// Code of a refusal where a feature has no path of constant engagement (toolpath::generate).
-inline constexpr const char* kNoSuchPath = "TPA-UNSUPPORTED";
-
 /// A way of clearing an area that was compared with another by its time.
 struct StrategyChoice {
   bool constant_engagement = false;

@@ -126,7 +126,7 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
   const auto w = work_area(task);
   if (!w) return tl::unexpected(w.error());
   if (task.constant_engagement) {
-    if (auto ok = known_at_constant_engagement(task, *w); !ok) return tl::unexpected(ok.error());
+    if (auto ok = may_clear_at_constant_engagement(task, *w); !ok) return tl::unexpected(ok.error());
   }
   PathWriter writer(task);
   LevelCutter c(task, *w, writer, job);

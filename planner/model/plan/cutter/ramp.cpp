@@ -7,7 +7,7 @@
 
 #include "planner/model/plan/cutter/stated.h"
 
-// How steep and how fast. The cutter goes down by feed x sin(angle), so that of two ways, a flat one at full
+// How steep and how fast. The cutter goes down by feed x sin(angle), so that of two ways, a flat one at more
 // feed and a steep one at less, the one that goes down faster is taken (Dormer Pramet, Milling 2021-22 p.
 // 775: some tools descend at a lower angle and a higher feed, or at a higher angle and a lower feed).
 
@@ -31,8 +31,9 @@ constexpr std::array kRows = {Row{"P", 5.0, 3.0, 2.0},   Row{"M", 3.0, 3.0, 1.0}
 /// Of a material whose group is not known.
 constexpr Row kUnknown{"", 3.0, 3.0, 0.5};
 
-/// Of cutters whose edges reach the centre: the feed of slot milling (Dormer Pramet, Milling 2021-22 p. 775).
-constexpr double kAsInASlot = 1.0;
+/// Of cutters whose edges reach the centre, of the feed of milling a slot: 75 % (Sandvik Coromant, milling of
+/// holes and cavities, ramping). Other makers say 50 to 75 % (lamina-tech.ch, linear ramping down) and less.
+constexpr double kThreeQuarters = 0.75;
 /// Of those whose edges do not, and at the steepest angle that a maker states: half the recommended feed
 /// (Kyocera, catalogue 2021-22 p. M136, ramping up to RMPX and helical milling).
 constexpr double kHalf = 0.5;
@@ -52,7 +53,7 @@ Ramp ramp_of(const Cutter& c, const WorkMaterial& m) {
   const double depth = row.depth_in_d * c.cutting_diameter_mm;
   if (!(most > 0.0)) return {.angle_rad = 0.0, .feed_share = kHalf, .slot_depth_mm = depth};
   const double usual_rad = kDegree * (c.substrate == Substrate::kCarbide ? row.carbide_deg : row.hss_deg);
-  const Ramp usual{std::min(most, usual_rad), c.centre_cutting ? kAsInASlot : kHalf, depth};
+  const Ramp usual{std::min(most, usual_rad), c.centre_cutting ? kThreeQuarters : kHalf, depth};
   const Ramp steep{most, kHalf, depth};
   const bool faster =
       steep.feed_share * std::sin(steep.angle_rad) > usual.feed_share * std::sin(usual.angle_rad);

@@ -10,6 +10,7 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/life/arc_speed.h"
 #include "tests/making/optimise/cut/questions.h"
+#include "tests/making/optimise/cut/solved.h"
 
 namespace capstan::optimise {
 namespace {
@@ -24,19 +25,8 @@ CutQuestion stainless() {
   return q;
 }
 
-class ConstantEngagement : public ::testing::Test {
+class ConstantEngagement : public questions::Solved {
  protected:
-  void SetUp() override {
-    Job job;
-    const auto a = cut(questions::roughing(), {}, job);
-    if (!a && a.error().code == "OPT-BACKEND-ABSENT") GTEST_SKIP() << a.error().message;
-  }
-  static CutAnswer answered(const CutQuestion& q) {
-    Job job;
-    auto a = cut(q, {}, job);
-    EXPECT_TRUE(a) << (a ? "" : to_text(a.error()));
-    return a ? *a : CutAnswer{};
-  }
   static double by_arc(const CutQuestion& q, const CutAnswer& a) {
     return mechanics::speed_by_arc(a.ae_mm, q.cutter.cutting_diameter_mm, q.cutter.substrate,
                                    q.material.iso_group);

@@ -42,7 +42,7 @@ Bite bite_of(const PathJob& task) {
   return b;
 }
 
-tl::unexpected<Diagnostic> unknown(const PathJob& task, const std::string& why) {
+tl::unexpected<Diagnostic> refused(const PathJob& task, const std::string& why) {
   return fail("TPA-UNSUPPORTED", about(task) + "no path of constant engagement: " + why);
 }
 
@@ -133,9 +133,16 @@ class Adaptive {
       if (!entered) return tl::unexpected(entered.error());
       start = *entered;
     }
-    const auto* passes = passes_of(piece, cleared, start);
-    if (passes == nullptr) return unknown(c_.task, "a front is left that no pass reaches");
-    for (const ClearingPass& p : *passes) write(p);
+    const auto passes = passes_of(piece, cleared, start);
+    if (!passes) {
+      const Unreached& left = passes.error();
+      return refused(
+          c_.task, "about x " + trimmed(left.at.x, 1) + ", y " + trimmed(left.at.y, 1) + " no pass reaches " +
+                       trimmed(left.area_mm2, 1) +
+                       " mm2 of where the cutter's axis is to go; rings or a cutter of less than " +
+                       trimmed(c_.task.cutter.cutting_diameter_mm, 3) + " mm may");
+    }
+    for (const ClearingPass& p : **passes) write(p);
     return {};
   }
 
@@ -144,14 +151,14 @@ class Adaptive {
     // Other ways in leave no hole to wind out of: the circle round it would be a slot at the full depth.
     const Approach::Kind asked = c_.task.approach.kind;
     if (asked == Approach::Kind::kPlunge || asked == Approach::Kind::kZigzag)
-      return unknown(c_.task, "the way in that is given is no helix and no ramp round a hole");
+      return refused(c_.task, "the way in that is given is no helix and no ramp round a hole");
     if (!(c_.task.cutter.maximum_ramp_angle_rad > 0.0))
-      return unknown(c_.task, "cutter " + c_.task.cutter.id + " does not ramp");
+      return refused(c_.task, "cutter " + c_.task.cutter.id + " does not ramp");
     const Deepest d = deepest(piece);
     const HelixRadii radii = helix_radii(c_.task.cutter);
     const double turn = std::min(radii.usual, d.distance_mm);
     if (turn < radii.least) {
-      return unknown(c_.task, "a helix of " + trimmed(turn, 2) + " mm is the largest that fits, " +
+      return refused(c_.task, "a helix of " + trimmed(turn, 2) + " mm is the largest that fits, " +
                                   trimmed(radii.least, 2) + " mm is the least for cutter " + c_.task.cutter.id);
     }
     Track circle{.start = d.point + Vec2{turn, 0.0}, .segments = {}, .closed = true};
@@ -171,8 +178,8 @@ class Adaptive {
     return ClearingStart{circle.start, {0.0, mirror_ ? -1.0 : 1.0}};
   }
 
-  const std::vector<ClearingPass>* passes_of(const Region& piece, const Region& cleared,
-                                             const std::optional<ClearingStart>& start) {
+  tl::expected<const std::vector<ClearingPass>*, Unreached> passes_of(
+      const Region& piece, const Region& cleared, const std::optional<ClearingStart>& start) {
     for (const LevelClearing& k : known_) {
       if (k.centres.loops == piece.loops && k.cleared.loops == cleared.loops &&
           k.entered == start.has_value() && (!start || (k.at == start->at && k.heading == start->heading)))
@@ -185,7 +192,11 @@ class Adaptive {
     }
     auto passes = mirror_ ? clearing_passes(mirrored(piece), bite_, mirrored(cleared), from)
                           : clearing_passes(piece, bite_, cleared, from);
-    if (!passes) return nullptr;
+    if (!passes) {
+      Unreached left = passes.error();
+      if (mirror_) left.at.x = -left.at.x;
+      return tl::unexpected(left);
+    }
     if (mirror_) {
       for (ClearingPass& p : *passes) {
         p.track = mirrored(std::move(p.track));
@@ -231,12 +242,12 @@ class Adaptive {
 
 }  // namespace
 
-Status known_at_constant_engagement(const PathJob& task, const WorkArea& w) {
-  if (model::has(task.operation, model::OperationTrait::kFinishes)) return unknown(task, "the step finishes");
-  if (task.cleared_by) return unknown(task, "only a rest of the area is cut");
-  if (w.slope_rad != 0.0) return unknown(task, "the walls are drafted");
+Status may_clear_at_constant_engagement(const PathJob& task, const WorkArea& w) {
+  if (model::has(task.operation, model::OperationTrait::kFinishes)) return refused(task, "the step finishes");
+  if (task.cleared_by) return refused(task, "only a rest of the area is cut");
+  if (w.slope_rad != 0.0) return refused(task, "the walls are drafted");
   if (w.bottom_radius_mm > task.cutter.corner_radius_mm + 1e-6)
-    return unknown(task, "a round leads from the walls to the bottom");
+    return refused(task, "a round leads from the walls to the bottom");
   return {};
 }
 
@@ -252,7 +263,7 @@ Status cut_at_constant_engagement(LevelCutter& cutter, const Level& level, Clear
     const auto box = geometry::bounds(neck);
     // The tips of corners are small.
     if (std::max(box.hi.x - box.lo.x, box.hi.y - box.lo.y) < 6.0 * least) continue;
-    return unknown(cutter.task, "the cutter of " + trimmed(cutter.task.cutter.cutting_diameter_mm, 3) +
+    return refused(cutter.task, "the cutter of " + trimmed(cutter.task.cutter.cutting_diameter_mm, 3) +
                                     " mm cannot turn in a place less than " +
                                     trimmed(2.0 * (least + cutter.radius_mm + level.allowance_mm), 2) +
                                     " mm wide");

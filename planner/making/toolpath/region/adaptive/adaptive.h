@@ -10,7 +10,7 @@ namespace capstan::toolpath {
 /// Whether areas like this are cut by passes of constant engagement: roughing from the solid, between upright
 /// walls, where the cutter has room to turn.
 /// Fails  TPA-UNSUPPORTED, with the reason.
-[[nodiscard]] Status known_at_constant_engagement(const PathJob& task, const WorkArea& area);
+[[nodiscard]] Status may_clear_at_constant_engagement(const PathJob& task, const WorkArea& area);
 
 /// What of the centres such passes go to: inner corners are rounded.
 [[nodiscard]] geometry::Region reached_at_constant_engagement(const PathJob& task,

@@ -60,7 +60,7 @@ class Clearing {
         ground_(cleared),
         fresh_(geometry::bounds(cleared)) {}
 
-  std::optional<std::vector<ClearingPass>> run(const std::optional<ClearingStart>& start) {
+  tl::expected<std::vector<ClearingPass>, Unreached> run(const std::optional<ClearingStart>& start) {
     if (centres_.empty()) return out_;
     if (start) {
       at_ = start->at;
@@ -69,20 +69,32 @@ class Clearing {
     }
     for (std::size_t n = 0;; ++n) {
       poll();
-      if (n > kMostPasses) return std::nullopt;
+      if (n > kMostPasses) return tl::unexpected(unreached());
       refresh();
-      if (free_.empty()) return std::nullopt;
+      if (free_.empty()) return tl::unexpected(unreached());
       if (!next()) break;
     }
     // Where no pass could go, the one along the walls must not either.
     for (const Region& left : geometry::pieces(geometry::subtract(centres_, done_))) {
-      if (geometry::area(left) > kLeftOver * bite_.radius_mm * bite_.radius_mm) return std::nullopt;
+      if (geometry::area(left) > kLeftOver * bite_.radius_mm * bite_.radius_mm)
+        return tl::unexpected(unreached());
     }
     along_walls();
     return std::move(out_);
   }
 
  private:
+  [[nodiscard]] Unreached unreached() const {
+    Unreached out;
+    for (const Region& left : geometry::pieces(geometry::subtract(centres_, done_))) {
+      const double area = geometry::area(left);
+      if (area <= out.area_mm2) continue;
+      const auto box = geometry::bounds(left);
+      out = {0.5 * (box.lo + box.hi), area};
+    }
+    return out;
+  }
+
   /// Brings `free_` and `done_` up to the ground. Both only grow, and only near what was swept since: there
   /// they are made anew, of the ground about it.
   void refresh() {
@@ -405,9 +417,9 @@ class Clearing {
 
 }  // namespace
 
-std::optional<std::vector<ClearingPass>> clearing_passes(const Region& centres, const Bite& bite,
-                                                         const Region& cleared,
-                                                         const std::optional<ClearingStart>& start) {
+tl::expected<std::vector<ClearingPass>, Unreached> clearing_passes(
+    const Region& centres, const Bite& bite, const Region& cleared,
+    const std::optional<ClearingStart>& start) {
   return Clearing(centres, bite, cleared).run(start);
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/ground/base/result.h"
 #include "planner/making/toolpath/region/adaptive/tracer.h"
 #include "planner/making/toolpath/region/area/track.h"
 
@@ -21,13 +22,19 @@ struct ClearingStart {
   geometry::Vec2 at, heading;
 };
 
+/// What no pass reaches: the middle of the largest such place, and the area of centres there.
+struct Unreached {
+  geometry::Vec2 at;
+  double area_mm2 = 0.0;
+};
+
 /// Passes that clear what the cutter reaches from one connected piece of centres, material on the right of
 /// the travel, by at most the bite's arc of contact, and at last what the passes left along the boundary.
 ///
 /// `cleared`  ground that is free at this height, the air outside the material included
 /// `start`    nothing: the first pass is reached from above
-/// Returns nothing when the search found no end.
-[[nodiscard]] std::optional<std::vector<ClearingPass>> clearing_passes(
+/// Fails where the search found no end.
+[[nodiscard]] tl::expected<std::vector<ClearingPass>, Unreached> clearing_passes(
     const geometry::Region& centres, const Bite& bite, const geometry::Region& cleared,
     const std::optional<ClearingStart>& start);
 

@@ -5,7 +5,7 @@
 // feed, sharp edges. Ours is the mean power of SectionAtFeeds by the law that planning takes, without any
 // margin; where that law is a measured set, the card's if it is larger, as in planning.
 
-#include "tests/validation/power.h"
+#include "tests/validation/forces/power.h"
 
 #include <algorithm>
 #include <cmath>
