@@ -21,13 +21,13 @@ std::string pocket(const std::string& depth_mm) {
   return text.replace(text.find(depth), depth.size(), "(0.,0.,-" + depth_mm + ".)");
 }
 
-model::Plan planned(const std::string& material, const std::string& depth_mm) {
+model::Plan planned(const std::string& part, const std::string& material) {
   Job job;
   ShopFiles names;
   names.material = material;
   auto in = load_shop(names, job);
   EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
-  auto plan = read_plan(pocket(depth_mm), "part.p21", job);
+  auto plan = read_plan(part, "part.p21", job);
   EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
   if (!in || !plan) return {};
   auto made = bind(*std::move(plan), *in, {}, job);
@@ -50,11 +50,11 @@ double level_in_d(const model::Plan& plan) {
 TEST(LevelsBetweenWalls, ByRingsAreNoDeeperThanSlotsOfTheMaterialMayBe) {
   constexpr double kRounding = 1e-6;
   for (const char* material : {"X5CrNi18-10", "Ti6Al4V"})
-    EXPECT_LE(level_in_d(planned(material, "12")), 1.0 + kRounding) << material;
+    EXPECT_LE(level_in_d(planned(pocket("12"), material)), 1.0 + kRounding) << material;
 }
 
 TEST(LevelsBetweenWalls, ByConstantEngagementAreNoDeeperThanABoreMayBe) {
-  const auto plan = planned("X5CrNi18-10", "20");
+  const auto plan = planned(pocket("20"), "X5CrNi18-10");
   ASSERT_FALSE(plan.steps.empty());
   const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps.front().step);
   const auto* d = plan.ledger.find(ws->its_operation, "its_machining_strategy");
@@ -63,8 +63,20 @@ TEST(LevelsBetweenWalls, ByConstantEngagementAreNoDeeperThanABoreMayBe) {
   EXPECT_THAT(d->rejected[0].what, ::testing::MatchesRegex("constant engagement .* 9.9 mm deep"));
 }
 
+// A step is cut from its open side: nothing of it is a slot.
+TEST(LevelsOfAStep, MayBeDeeperThanASlot) {
+  std::string text = testing::slurp(testing::source_dir() + "/tests/door/pipeline/parts/open_ends.p21");
+  const std::string depth = "(0.,0.,-6.)";
+  const auto plan = planned(text.replace(text.find(depth), depth.size(), "(0.,0.,-14.)"), "X5CrNi18-10");
+  const auto rough = std::find_if(plan.steps.begin(), plan.steps.end(), [&](const auto& s) {
+    return model::step_id(plan, s) == "STEP area_rough";
+  });
+  ASSERT_NE(rough, plan.steps.end());
+  EXPECT_GT(rough->axial_depth_mm, model::find_cutter(plan, rough->cutter_id)->cutting_diameter_mm);
+}
+
 TEST(FinishedWalls, AreAsWideACutAsTheBentRoughCutterLeft) {
-  const auto plan = planned("X5CrNi18-10", "20");
+  const auto plan = planned(pocket("20"), "X5CrNi18-10");
   ASSERT_GE(plan.steps.size(), 2u);
   const auto& rough = plan.steps[plan.steps.size() - 2];
   const auto& finish = plan.steps.back();
