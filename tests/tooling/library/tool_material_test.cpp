@@ -11,8 +11,10 @@
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/plan/assumed_tool_material.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/cutters/generic.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/nouns/nouns.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {
 namespace {
@@ -62,6 +64,24 @@ TEST(LikelyMaterial, IsHssUpToTheSpeedOfACoatedEdge) {
 TEST(LikelyMaterial, IsCarbideWhereOnlyCarbideBearsTheSpeedOfTheFile) {
   EXPECT_EQ(likely(CutterClass::kTwistDrill, 10.0, kCarbide), Substrate::kCarbide);
   EXPECT_EQ(likely(CutterClass::kReamer, 22.0, 1.5 * kCarbide), Substrate::kCarbide);
+}
+
+TEST(LikelyMaterial, CountsTheCoatingThatTheGenericMillsOfCarbideHaveInSteel) {
+  const auto materials = shipped_materials().value();
+  const auto card = std::find_if(materials.begin(), materials.end(), [](const auto& m) {
+    return m.iso_group == "P" && m.vc_carbide_m_min > 0.0;
+  });
+  ASSERT_NE(card, materials.end());
+  const auto library = generic_library().value();
+  const auto mill = std::find_if(library.begin(), library.end(),
+                                 [](const Cutter& c) { return c.id == "generic/endmill_4f_short/10"; });
+  ASSERT_NE(mill, library.end());
+  const auto preset = std::find_if(mill->presets.begin(), mill->presets.end(),
+                                   [&](const auto& p) { return p.material_group == card->id; });
+  ASSERT_NE(preset, mill->presets.end());
+  const double coating = preset->vc_m_min / card->vc_carbide_m_min;
+  EXPECT_EQ(likely(CutterClass::kTwistDrill, 10.0, 1.24 * coating * kCarbide), Substrate::kCarbide);
+  EXPECT_EQ(likely(CutterClass::kTwistDrill, 10.0, 1.26 * coating * kCarbide), Substrate::kHss);
 }
 
 TEST(LikelyMaterial, FollowsPracticeWhereTheFileGivesNoSpeedOrOneThatNeitherBears) {
