@@ -114,7 +114,7 @@ TEST(ConstantEngagementPlanned, SaysWhyItHasNoPathWhereThereIsNone) {
   text.replace(at, sharp.size(),
                "CLOSED_POCKET('POCKET',#4,(),#32,#35,(),$,#36,#44,#38,#42);\n"
                "#44=TOLERANCED_LENGTH_MEASURE(2.,#37);");
-  const auto plan = bound(read(text), shop(kSlowToCut));
+  const auto plan = bound(read(text), shop(weak()));
   ASSERT_FALSE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
