@@ -18,7 +18,7 @@ constexpr double kOfOneFeed = 0.6;
 /// chip at the spindle's highest speed, 0.061 mm at 10,000 1/min, which are the same feed, hold most of the
 /// path; only the slot of the first ring, one level of 9.8 mm deep, wants less: what a deep slot leaves of
 /// the largest chip, all along the ring (0.885 when two thirds of it took the torque's limit instead).
-constexpr double kRatioReached = 0.916;
+constexpr double kRatioReached = 0.716;
 constexpr double kRatioMayMove = 0.03;
 /// Repeated runs of one program differ by less than this part.
 constexpr double kRepeats = 0.002;

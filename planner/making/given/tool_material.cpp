@@ -23,7 +23,8 @@ double given_rpm(const model::Plan& plan, AnyRef technology, double diameter_mm)
     const auto* d = plan.ledger.find(technology, attribute);
     return d == nullptr || d->binder == model::Binder::kGiven || d->binder == model::Binder::kOperator;
   };
-  if (t->spindle && given("spindle")) return std::abs(*t->spindle);
+  // Of both the spindle's is used, as reading says.
+  if (t->spindle && (given("spindle") || (t->cutspeed && given("cutspeed")))) return std::abs(*t->spindle);
   if (t->cutspeed && given("cutspeed") && diameter_mm > 0.0)
     return std::abs(*t->cutspeed) / (std::numbers::pi * diameter_mm);
   return 0.0;
@@ -59,8 +60,12 @@ tooling::ToolMaterialHints hints_of(const model::Plan& plan, const draft::StepDr
     out.settled_by = tooling::settled_source(wish.assumed_by);
     return out;
   }
+  // Of two tools that the file gives one name, the second is called "name~2": which of them this is, the name
+  // does not say.
+  const bool twins = std::any_of(wish.of_plan.begin(), wish.of_plan.end(),
+                                 [&](const auto& a) { return a.tool.starts_with(cutter.id + "~"); });
   for (const model::AssumedToolMaterial& a : wish.of_plan) {
-    if (a.settled || a.tool != cutter.id) continue;
+    if (a.settled || twins || a.tool != cutter.id) continue;
     out.settled = a.substrate;
     out.settled_by = tooling::assumed_source(a.substrate, a.why);
   }

@@ -47,8 +47,9 @@ TEST(ForeignPath, IsNoneWhereTheProgramCannotBeFollowed) {
   EXPECT_FALSE(path_of_program("G21 G90\nM2\n", 0.0));
 }
 
-// What is fair of the comparison: our own path, handed in as somebody else's, gets the feeds that it had.
-TEST(ForeignPath, OfOurOwnTakesTheTimeThatItTakes) {
+// What is fair of the comparison: our own path, handed in as somebody else's, gets the feeds that it had, and may
+// be quicker, for a given speed is not lowered where the path is a deep slot.
+TEST(ForeignPath, OfOurOwnTakesNoMoreTimeThanItTakes) {
   const auto m = match(kCase, "generic_vmc");
   ASSERT_TRUE(m) << to_text(m.error());
   pipeline::ShopFiles files;
@@ -64,7 +65,16 @@ TEST(ForeignPath, OfOurOwnTakesTheTimeThatItTakes) {
   EXPECT_EQ(theirs.cutter_id, ours.cutter_id);
   EXPECT_DOUBLE_EQ(std::abs(theirs.spindle_rpm), std::abs(ours.spindle_rpm));
   // Neighbouring moves share a feed within 3 % (kGroupRatio), and theirs are told apart at other places.
-  EXPECT_NEAR(theirs.cutting_s, ours.cutting_s, 0.03 * ours.cutting_s);
+  EXPECT_LE(theirs.cutting_s, 1.03 * ours.cutting_s);
+  // Deep slots turn at three quarters of the speed: an eighth of this path, as its speeds say.
+  double slow = 0.0;
+  for (std::size_t i = 1; i < ours.path->size(); ++i) {
+    if (std::abs(ours.schedule->spindle_rpm[i]) < 0.99 * std::abs(ours.spindle_rpm))
+      slow += model::move_length(*ours.path, i);
+  }
+  double all = 0.0;
+  for (std::size_t i = 1; i < ours.path->size(); ++i) all += model::move_length(*ours.path, i);
+  EXPECT_GE(theirs.cutting_s, (1.0 - 0.03 - 0.25 * slow / all) * ours.cutting_s);
 }
 
 TEST(Rivals, RemoveWhatOursRemovesAndKeepItsLimits) {

@@ -109,7 +109,7 @@ TEST_F(Planned, AllowFindingsWritesTheProgramWithAStopBeforeEachCondemnedStep) {
   EXPECT_THAT(said_, HasSubstr("the program stops before what is condemned; step "));
   const std::string program = slurp(folder_ / "x.ngc");
   EXPECT_THAT(program, HasSubstr("(CONDEMNED: the check refuses this program"));
-  const auto marker = program.find("condemned=\"CHK-POWER\")\n");
+  const auto marker = program.find("condemned=\"PIP-EXCESS\")\n");
   ASSERT_NE(marker, std::string::npos);
   EXPECT_LT(program.find("\nM0\n", marker), program.find("\nG43", marker));
   // The check of such a program does not blame its stops: it finds of the text what it finds of the plan.

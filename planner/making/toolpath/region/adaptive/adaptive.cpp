@@ -1,9 +1,12 @@
 #include "planner/making/toolpath/region/adaptive/adaptive.h"
 
 #include <algorithm>
+#include <set>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/region/patterns.h"
@@ -65,36 +68,41 @@ Track mirrored(Track t) {
   return t;
 }
 
-/// What is swept at a height: by the moves from `first` on that run there or below, and by all moves before
-/// that went deeper, as a bore for later levels does.
-Region swept_at(const model::CutterPath& path, std::size_t first, double z_mm, double radius, double chord) {
-  Region out;
-  std::vector<Vec2> line;
-  const auto flush = [&] {
-    if (line.size() == 1) out = geometry::unite(out, geometry::disc(line.front(), radius, chord));
-    if (line.size() > 1) out = geometry::unite(out, geometry::stroke(line, radius, true, chord));
-    line.clear();
-  };
+/// Whether a hole is cleared at a height: by the moves from `first` on that run there or below, and by all moves
+/// before that went deeper, as a bore for later levels does. Each move is taken by itself, once for each place,
+/// and only until the hole is gone: a helix as one line, many times over itself, takes its turns squared.
+bool cleared_at(const model::CutterPath& path, std::size_t first, double z_mm, double radius, double chord,
+                const Region& hole) {
+  Region rest = hole;
+  const auto box = geometry::bounds(hole);
+  std::set<std::array<long long, 7>> seen;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double low = i < first ? z_mm - kDeeper : z_mm + kSameHeight;
-    if (path.z[i] > low) {
-      flush();
+    if (path.z[i] > low) continue;
+    poll();
+    const Vec2 from = path.z[i - 1] > low ? xy(path.point(i)) : xy(path.point(i - 1)), to = xy(path.point(i));
+    const bool arc = path.z[i - 1] <= low && model::is_arc(path.kind[i]);
+    const double reach = radius + (arc ? model::move_length(path, i) : 0.0);
+    if (std::max(from.x, to.x) + reach < box.lo.x || std::min(from.x, to.x) - reach > box.hi.x ||
+        std::max(from.y, to.y) + reach < box.lo.y || std::min(from.y, to.y) - reach > box.hi.y)
       continue;
-    }
-    if (path.z[i - 1] > low) {
-      flush();
-      line.push_back(xy(path.point(i)));
+    const auto whole = [](double v) { return std::llround(v * 1e6); };
+    if (!seen.insert({whole(from.x), whole(from.y), whole(to.x), whole(to.y), arc ? whole(path.cx[i]) : 0,
+                      arc ? whole(path.cy[i]) : 0, arc ? static_cast<long long>(path.kind[i]) : -1})
+             .second)
       continue;
-    }
-    if (line.empty()) line.push_back(xy(path.point(i - 1)));
+    std::vector<Vec2> line{from};
     const double length = model::move_length(path, i);
-    const bool arc = model::is_arc(path.kind[i]);
     const int n = arc ? std::max(1, static_cast<int>(std::ceil(length / (0.02 * radius)))) : 1;
-    for (int k = 1; k <= n; ++k)
-      line.push_back(xy(model::point_on_move(path, i, static_cast<double>(k) / n)));
+    for (int k = 1; k <= n; ++k) {
+      const Vec2 p = arc ? xy(model::point_on_move(path, i, static_cast<double>(k) / n)) : to;
+      if (norm(p - line.back()) > 0.0) line.push_back(p);
+    }
+    rest = geometry::subtract(rest, line.size() == 1 ? geometry::disc(from, radius, chord)
+                                                     : geometry::stroke(line, radius, true, chord));
+    if (geometry::area(rest) <= kSameGround) return true;
   }
-  flush();
-  return out;
+  return false;
 }
 
 class Adaptive {
@@ -170,8 +178,7 @@ class Adaptive {
     if (!in) return tl::unexpected(in.error());
     // The hole to wind out of: the same on every level, whatever the way in was.
     const Region hole = geometry::disc(d.point, turn + bite_.radius_mm - kHoleSlack, bite_.chord_mm);
-    const Region swept = swept_at(c_.writer.path(), before, level_.z_mm, bite_.radius_mm, bite_.chord_mm);
-    if (geometry::area(geometry::subtract(hole, swept)) > kSameGround)
+    if (!cleared_at(c_.writer.path(), before, level_.z_mm, bite_.radius_mm, bite_.chord_mm, hole))
       c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
     c_.writer.line({circle.start.x, circle.start.y, level_.z_mm}, MoveRole::kCut);
     cleared = geometry::unite(cleared, hole);
