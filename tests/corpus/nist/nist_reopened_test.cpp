@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Example1, CorpusNistReopened,
                                            Case{"Technology",
                                                 "nist_ex1.stp",
                                                 Reopen::kTechnology,
-                                                {"30 CHK-EDGES WS ROUGH POCKET1"}},
+                                                {"16 CHK-TOOL-MATERIAL "}},
                                            Case{"ExplicitAll", "nist_ex1E.stp", Reopen::kAll, {}}),
                          [](const auto& given) { return std::string(given.param.name); });
 
