@@ -25,6 +25,7 @@
 #include "planner/making/step/record/grouped_reasons.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
+#include "planner/making/step/said_before.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 #include "tooling/selection/select.h"
@@ -200,10 +201,9 @@ class PathMaker {
       if (tried && !shifts && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
       gone = gone && !tried && tried.error().code == toolpath::kNothingToCut;
       const std::string why = shifts ? *shifts : tried ? excess_text(*tried) : tried.error().message;
-      if (shifts) {
-        stocks_.put_back(step.setup, before);
-      } else if (tried) {
-        if (!least || tried->feeds.worst_excess < least->second) least = {i, tried->feeds.worst_excess};
+      if (tried) {
+        if (!shifts && (!least || tried->feeds.worst_excess < least->second))
+          least = {i, tried->feeds.worst_excess};
         stocks_.put_back(step.setup, before);
       }
       why_not.add(step.cutter.id, why);
@@ -265,12 +265,8 @@ class PathMaker {
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto other = step::constant_cut(p_, step, candidate, means_);
     if (!other) return with_strategy(step, i);
-    auto said = job_.take_diagnostics();
-    auto made = quicker_strategy(step, i, *other);
-    auto of_it = job_.take_diagnostics();
-    for (auto& d : said) job_.report(std::move(d));
-    for (auto& d : of_it) job_.report(std::move(d));
-    return made;
+    const step::SaidBefore before(job_);
+    return quicker_strategy(step, i, *other);
   }
 
   /// How long it takes, if it keeps the limits.
@@ -328,12 +324,11 @@ class PathMaker {
     return rings;
   }
 
-  /// Tries one of the candidates with the strategy that the step has: with a thinner cut, up to kMostThinner
+  /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up to kMostThinner
   /// times, if a limit is exceeded along its path; takes the gentlest if none keeps the limits. Removes the
   /// cut from the stock, except for a proposed step that exceeds the limits.
   Result<step::MeasuredCut> with_strategy(StepDraft& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
-    if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto before = stocks_.before(step.setup);
     std::vector<model::Rejected> thicker;
     std::optional<double> gentlest;  // share of the first try

@@ -13,6 +13,7 @@
 #include "planner/making/step/path/surface.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
+#include "planner/making/step/said_before.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/range/columns_agree.h"
@@ -62,23 +63,6 @@ struct Generated {
   toolpath::GeneratedPath path;
   std::optional<Diagnostic> why_not;
   std::vector<Diagnostic> said;
-};
-
-/// Reports at the end of a scope what was said before it, whatever ends it.
-class SaidBefore {
- public:
-  explicit SaidBefore(Job& job) : job_(job), said_(job.take_diagnostics()) {}
-  ~SaidBefore() {
-    auto now = job_.take_diagnostics();
-    for (auto& d : said_) job_.report(std::move(d));
-    for (auto& d : now) job_.report(std::move(d));
-  }
-  SaidBefore(const SaidBefore&) = delete;
-  SaidBefore& operator=(const SaidBefore&) = delete;
-
- private:
-  Job& job_;
-  std::vector<Diagnostic> said_;
 };
 
 /// toolpath::generate, asked once for each job.
