@@ -24,6 +24,7 @@ namespace {
 using model::AnyRef;
 using model::Cutter;
 
+constexpr char kSize = '@';          // before the measured size in the name of a tool that has worn
 constexpr double kSameAngle = 0.01;  // rad, about half a degree
 
 /// A name says nothing: every size that both know has to agree, and what a thread is has to be known.
@@ -79,6 +80,25 @@ bool does_as_much(const Cutter& loaded, const Cutter& planned) {
          !more("neck_length_mm", loaded.neck_length_mm, planned.neck_length_mm) &&
          !more("stick_out_mm", loaded.stick_out_mm, planned.stick_out_mm) &&
          !more("shank_diameter_mm", loaded.shank_diameter_mm, planned.shank_diameter_mm);
+}
+
+/// The planned tool as it is loaded under its number, smaller by wear or a regrind, if one is: a mill whose
+/// path the measured diameter offsets. Holes have the size of their drill, so that another one is another
+/// tool.
+const Cutter* worn(const std::vector<Cutter>& library, const Cutter& planned) {
+  constexpr double kWorn = 0.05;        // of the diameter: what regrinding takes. Default, unsourced.
+  constexpr double kMeasuredMm = 0.05;  // larger by runout. Default, unsourced.
+  if (planned.pocket <= 0 || !model::has(planned.cutter_class, model::CutterTrait::kEndMill)) return nullptr;
+  for (const Cutter& c : library) {
+    if (!c.loaded || !c.table_line || c.pocket != planned.pocket) continue;
+    const double less = planned.cutting_diameter_mm - c.cutting_diameter_mm;
+    Cutter as_planned = c;
+    as_planned.cutting_diameter_mm = planned.cutting_diameter_mm;
+    const bool near = less <= kWorn * planned.cutting_diameter_mm && less >= -kMeasuredMm;
+    if (near && same_tool(as_planned, planned) && does_as_much(c, planned) && model::offset_fault(c).empty())
+      return &c;
+  }
+  return nullptr;
 }
 
 /// What the plan took a tool to be whose file does not say it: its speeds are for that.
@@ -168,9 +188,23 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
       continue;
     }
     plan.ledger.reopen({r, "its_tool"});
-    reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
-                       std::string(model::to_text(wanted->cutter_class)) + " " +
-                       trimmed(wanted->cutting_diameter_mm, 3) + " mm) is not in the magazine; re-opened");
+    const std::string lost = "operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
+                             std::string(model::to_text(wanted->cutter_class)) + " " +
+                             trimmed(wanted->cutting_diameter_mm, 3) + " mm)";
+    const Cutter* same = worn(library, *wanted);
+    reopened.push_back(same == nullptr
+                           ? lost + " is not in the magazine; re-opened"
+                           : lost + " measures " + trimmed(same->cutting_diameter_mm, 3) + " mm as T" +
+                                 std::to_string(same->pocket) + "; its path is made anew");
+    if (same == nullptr || !seen.insert(wanted->id).second) continue;
+    // The table knows pocket and sizes; class, flutes and tool material are the plan's.
+    Cutter c = *wanted;
+    c.pocket = same->pocket;
+    c.loaded = true;
+    c.cutting_diameter_mm = same->cutting_diameter_mm;
+    c.id = wanted->id.substr(0, wanted->id.find(kSize)) + kSize + trimmed(c.cutting_diameter_mm, 4);
+    take_length(*same, c);
+    merged.push_back(std::move(c));
   }
   // Loaded cutters that the plan did not name stay as the table describes them; a name counts once: what has
   // that of a tool of the plan gets one of its own.
