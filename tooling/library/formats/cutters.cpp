@@ -355,6 +355,11 @@ class Maker {
       substrate = words_of(*p);
       break;
     }
+    // A coating belongs to the edge's grade: `grade_of` reads it here.
+    if (const Property* p = text("COATING"); p != nullptr && substrate != kSubstrateUnstated) {
+      const std::string t = lower_text(p->text);
+      if (!t.empty() && t != "none" && t != "no" && t != "-") substrate += ", coating " + p->text;
+    }
     c.sources.emplace_back("substrate", substrate);
     if (const auto* p = text("HAND"))
       c.hand = p->text == "left" || p->text == "L" ? model::Hand::kLeft : model::Hand::kRight;
