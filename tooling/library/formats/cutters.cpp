@@ -353,6 +353,7 @@ class Maker {
       if (!hard && !steel) continue;
       c.substrate = hard ? model::Substrate::kCarbide : model::Substrate::kHss;
       substrate = words_of(*p);
+      if (steel && !hard && t != "hss") substrate += ", " + p->text;  // "HSS-E": its grade
       break;
     }
     // A coating belongs to the edge's grade: `grade_of` reads it here.
