@@ -14,7 +14,7 @@
 #include "planner/door/service/outputs.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
-#include "planner/door/service/tool_materials.h"
+#include "planner/door/service/shop_tools/tool_materials.h"
 #include "planner/files/exchange/conformance/check.h"
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/p21/read/parse.h"

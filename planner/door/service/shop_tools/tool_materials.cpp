@@ -1,4 +1,4 @@
-#include "planner/door/service/tool_materials.h"
+#include "planner/door/service/shop_tools/tool_materials.h"
 
 #include <algorithm>
 #include <string>
