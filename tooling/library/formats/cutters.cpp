@@ -353,7 +353,13 @@ class Maker {
       if (!hard && !steel) continue;
       c.substrate = hard ? model::Substrate::kCarbide : model::Substrate::kHss;
       substrate = words_of(*p);
+      if (steel && !hard && t != "hss") substrate += ", " + p->text;  // "HSS-E": its grade
       break;
+    }
+    // A coating belongs to the edge's grade: `grade_of` reads it here.
+    if (const Property* p = text("COATING"); p != nullptr && substrate != kSubstrateUnstated) {
+      const std::string t = lower_text(p->text);
+      if (!t.empty() && t != "none" && t != "no" && t != "-") substrate += ", coating " + p->text;
     }
     c.sources.emplace_back("substrate", substrate);
     if (const auto* p = text("HAND"))
