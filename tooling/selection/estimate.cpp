@@ -136,7 +136,11 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
   ap *= scale;
   // Levels are whole.
   if (p.depth_mm > 0.0) ap = p.depth_mm / std::ceil(p.depth_mm / ap - 1e-9);
-  double minutes = volume / (ap * ae * feed) + p.floor_mm2 / (kWidthRatio * d * feed);
+  double minutes = volume / (ap * ae * feed);
+  if (p.floor_mm2 > 0.0 && p.depth_mm > 0.0) {  // less what the passes along its walls cover
+    const double walls = volume / (p.depth_mm * ae);
+    minutes += std::max(0.0, p.floor_mm2 - walls * d) / (kWidthRatio * d * feed);
+  }
   if (r.centre_cutting && p.walled) {
     const model::Ramp ramp = model::ramp_of(c, w);
     if (ramp.angle_rad > 0.0) minutes += p.depth_mm / (std::sin(ramp.angle_rad) * ramp.feed_share * feed);

@@ -105,6 +105,15 @@ bool judged_by_time(const FeatureShape& s) {
   return s.kind == model::ShapeKind::kPocket || s.kind == model::ShapeKind::kSlot;
 }
 
+/// A finishing pass is as wide as what the step before left.
+void take_what_is_left(const model::ProposedStep& before, const model::ProposedStep& step,
+                       tooling::Preferences& wanted) {
+  const double left = before.allowance_side_mm - step.allowance_side_mm;
+  if (!(wanted.width_mm > 0.0) || !(left > 0.0)) return;
+  wanted.volume_mm3 *= left / wanted.width_mm;
+  wanted.width_mm = left;
+}
+
 /// A chain with a cutter for each step, or why there is none.
 struct Equipped {
   Chosen chosen;
@@ -130,6 +139,7 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
     const model::ProposedStep step = as_opened(chain, i, tools);
     tooling::Preferences wanted = step::preferences_of(choice.piece, choice.batch, step, shape);
     wanted.used = used;
+    if (i > 0) take_what_is_left(chain[i - 1], step, wanted);
     auto s = tooling::select(step.tool, choice.usable, plan.material, plan.machine, wanted);
     if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
       tools.push_back(std::move(s));

@@ -30,14 +30,20 @@ double perimeter(const geometry::Region& area) {
   return out;
 }
 
-/// Area that a roughing step cuts between upright walls, islands that stand to the top and its allowance left
-/// out, mm2: of rest machining what the wider cutter before left.
-double cut_mm2(const model::ProposedStep& step, const FeatureShape& s) {
-  constexpr double kChord = 0.01;
+/// The area at a feature's bottom without the islands that stand to its top.
+geometry::Region cut_area(const FeatureShape& s) {
   geometry::Region area = s.area;
   for (const model::Island& i : s.islands) {
     if (i.top_z_mm > -kTopMm) area = geometry::subtract(area, i.area);
   }
+  return area;
+}
+
+/// Area that a roughing step cuts between upright walls, its allowance left out, mm2: of rest machining what
+/// the wider cutter before left.
+double rough_mm2(const model::ProposedStep& step, const FeatureShape& s) {
+  constexpr double kChord = 0.01;
+  const geometry::Region area = cut_area(s);
   const double whole = geometry::area(area) - step.allowance_side_mm * perimeter(area);
   const double wide = step.rest_of_diameter_mm;
   if (!(wide > 0.0)) return whole;
@@ -82,7 +88,7 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
     p.width_mm = kLeftOnWalls;
     p.depth_mm = depth;
     const bool floor = step.operation == TypeId::kBottomAndSideFinishMilling && !s.through;
-    if (floor && s.kind != ShapeKind::kHole) p.floor_mm2 = geometry::area(s.area);
+    if (floor && s.kind != ShapeKind::kHole) p.floor_mm2 = geometry::area(cut_area(s));
     p.volume_mm3 = perimeter(s.area) * depth * kLeftOnWalls;
     return p;
   }
@@ -95,7 +101,7 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
   if (p.roughs && model::has(s.kind, model::ShapeTrait::kWalled) && s.kind != ShapeKind::kHole && upright) {
     p.walled = !(step.rest_of_diameter_mm > 0.0);  // a rest is entered from beside it
     p.depth_mm = std::max(kLeastShare * depth, depth - step.allowance_bottom_mm);
-    p.volume_mm3 = std::max(kLeastShare * geometry::area(s.area), cut_mm2(step, s)) * p.depth_mm;
+    p.volume_mm3 = std::max(kLeastShare * geometry::area(s.area), rough_mm2(step, s)) * p.depth_mm;
   }
   if (s.kind == ShapeKind::kHole) {
     constexpr double kQuarterPi = 0.78539816339744831;
