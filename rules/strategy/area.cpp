@@ -113,11 +113,14 @@ tl::expected<Limit, std::string> before_rest(const Making& m, double of_passage,
 }
 
 /// The widest cutter that reaches a share of the area within the allowance, corners and narrow places left
-/// out; at least `narrow_mm`. By bisection: a cutter of diameter D reaches offset(offset(area, -D/2), D/2).
-double widest_reaching(const Making& m, double share, double allowance, double narrow_mm) {
+/// out, by bisection: a cutter of diameter D reaches offset(offset(area, -D/2), D/2). 0: none of at least
+/// `least_mm` does. `bound`: least_mm itself is answer enough.
+double widest_reaching(const Making& m, double share, double allowance, double least_mm, bool bound) {
   constexpr double kChord = 0.02;
-  constexpr double kAccuracy = 0.03;  // of the result; sizes of mills are farther apart. Default, unsourced.
+  constexpr double kAccuracy = 0.05;  // of the result; sizes of mills are farther apart. Default, unsourced.
   const auto& s = m.shape;
+  double hi = m.known.passage.widest_mm;
+  if (hi < least_mm) return 0.0;
   geometry::Region free = s.reach.empty() ? s.area : s.reach;
   for (const auto& island : s.islands) free = geometry::subtract(free, island.area);
   free = geometry::offset(free, -allowance, kChord);
@@ -126,8 +129,9 @@ double widest_reaching(const Making& m, double share, double allowance, double n
     const auto stood = geometry::offset(free, -0.5 * d, kChord);
     return !stood.empty() && geometry::area(geometry::offset(stood, 0.5 * d, kChord)) >= wanted;
   };
-  double lo = narrow_mm, hi = m.known.passage.widest_mm;
-  while (hi - lo > kAccuracy * lo && lo > 0.0) {
+  if (!reaches(least_mm)) return 0.0;
+  double lo = least_mm;
+  while (!bound && hi - lo > kAccuracy * lo) {
     const double mid = 0.5 * (lo + hi);
     (reaches(mid) ? lo : hi) = mid;
   }
@@ -135,16 +139,16 @@ double widest_reaching(const Making& m, double share, double allowance, double n
 }
 
 // The cutter of a step that leaves corners and narrow places to a narrower one; or why there is no use in
-// that.
+// that. `bound`: only whether there is one.
 tl::expected<Limit, std::string> before_narrow(const Making& m, double allowance, const Limit& narrow,
-                                               model::ToolRequirement& tool) {
+                                               bool bound, model::ToolRequirement& tool) {
   if (!(narrow.diameter_mm > 0.0)) return tl::unexpected(std::string("nothing asks for a narrower cutter"));
-  const double wide = widest_reaching(m, m.number("of_area"), allowance, narrow.diameter_mm);
-  if (wide < kWorthARest * narrow.diameter_mm)
-    return tl::unexpected("a cutter of at most " + mm_text(wide) +
-                          " is not wide enough to be worth a second one of " + mm_text(narrow.diameter_mm) +
-                          " for narrow places");
-  tool.diameter_min_mm = kWorthARest * narrow.diameter_mm;
+  const double least = kWorthARest * narrow.diameter_mm;
+  const double wide = widest_reaching(m, m.number("of_area"), allowance, least, bound);
+  if (!(wide > 0.0))
+    return tl::unexpected("no cutter of " + mm_text(least) + ", wide enough to be worth a second one of " +
+                          mm_text(narrow.diameter_mm) + ", reaches enough of the area");
+  tool.diameter_min_mm = least;
   return Limit{wide, narrow.text + "; that is left to a narrower cutter"};
 }
 
@@ -162,7 +166,7 @@ Made rough_with(const Making& m, bool leaves) {
   Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm, true,
                               finish_follows ? kBeforeSharp : 1.0, m.number("corners"));
   if (leaves && m.number("of_area") < 1.0) {
-    const auto wide = before_narrow(m, s.allowance_side_mm, limit, s.tool);
+    const auto wide = before_narrow(m, s.allowance_side_mm, limit, false, s.tool);
     if (!wide) return no(wide.error());
     limit = *wide;
   } else if (leaves && m.number("corners") == 0.0) {
@@ -240,9 +244,10 @@ Made narrow_rest(const Making& m) {
   ProposedStep& s = *made;
   if (std::abs(m.shape.slope_rad) > 1e-6) return no("rest machining needs upright walls");
   model::ToolRequirement before;
-  const auto wide = before_narrow(m, s.allowance_side_mm, {s.tool.diameter_max_mm, s.why.text}, before);
+  const auto wide = before_narrow(m, s.allowance_side_mm, {s.tool.diameter_max_mm, s.why.text}, true, before);
   if (!wide) return no(wide.error());
-  s.rest_of_diameter_mm = wide->diameter_mm;
+  // A bound: which cutter it was is known when it is chosen (propose/members.h).
+  s.rest_of_diameter_mm = m.known.passage.widest_mm;
   s.why.text += "; only what the wider cutter before left is cut";
   return made;
 }
