@@ -119,7 +119,7 @@ double widest_reaching(const Making& m, double share, double allowance, double l
   constexpr double kChord = 0.02;
   constexpr double kAccuracy = 0.05;  // of the result; sizes of mills are farther apart. Default, unsourced.
   const auto& s = m.shape;
-  double hi = m.known.passage.widest_mm;
+  double hi = m.number("of_passage") * m.known.passage.widest_mm;
   if (hi < least_mm) return 0.0;
   geometry::Region free = s.reach.empty() ? s.area : s.reach;
   for (const auto& island : s.islands) free = geometry::subtract(free, island.area);
