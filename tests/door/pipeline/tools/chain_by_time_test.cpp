@@ -55,7 +55,7 @@ TEST(ChainByTime, RoughsAPocketWideThatHasOneNarrowPlaceAndThatPlaceApart) {
   // 4 mm between the boss and one wall, 10 mm and more all round else.
   const auto p = planned(
       "#73=TOLERANCED_LENGTH_MEASURE(30.,$);\n#74=CIRCULAR_CLOSED_PROFILE($,#73);\n"
-      "#75=CARTESIAN_POINT('',(-16.,0.,0.));\n#76=AXIS2_PLACEMENT_3D('',#75,#21,#22);\n"
+      "#75=CARTESIAN_POINT('',(34.,50.,0.));\n#76=AXIS2_PLACEMENT_3D('',#75,#21,#22);\n"
       "#77=BOSS('B',#4,(),#76,#56,#74,$);\n" +
       pocket(rectangle(70, 50), "#77", 5.0));
   ASSERT_TRUE(p.plan.unplanned.empty()) << p.said;
