@@ -90,10 +90,9 @@ std::string none_fits(const model::ProposedStep& step, const model::Selection& t
          (step.why.text.empty() ? std::string() : " (" + step.why.text + ")");
 }
 
-/// How many times as long as it is estimated a chain of area milling may take, at most, against another that
-/// is estimated by the same formula. Measured: of the 54 roughing and finishing steps of areas in the
-/// examples and in 20 parts that were drawn to be difficult, real time over estimated lies between 0.7
-/// and 1.4, but for some of a few seconds; 1.4 / 0.7.
+/// How many times as long as the quickest the first chain has to be estimated. Measured: of 54 chains of
+/// pockets and slots in the examples, the corpus and 20 parts drawn to be difficult, in 6061 and C45, the
+/// planned time is 0.66 to 1.8 times the estimated one, of 50 of them 0.72 to 1.34; 1.34 / 0.72, rounded up.
 constexpr double kDecisive = 2.0;
 /// What a chain has to save beside that, s: less is not worth another way than the rules prefer. Default,
 /// unsourced.
