@@ -296,6 +296,9 @@ class PathMaker {
       rings->strategy = std::move(choice);
       return rings;
     }
+    // Set aside, not made again, if the other does not win.
+    auto said_of_rings = job_.take_diagnostics();
+    auto cut_by_rings = stocks_.take_out(step.setup, before);
     auto constant = with(true);
     const auto of_constant = kept_seconds(step, constant);
     if (of_constant && (!of_rings || *of_constant < kWorthwhile * *of_rings)) {
@@ -311,8 +314,11 @@ class PathMaker {
       constant->strategy = std::move(choice);
       return constant;
     }
-    // The same again, from what is remembered: the stock is to be cut by it.
-    rings = with(false);
+    (void)job_.take_diagnostics();
+    stocks_.put_back(step.setup, before);
+    stocks_.put_in(step.setup, std::move(cut_by_rings));
+    step.constant_engagement = false;
+    for (auto& d : said_of_rings) job_.report(std::move(d));
     if (!rings) return rings;
     std::string why = constant ? excess_text(*constant) : constant.error().message;
     if (of_constant && of_rings)
@@ -324,9 +330,9 @@ class PathMaker {
     return rings;
   }
 
-  /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up to kMostThinner
-  /// times, if a limit is exceeded along its path; takes the gentlest if none keeps the limits. Removes the
-  /// cut from the stock, except for a proposed step that exceeds the limits.
+  /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up
+  /// to kMostThinner times, if a limit is exceeded along its path; takes the gentlest if none keeps the
+  /// limits. Removes the cut from the stock, except for a proposed step that exceeds the limits.
   Result<step::MeasuredCut> with_strategy(StepDraft& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     const auto before = stocks_.before(step.setup);
