@@ -79,15 +79,6 @@ constexpr std::array kFields{
     FieldOf{"RUNOUT", &Cutter::runout_mm},
 };
 
-bool yes(std::string_view text) {
-  const std::string t = lower_text(trimmed_text(text));
-  return t == "true" || t == "yes" || t == "1" || t == "y" || t == "ja";
-}
-
-std::string words_of(const Property& p) {
-  return std::string(to_text(p.state)) + ": " + (p.source.empty() ? p.symbol : p.source);
-}
-
 void set_source(Cutter& c, std::string_view field, std::string text) {
   std::erase_if(c.sources, [field](const auto& s) { return s.first == field; });
   c.sources.emplace_back(field, std::move(text));
