@@ -7,10 +7,12 @@
 
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/said_before.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/decision/by_planning.h"
 
 // A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
 // same three questions: is anything open, is every cutter in the magazine, does the check condemn it. Where
@@ -40,8 +42,7 @@ pipeline::Policy policy_of(pipeline::Reopen reopen) {
 /// them once more.
 bool planning_chose_all(const model::Plan& plan) {
   const auto chosen = [&](model::AnyRef object, const char* attribute) {
-    const model::Decision* d = plan.ledger.find(object, attribute);
-    return d != nullptr && d->binder != model::Binder::kGiven && d->binder != model::Binder::kOperator;
+    return model::by_planning(plan.ledger.find(object, attribute));
   };
   for (const auto& [key, decision] : plan.ledger.entries()) {
     if (decision.pinned) return false;
@@ -178,11 +179,11 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
         job, [&] { return fallback(plan, inputs, acceptable, policy, reopen, began, checking, job); },
         [&]() -> Result<LateOutcome> { return tl::unexpected(pipeline::stopped_planning(plan)); });
   };
-  auto before = job.take_diagnostics();
+  const SaidBefore before(job);
   auto out = fallen_back();
   const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
   if (nothing_fits && !reopened->empty() && planning_chose_all(plan)) {
-    const std::vector<Diagnostic> said = job.take_diagnostics();
+    auto said = job.take_diagnostics();
     reopen = pipeline::Reopen::kOperations;
     auto anew = fallen_back();
     if (anew) {
@@ -191,12 +192,8 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
       out = std::move(anew);
     } else {
       (void)job.take_diagnostics();
-      for (const Diagnostic& d : said) job.report(d);
+      for (Diagnostic& d : said) job.report(std::move(d));
     }
-  }
-  std::vector<Diagnostic> said = job.take_diagnostics();
-  for (auto* part : {&before, &said}) {
-    for (Diagnostic& d : *part) job.report(std::move(d));
   }
   if (!out) return out;
   out->reopened = *std::move(reopened);

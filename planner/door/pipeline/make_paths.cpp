@@ -10,6 +10,7 @@
 
 #include "planner/door/pipeline/stages.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/said_before.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/rests.h"
@@ -25,7 +26,6 @@
 #include "planner/making/step/record/grouped_reasons.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
-#include "planner/making/step/said_before.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 #include "tooling/selection/select.h"
@@ -265,7 +265,7 @@ class PathMaker {
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto other = step::constant_cut(p_, step, candidate, means_);
     if (!other) return with_strategy(step, i);
-    const step::SaidBefore before(job_);
+    const SaidBefore before(job_);
     return quicker_strategy(step, i, *other);
   }
 

@@ -11,6 +11,7 @@
 #include "planner/making/step/path/job_of.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "rules/rules.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -300,7 +301,7 @@ void mark_open(model::Plan& plan, Reopen reopen, StepDraft& step) {
       const auto* d = ledger.find(op->its_technology, name);
       if (d == nullptr) continue;
       if (d->state != model::DecisionState::kBound) return false;
-      if (d->binder != model::Binder::kGiven && d->binder != model::Binder::kOperator) return false;
+      if (model::by_planning(d)) return false;
     }
     return true;
   };

@@ -10,6 +10,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/cutter/measured_length.h"
+#include "planner/model/plan/cutter/sized_name.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
@@ -24,7 +25,6 @@ namespace {
 using model::AnyRef;
 using model::Cutter;
 
-constexpr char kSize = '@';          // before the measured size in the name of a tool that has worn
 constexpr double kSameAngle = 0.01;  // rad, about half a degree
 
 /// A name says nothing: every size that both know has to agree, and what a thread is has to be known.
@@ -165,45 +165,40 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
     auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, job, plan.cutters);
     if (!wanted) return tl::unexpected(wanted.error());
     take_assumed(assumed, *wanted);
-    if (const Cutter* there = loaded_like(library, *wanted)) {
-      if (!seen.insert(wanted->id).second) continue;
-      const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
-      if (std::any_of(merged.begin(), merged.end(), same_pocket))
-        continue;  // the same tool under another name
-      Cutter c = *wanted;
-      c.pocket = there->pocket;
-      c.loaded = true;
-      if (there->substrate == c.substrate && states(*there, "substrate")) state_material(*there, c);
-      take_length(*there, c);
-      if (std::string fault = model::offset_fault(c); !fault.empty()) {
-        return fail({.code = "LATE-TOOL",
-                     .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +
-                                "' has no length that can be used: " + fault,
-                     .file = plan.file_name,
-                     .path = c.id,
-                     .hint = "measure it and enter its length; where offsets count from a reference tool, "
-                             "say length_offsets: reference under the machine's control"});
-      }
-      merged.push_back(std::move(c));
-      continue;
+    const Cutter* there = loaded_like(library, *wanted);
+    const bool has_worn = there == nullptr && (there = worn(library, *wanted)) != nullptr;
+    if (there == nullptr || has_worn) {
+      plan.ledger.reopen({r, "its_tool"});
+      const std::string what = there == nullptr
+                                   ? " is not in the magazine; re-opened"
+                                   : " measures " + trimmed(there->cutting_diameter_mm, 3) + " mm as T" +
+                                         std::to_string(there->pocket) + "; its path is made anew";
+      reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
+                         std::string(model::to_text(wanted->cutter_class)) + " " +
+                         trimmed(wanted->cutting_diameter_mm, 3) + " mm)" + what);
     }
-    plan.ledger.reopen({r, "its_tool"});
-    const std::string lost = "operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
-                             std::string(model::to_text(wanted->cutter_class)) + " " +
-                             trimmed(wanted->cutting_diameter_mm, 3) + " mm)";
-    const Cutter* same = worn(library, *wanted);
-    reopened.push_back(same == nullptr
-                           ? lost + " is not in the magazine; re-opened"
-                           : lost + " measures " + trimmed(same->cutting_diameter_mm, 3) + " mm as T" +
-                                 std::to_string(same->pocket) + "; its path is made anew");
-    if (same == nullptr || !seen.insert(wanted->id).second) continue;
+    if (there == nullptr || !seen.insert(wanted->id).second) continue;
+    const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
+    if (std::any_of(merged.begin(), merged.end(), same_pocket)) continue;  // the same tool under another name
     // The table knows pocket and sizes; class, flutes and tool material are the plan's.
     Cutter c = *wanted;
-    c.pocket = same->pocket;
+    c.pocket = there->pocket;
     c.loaded = true;
-    c.cutting_diameter_mm = same->cutting_diameter_mm;
-    c.id = wanted->id.substr(0, wanted->id.find(kSize)) + kSize + trimmed(c.cutting_diameter_mm, 4);
-    take_length(*same, c);
+    if (has_worn) {
+      c.cutting_diameter_mm = there->cutting_diameter_mm;
+      c.id = model::name_with_size(wanted->id, c.cutting_diameter_mm);
+    }
+    if (there->substrate == c.substrate && states(*there, "substrate")) state_material(*there, c);
+    take_length(*there, c);
+    if (std::string fault = model::offset_fault(c); !fault.empty()) {
+      return fail({.code = "LATE-TOOL",
+                   .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +
+                              "' has no length that can be used: " + fault,
+                   .file = plan.file_name,
+                   .path = c.id,
+                   .hint = "measure it and enter its length; where offsets count from a reference tool, "
+                           "say length_offsets: reference under the machine's control"});
+    }
     merged.push_back(std::move(c));
   }
   // Loaded cutters that the plan did not name stay as the table describes them; a name counts once: what has

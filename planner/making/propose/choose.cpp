@@ -10,6 +10,7 @@
 #include "planner/making/step/cut/preferences.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/cutter/sized_name.h"
 #include "tooling/selection/select.h"
 
 namespace capstan::propose {
@@ -67,14 +68,13 @@ std::string keep_untried(const draft::Bans& bans, const Member& member, const st
 void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Selection>& before,
                 model::Selection& s) {
   constexpr double kSameMm = 1e-6;
-  constexpr char kSize = '@';
   for (model::Candidate& c : s.ranked) {
     if (!(c.cutter.adjustable_to_mm > 0.0)) continue;
     const std::string id = c.cutter.id;
     const auto look_at = [&](const model::Cutter& other) {
-      if (other.id.substr(0, other.id.find(kSize)) != id) return false;
+      if (model::name_without_size(other.id) != id) return false;
       const bool same = std::abs(other.cutting_diameter_mm - c.cutter.cutting_diameter_mm) < kSameMm;
-      c.cutter.id = same ? other.id : id + kSize + trimmed(c.cutter.cutting_diameter_mm, 4);
+      c.cutter.id = same ? other.id : model::name_with_size(id, c.cutter.cutting_diameter_mm);
       return same;
     };
     const bool taken =

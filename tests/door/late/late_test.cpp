@@ -351,7 +351,8 @@ TEST(Late, WhateverToolIsMissingNoStepUsesIt) {
         ASSERT_NE(c, nullptr) << missing;
         EXPECT_NE(c->pocket, missing) << step.cutter_id;
       }
-      const std::string program = pipeline::write_plan(bound->plan, pipeline::Format::kLinuxCnc, job).value_or("");
+      const std::string program =
+          pipeline::write_plan(bound->plan, pipeline::Format::kLinuxCnc, job).value_or("");
       EXPECT_EQ(program.find("T" + std::to_string(missing) + " "), std::string::npos) << missing;
     }
     EXPECT_GT(replaced, 0);
@@ -359,20 +360,29 @@ TEST(Late, WhateverToolIsMissingNoStepUsesIt) {
 }
 
 TEST(Late, APlanWithTheFilesOwnPathOfAToolThatIsNotLoadedIsRefused) {
-  Brought early = brought(kPlate, pipeline::Format::kJson);
-  for (const auto& [key, decision] : early.plan.ledger.entries()) {
-    if (key.attribute != "its_toolpath") continue;
-    model::Decision given = decision;
-    given.binder = model::Binder::kGiven;
-    early.plan.ledger.set(key, given);
+  for (const auto format : {pipeline::Format::kAp238, pipeline::Format::kJson}) {
+    Brought early = brought(kPlate, format);
+    const auto entries = early.plan.ledger.entries();
+    for (const auto& [key, decision] : entries) {
+      if (key.attribute != "its_toolpath") continue;
+      model::Decision given = decision;
+      given.binder = model::Binder::kGiven;
+      early.plan.ledger.set(key, given);
+    }
+    const model::Cutter* mill = model::find_cutter(early.plan, early.plan.steps.front().cutter_id);
+    ASSERT_NE(mill, nullptr);
+    const std::string id = mill->id;
+    Job job;
+    const auto bound =
+        bind(early.plan, shop_of(without(early.table, mill->pocket)), {.deadline = std::nullopt}, job);
+    const std::string form = format == pipeline::Format::kJson ? "JSON" : "AP238";
+    ASSERT_FALSE(bound) << form;
+    EXPECT_EQ(bound.error().code, "LATE-TOOL") << form << ": " << to_text(bound.error());
+    EXPECT_NE(bound.error().message.find("'" + id + "' of step '" + bound.error().path + "'"),
+              std::string::npos)
+        << bound.error().message;
+    EXPECT_FALSE(bound.error().path.empty());
   }
-  const model::Cutter* mill = model::find_cutter(early.plan, early.plan.steps.front().cutter_id);
-  ASSERT_NE(mill, nullptr);
-  const std::string table = without(early.table, mill->pocket);
-  Job job;
-  const auto bound = bind(early.plan, shop_of(table), {.deadline = std::nullopt}, job);
-  ASSERT_FALSE(bound);
-  EXPECT_EQ(bound.error().code, "LATE-TOOL") << to_text(bound.error());
 }
 
 TEST(Late, AWornMillKeepsWhatIsKnownOfItAndItsPathTakesTheMeasuredDiameter) {

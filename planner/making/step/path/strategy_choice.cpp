@@ -8,6 +8,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/by_planning.h"
 
 // Rings take wide cuts and begin each level with a slot, at which corners and bending hold depth and feed.
 // Constant engagement takes narrow ones as deep as the edge is long. At equal force rings remove more per
@@ -35,7 +36,7 @@ bool is_free(const model::Plan& plan, const StepDraft& step, AnyRef strategy) {
   const auto* d = plan.ledger.find(step.operation, kStrategy);
   if (d == nullptr || d->pinned) return false;
   if (d->state == model::DecisionState::kOpen) return true;
-  return d->binder != model::Binder::kGiven && d->binder != model::Binder::kOperator;
+  return model::by_planning(d);
 }
 
 /// Whether a strategy is one that rings follow, with the cutter climbing.
