@@ -54,7 +54,7 @@ std::string keep_untried(const draft::Bans& bans, const Member& member, const st
                          std::size_t at, model::Selection& s) {
   std::string last;
   std::erase_if(s.ranked, [&](const model::Candidate& c) {
-    const std::string* why = bans.cutter_banned(member, chain, at, c.cutter.id);
+    const std::string* why = bans.cutter_banned(member, chain, at, c.cutter);
     if (why == nullptr) return false;
     s.rejected.push_back({c.cutter.id, *why});
     last = c.cutter.id + ": " + *why;
