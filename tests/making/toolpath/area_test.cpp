@@ -334,6 +334,27 @@ TEST(AreaPath, EntersAnOpenPocketFromOutside) {
   }
 }
 
+TEST(AreaPath, EntersAClosedPocketThatRunsOverTheEdgeFromOutside) {
+  PathJob t = area_job(geometry::rectangle({0, 0}, {90, 40}), 6.0, 10.0);
+  t.stock = geometry::rectangle({-20, -20}, {60, 60});
+  t.cutter.centre_cutting = false;
+  t.cutter.maximum_ramp_angle_rad = 0.0;  // no other way in
+  for (const auto strategy : {StrategyKind::kContourParallel, StrategyKind::kBidirectional}) {
+    t.strategy = strategy;
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+    EXPECT_LE(gouge_mm(*g, t.shape.reach, 5.0, -1e-6), 0.003);
+    HeightMap map({-5, -5}, {100, 45}, 0.25, 0.0);
+    map.only(geometry::rectangle({-5, -5}, {60, 45}));
+    EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+    EXPECT_NEAR(map.highest(geometry::rectangle({5.2, 5.2}, {59.8, 34.8})), -6.0, 1e-4);
+    // Beyond the edge it goes as far as it has to to leave the material, and 2 mm.
+    for (std::size_t i = 0; i < g->path.size(); ++i) EXPECT_LE(g->path.x[i], 60.0 + 5.0 + 2.0 + 0.01);
+  }
+}
+
 /// Runs of ramping moves, and the steepest slope of them.
 struct WaysIn {
   int runs = 0;

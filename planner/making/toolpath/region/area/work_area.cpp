@@ -55,9 +55,12 @@ Result<WorkArea> work_area(const PathJob& task) {
   if (s.through) w.bottom_z_mm -= task.break_through_mm;
   w.slope_rad = s.slope_rad;
   w.bottom_radius_mm = s.through ? 0.0 : s.bottom_radius_mm;
-  w.open = s.open;
+  // A closed outline that runs over the piece's edge is open there.
+  constexpr double kOverMm2 = 1e-3;
+  w.open =
+      s.open || (!task.stock.empty() && geometry::area(geometry::subtract(w.area, task.stock)) > kOverMm2);
   w.material = task.stock.empty() ? w.area : task.stock;
-  if (s.open && !task.stock.empty()) w.area = geometry::intersect(w.area, task.stock);
+  if (w.open && !task.stock.empty()) w.area = geometry::intersect(w.area, task.stock);
   return w;
 }
 

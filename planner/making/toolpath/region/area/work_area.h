@@ -16,7 +16,7 @@ struct WorkArea {
   geometry::Region material;  ///< outline of the material before the step; a cutter outside it is in air
   double top_z_mm = 0.0, bottom_z_mm = 0.0;  ///< of the feature; bottom without allowance
   double slope_rad = 0.0, bottom_radius_mm = 0.0;
-  bool open = false;
+  bool open = false;  ///< its outline has open sides, or runs over the edge of the piece
 };
 
 /// Fails  TPA-FRAME when the feature's axis is not the tool's.
