@@ -42,7 +42,8 @@ struct Answer {
 ///
 /// Sees     the content of the store when it was opened, and what it added itself since, with what others
 ///          added before that.
-/// Threads  the const members may be called from many threads; the others from one, without readers at the same
+/// Threads  the const members may be called from many threads; the others from one, without readers at the
+/// same
 ///          time.
 class CaseBase {
  public:
@@ -69,8 +70,8 @@ class CaseBase {
   ///         5 s; CASE-DAMAGED; CASE-LIMIT too many; CASE-STORE no space, or another fault of the store.
   [[nodiscard]] Status add(const Case& c);
   [[nodiscard]] Status add(std::span<const Case> cases);
-  /// Gives cases a verdict that supersedes the one before. `ids` as `find` gives them. Fails as `add` does, and
-  /// CASE-UNKNOWN for an id that is not there.
+  /// Gives cases a verdict that supersedes the one before. `ids` as `find` gives them. Fails as `add` does,
+  /// and CASE-UNKNOWN for an id that is not there.
   [[nodiscard]] Status judge(std::span<const std::string> ids, Verdict verdict, const Remark& remark);
   /// The cases count no more, and adding them again changes nothing. Fails as `judge` does.
   [[nodiscard]] Status remove(std::span<const std::string> ids, const Remark& remark);

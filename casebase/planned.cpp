@@ -104,8 +104,8 @@ bool cuts(const model::CutterPath& path, std::size_t i) {
 /// The shape that a step cuts, of those of its feature: the one that the workingstep is named after, as
 /// planning names it; else the one whose bottom is nearest to the lowest point of the cut. Null: nobody can
 /// tell.
-const model::FeatureShape* cut_by(const model::Plan& plan, const model::StepResult& step, const std::string& name,
-                                  const std::vector<model::FeatureShape>& shapes) {
+const model::FeatureShape* cut_by(const model::Plan& plan, const model::StepResult& step,
+                                  const std::string& name, const std::vector<model::FeatureShape>& shapes) {
   const Sizes first = sizes_of(shapes.front());
   if (std::all_of(shapes.begin(), shapes.end(), [&](const auto& s) { return sizes_of(s) == first; }))
     return &shapes.front();
@@ -122,8 +122,7 @@ const model::FeatureShape* cut_by(const model::Plan& plan, const model::StepResu
   const model::FeatureShape* best = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const model::FeatureShape& shape : shapes) {
-    const geometry::Vec3 bottom =
-        piece.to_parent(shape.frame.to_parent({0.0, 0.0, -shape.depth_mm}));
+    const geometry::Vec3 bottom = piece.to_parent(shape.frame.to_parent({0.0, 0.0, -shape.depth_mm}));
     const double off = std::abs(bottom.z - lowest);
     if (off < least) {
       least = off;
@@ -215,7 +214,8 @@ std::string plan_hash_of(const model::Plan& plan) {
     if (ws == nullptr || cutter == nullptr) continue;
     text += ids[i] + '\n' + std::string(model::noun_type(ws->its_operation.type).keyword) + ' ' +
             tool_class_of(*cutter) + ' ' + std::to_string(cutter->teeth);
-    for (const double v : {cutter->cutting_diameter_mm, s.vc_m_min, s.fz_mm, s.axial_depth_mm, s.radial_depth_mm})
+    for (const double v :
+         {cutter->cutting_diameter_mm, s.vc_m_min, s.fz_mm, s.axial_depth_mm, s.radial_depth_mm})
       text += ' ' + digits(v);
     text += '\n';
   }

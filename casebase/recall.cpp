@@ -29,8 +29,9 @@ bool may_lead(const Case& c) {
 bool speaks_against(const Case& bad_case, const Case& found) {
   const Bound &bad = bad_case.bound, &c = found.bound;
   const auto no_harder = [](double theirs, double ours) { return ours == 0.0 || theirs <= ours; };
-  return bad_case.observed.verdict == Verdict::kBad && rank(bad_case) <= rank(found) && bad.vc_m_min <= c.vc_m_min && bad.fz_mm <= c.fz_mm &&
-         no_harder(bad.ap_mm, c.ap_mm) && no_harder(bad.ae_mm, c.ae_mm);
+  return bad_case.observed.verdict == Verdict::kBad && rank(bad_case) <= rank(found) &&
+         bad.vc_m_min <= c.vc_m_min && bad.fz_mm <= c.fz_mm && no_harder(bad.ap_mm, c.ap_mm) &&
+         no_harder(bad.ae_mm, c.ae_mm);
 }
 
 /// The lower of the two in the middle where their number is even: the gentler one.

@@ -79,7 +79,8 @@ struct Search::Impl {
       Point weight{};
       for (std::size_t i = 0; i < kDimensions; ++i) weight[i] = (c.counted >> i & 1U) != 0 ? 1.0 : 0.0;
       const Bucket& b = it->second;
-      for (const Hit& hit : look(*b.index, {at, weight}, c.added2)) out.push_back({b.members[hit.row], hit.distance2 + c.added2});
+      for (const Hit& hit : look(*b.index, {at, weight}, c.added2))
+        out.push_back({b.members[hit.row], hit.distance2 + c.added2});
       for (std::size_t i = 0; i < b.tail.size(); ++i) {
         const double d2 = distance2(at.data(), b.tail[i].data(), weight.data(), kDimensions) + c.added2;
         if (d2 <= limit2) out.push_back({b.members[b.indexed + i], d2});
@@ -106,7 +107,8 @@ void Search::update() {
   const std::vector<Entry>& entries = impl_->log->entries();
   for (; impl_->seen < entries.size(); ++impl_->seen) {
     const Entry& e = entries[impl_->seen];
-    if (!e.removed) impl_->buckets[{e.categories, e.key.known}].members.push_back(static_cast<std::uint32_t>(impl_->seen));
+    if (!e.removed)
+      impl_->buckets[{e.categories, e.key.known}].members.push_back(static_cast<std::uint32_t>(impl_->seen));
   }
   const std::vector<Note>& notes = impl_->log->notes();
   for (; impl_->notes_seen < notes.size(); ++impl_->notes_seen) {
@@ -125,7 +127,8 @@ bool Search::any(const Question& q) const {
   const auto number = impl_->category(q);
   if (!number) return false;
   const std::uint16_t known = key_of(q).known;
-  for (auto it = impl_->buckets.lower_bound({*number, 0}); it != impl_->buckets.end() && it->first.first == *number; ++it) {
+  for (auto it = impl_->buckets.lower_bound({*number, 0});
+       it != impl_->buckets.end() && it->first.first == *number; ++it) {
     if (!it->second.members.empty() && comparison(known, it->first.second).comparable) return true;
   }
   return false;

@@ -18,10 +18,12 @@ struct Found {
 /// Neighbours of a question among the entries of a log: nearest first, equal distances by id.
 ///
 /// Cases of equal categories that know the same numbers stand in one bucket. A bucket has an index, which is
-/// made when it is asked first, and a tail of cases that came since, which is looked at one by one: adding makes
-/// no index. When the tail has grown to a share of the bucket, the index is made again at the next question.
+/// made when it is asked first, and a tail of cases that came since, which is looked at one by one: adding
+/// makes no index. When the tail has grown to a share of the bucket, the index is made again at the next
+/// question.
 ///
-/// Threads   the const members may be called from many threads, `update` from one, without readers at that time.
+/// Threads   the const members may be called from many threads, `update` from one, without readers at that
+/// time.
 class Search {
  public:
   explicit Search(const Log& log);

@@ -28,8 +28,8 @@ struct Hit {
 
 /// Finds near points exactly. Every implementation gives the same rows and the same bits: nearest first,
 /// equal distances by row. May hold no point. The const members may be called from many threads.
-/// Throws std::logic_error on a point that is not finite, a weight below zero, or a place of other dimensions:
-/// what is stored and asked was checked before.
+/// Throws std::logic_error on a point that is not finite, a weight below zero, or a place of other
+/// dimensions: what is stored and asked was checked before.
 class Index {
  public:
   Index() = default;
@@ -49,8 +49,8 @@ class Index {
 /// FLANN's exact single tree; the built-in one in a build without FLANN.
 [[nodiscard]] std::unique_ptr<Index> make_index(Points points);
 
-/// The one formula of all indices: the sum of (w (a - b))^2, in four sums of every fourth dimension. Each of its
-/// steps rounds monotonically.
+/// The one formula of all indices: the sum of (w (a - b))^2, in four sums of every fourth dimension. Each of
+/// its steps rounds monotonically.
 [[nodiscard]] inline double distance2(const double* a, const double* b, const double* w, std::size_t n) {
   double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
   const auto term = [&](std::size_t i) {

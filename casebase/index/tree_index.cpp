@@ -130,7 +130,8 @@ class TreeIndex final : public Index {
     const Node& node = nodes_[at];
     if (node.second_half == 0) {
       for (std::size_t i = node.first; i < node.last; ++i)
-        search.meet({rows_[i], distance2(search.q.at.data(), points_.row(i), search.q.weight.data(), dimensions_)});
+        search.meet(
+            {rows_[i], distance2(search.q.at.data(), points_.row(i), search.q.weight.data(), dimensions_)});
       return;
     }
     std::size_t near = at + 1, far = node.second_half;

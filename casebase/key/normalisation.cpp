@@ -36,9 +36,9 @@ constexpr std::array<Scale, kDimensions> kScales = {{
     {"roughness", 2.0 * kTwice, 1e-3},  // two steps of the series of ISO 1302: 0.8, 1.6, 3.2
     {"cutter diameter", kTwice, 1e-3},
     {"teeth", kTwice, 1.0},
-    {"stick-out", kTwice, 1e-3},         // eight times as much bending (a beam's, with the third power)
-    {"hardness", 0.5 * kTwice, 1.0},     // 200 and 283 HB
-    {"coolant", 1.0, 0.0},               // not a logarithm: see `coolant_place`
+    {"stick-out", kTwice, 1e-3},      // eight times as much bending (a beam's, with the third power)
+    {"hardness", 0.5 * kTwice, 1.0},  // 200 and 283 HB
+    {"coolant", 1.0, 0.0},            // not a logarithm: see `coolant_place`
 }};
 constexpr double kNoToleranceMm = 1.0;  // what no tolerance counts as. Default, unsourced
 
@@ -60,15 +60,15 @@ struct Hardness {
   double hrc, hb;
 };
 constexpr std::array<Hardness, 10> kBrinell = {{{20, 226},
-                                                 {25, 253},
-                                                 {30, 286},
-                                                 {35, 327},
-                                                 {40, 371},
-                                                 {45, 421},
-                                                 {50, 481},
-                                                 {55, 560},
-                                                 {60, 654},
-                                                 {65, 739}}};
+                                                {25, 253},
+                                                {30, 286},
+                                                {35, 327},
+                                                {40, 371},
+                                                {45, 421},
+                                                {50, 481},
+                                                {55, 560},
+                                                {60, 654},
+                                                {65, 739}}};
 
 }  // namespace
 
@@ -76,8 +76,8 @@ std::string_view dimension_name(std::size_t i) { return kScales.at(i).name; }
 
 double hb_of_hrc(double hrc) {
   if (!(hrc >= kBrinell.front().hrc)) return 0.0;
-  const auto above = std::find_if(kBrinell.begin() + 1, kBrinell.end() - 1,
-                                  [&](const Hardness& h) { return hrc <= h.hrc; });
+  const auto above =
+      std::find_if(kBrinell.begin() + 1, kBrinell.end() - 1, [&](const Hardness& h) { return hrc <= h.hrc; });
   const Hardness &b = *above, &a = *(above - 1);
   return a.hb + (b.hb - a.hb) * (hrc - a.hrc) / (b.hrc - a.hrc);
 }

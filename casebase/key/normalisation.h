@@ -11,10 +11,10 @@
 
 /// A question as a point: where distance is measured.
 ///
-/// Each number of a question is a coordinate: its logarithm, divided by a fixed scale. The scales never depend
-/// on the cases stored, so that a distance means the same tomorrow. Distance is Euclid's. (With the categories
-/// equal and the scale of each number fixed, HVDM of Wilson and Martinez, "Improved heterogeneous distance
-/// functions", JAIR 6, 1997, is this.)
+/// Each number of a question is a coordinate: its logarithm, divided by a fixed scale. The scales never
+/// depend on the cases stored, so that a distance means the same tomorrow. Distance is Euclid's. (With the
+/// categories equal and the scale of each number fixed, HVDM of Wilson and Martinez, "Improved heterogeneous
+/// distance functions", JAIR 6, 1997, is this.)
 namespace capstan::casebase {
 
 inline constexpr int kNormalisationVersion = 2;

@@ -40,7 +40,7 @@ struct Question {
   std::string material_group = {};  ///< ISO 513 letter and the material's id, e.g. "P/mild_steel"
   std::string tool_class = {};      ///< substrate and class, e.g. "carbide/endmill"
   std::string machine_class = {};   ///< the machine's id, as the machine file names it
-  std::string feature = {};         ///< kind of feature, e.g. "ROUND_HOLE"; kept, no part of the key; may be empty
+  std::string feature = {};  ///< kind of feature, e.g. "ROUND_HOLE"; kept, no part of the key; may be empty
   double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0;  ///< of the feature
   double tolerance_mm = 0.0;                                 ///< width of the tolerance zone
   double asked_ra_um = 0.0;                                  ///< roughness asked for
@@ -106,13 +106,13 @@ struct Observed {
   std::optional<Figure> time_s = {};                ///< executed, of the workingstep
   std::optional<Figure> spindle_load_percent = {};  ///< of rated load, peak
   std::optional<Figure> peak_force_n = {}, torque_nm = {}, power_w = {};
-  std::optional<Figure> size_deviation_mm = {};      ///< actual size - asked size: a bore that is too wide is > 0
+  std::optional<Figure> size_deviation_mm = {};  ///< actual size - asked size: a bore that is too wide is > 0
   std::optional<Figure> position_deviation_mm = {};  ///< distance of the actual place from the asked one
   std::optional<Figure> lag_mm = {};                 ///< largest following error
   std::optional<Figure> surface_ra_um = {};
-  std::optional<Figure> wear_mm = {};        ///< flank wear (VB) at the end
-  std::optional<Figure> chatter = {};        ///< 0 none, 1 heavy
-  std::optional<Figure> breakage = {};       ///< 0 or 1: the tool broke
+  std::optional<Figure> wear_mm = {};   ///< flank wear (VB) at the end
+  std::optional<Figure> chatter = {};   ///< 0 none, 1 heavy
+  std::optional<Figure> breakage = {};  ///< 0 or 1: the tool broke
   Series wear_series_mm;                ///< flank wear over cutting time
   Series load_series_percent;           ///< spindle load over cutting time
   Verdict verdict = Verdict::kUnknown;  ///< as recorded; a later judgement supersedes it (`CaseBase::judge`)
@@ -123,12 +123,13 @@ struct Observed {
 struct From {
   std::string machine = {};        ///< serial or inventory number of the very machine
   std::string tool_instance = {};  ///< serial number of the very tool
-  std::string tool_edge = {};      ///< edge or regrind of it: wear of one edge says nothing about another's spread
-  std::string time_utc = {};       ///< end of the step, ISO 8601, "2016-06-28T17:32:31Z"
-  std::string plan_hash = {};      ///< `plan_hash_of` of the plan that it was cut by
-  std::string workingstep = {};    ///< its persistent id in that plan
-  std::string part = {};           ///< number of the part: repeats of a run differ here
-  std::string source = {};         ///< who, which file; never empty
+  std::string tool_edge =
+      {};                     ///< edge or regrind of it: wear of one edge says nothing about another's spread
+  std::string time_utc = {};  ///< end of the step, ISO 8601, "2016-06-28T17:32:31Z"
+  std::string plan_hash = {};    ///< `plan_hash_of` of the plan that it was cut by
+  std::string workingstep = {};  ///< its persistent id in that plan
+  std::string part = {};         ///< number of the part: repeats of a run differ here
+  std::string source = {};       ///< who, which file; never empty
   bool operator==(const From&) const = default;
 };
 

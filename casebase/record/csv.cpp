@@ -11,8 +11,8 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/tables/separated.h"
 
-// One column for each text, number and word. A figure has three: its value, NAME_std_dev, NAME_origin; a series
-// two: "time:value time:value ...", NAME_origin. An empty cell: not known.
+// One column for each text, number and word. A figure has three: its value, NAME_std_dev, NAME_origin; a
+// series two: "time:value time:value ...", NAME_origin. An empty cell: not known.
 
 namespace capstan::casebase {
 namespace {
@@ -34,7 +34,8 @@ std::vector<Column> make_columns() {
     out.push_back({name, &f, Part::kValue});
     const bool figure = std::holds_alternative<FigureAt>(f.at);
     if (figure) out.push_back({name + "_std_dev", &f, Part::kStdDev});
-    if (figure || std::holds_alternative<SeriesAt>(f.at)) out.push_back({name + "_origin", &f, Part::kOrigin});
+    if (figure || std::holds_alternative<SeriesAt>(f.at))
+      out.push_back({name + "_origin", &f, Part::kOrigin});
   }
   return out;
 }
@@ -54,7 +55,8 @@ std::string joined(const std::vector<std::string>& cells) {
 
 std::string series_text(const Series& series) {
   std::string out;
-  for (const Sample& s : series.samples) out += (out.empty() ? "" : " ") + shortest(s.t_s) + ':' + shortest(s.value);
+  for (const Sample& s : series.samples)
+    out += (out.empty() ? "" : " ") + shortest(s.t_s) + ':' + shortest(s.value);
   return out;
 }
 
@@ -84,7 +86,8 @@ Fault read_series(std::string_view text, Series& series) {
     if (colon == std::string_view::npos) return "'" + std::string(pair.substr(0, 40)) + "' is not TIME:VALUE";
     const auto t = parse_double(pair.substr(0, colon)), v = parse_double(pair.substr(colon + 1));
     if (!t || !v) return "'" + std::string(pair.substr(0, 40)) + "' is not TIME:VALUE";
-    if (series.samples.size() == kMaxSamples) return "it has more than " + std::to_string(kMaxSamples) + " samples";
+    if (series.samples.size() == kMaxSamples)
+      return "it has more than " + std::to_string(kMaxSamples) + " samples";
     series.samples.push_back({*t, *v});
   }
   return std::nullopt;

@@ -88,14 +88,16 @@ std::optional<Case> decoded(std::string_view bytes) {
   if (from.integer<std::uint8_t>() != kCaseVersion) return std::nullopt;
   Case c;
   auto next = fields().begin();
+  bool origin = false;  // is always said
   while (!from.at_end()) {
     const auto tag = from.integer<std::uint8_t>();
     while (next != fields().end() && next->tag < tag) ++next;
     if (next == fields().end() || next->tag != tag) return std::nullopt;
     if (!get_field(from, *next, c) || is_default(*next, c)) return std::nullopt;
+    origin = origin || next->name == "origin";
     ++next;
   }
-  if (!from.good()) return std::nullopt;
+  if (!from.good() || !origin) return std::nullopt;
   return c;
 }
 

@@ -64,9 +64,8 @@ Status Log::take(std::int64_t number, std::string_view bytes, Job* job) {
   }
   if (!wrong) return {};
   ++refused_;
-  Diagnostic d{.code = "CASE-ROW",
-               .message = fmt::format("row {} is left out: {}", number, *wrong),
-               .file = name()};
+  Diagnostic d{
+      .code = "CASE-ROW", .message = fmt::format("row {} is left out: {}", number, *wrong), .file = name()};
   if (job == nullptr) {
     shared_->damaged = true;
     d.code = "CASE-DAMAGED";
@@ -148,7 +147,9 @@ Status Log::append(const std::function<Status(Store::Appended&)>& make) {
   };
   if (shared_->damaged) return refuse();
   std::vector<NewRow> mine;
-  const auto take_row = [&](std::int64_t number, std::string_view head) { return take(number, head, nullptr); };
+  const auto take_row = [&](std::int64_t number, std::string_view head) {
+    return take(number, head, nullptr);
+  };
   const Status done =
       store_->append(totals_.rows, take_row, [&](const std::string& stated) -> Result<Store::Appended> {
         if (totals_of(stated) != std::optional(totals_)) {
@@ -190,7 +191,8 @@ Status Log::add(std::span<const Case> cases) {
   });
 }
 
-Status Log::note(RowKind kind, std::span<const std::uint32_t> entries, Verdict verdict, const Remark& remark) {
+Status Log::note(RowKind kind, std::span<const std::uint32_t> entries, Verdict verdict,
+                 const Remark& remark) {
   return append([&](Store::Appended& out) -> Status {
     for (const std::uint32_t entry : entries) {
       const Entry& e = entries_.at(entry);
@@ -250,7 +252,8 @@ std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted
     shared_->faults.push_back(
         {.code = "CASE-ROW",
          .severity = Severity::kWarning,
-         .message = fmt::format("case {} is left out: {}", digits_of(entries_[wanted[i]].id).substr(0, 12), why[i]),
+         .message =
+             fmt::format("case {} is left out: {}", digits_of(entries_[wanted[i]].id).substr(0, 12), why[i]),
          .file = name()});
   }
   return out;

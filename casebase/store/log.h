@@ -40,13 +40,14 @@ struct Note {
 ///
 /// When a log is opened every head is read and its checksum, place and order are held against the totals. A
 /// body is read when the case is used; then its bytes are held against the checksum in the head, its id and
-/// limits are computed again, and the head is made of it again. So no altered number is ever given; a body that
-/// was altered is noticed when it is used, or by `verify`.
+/// limits are computed again, and the head is made of it again. So no altered number is ever given; a body
+/// that was altered is noticed when it is used, or by `verify`.
 ///
 /// Threads   `load` may be called from many threads; nothing else beside it.
 class Log {
  public:
-  /// Rows that are altered or gone are reported (CASE-ROW) and left out; then `append` refuses (CASE-DAMAGED).
+  /// Rows that are altered or gone are reported (CASE-ROW) and left out; then `append` refuses
+  /// (CASE-DAMAGED).
   [[nodiscard]] static Result<Log> open(std::unique_ptr<Store> store, Job& job);
 
   /// By the number of their rows. An entry stays at its place.
@@ -79,7 +80,8 @@ class Log {
     std::vector<Diagnostic> faults;
     bool damaged = false;
   };
-  explicit Log(std::unique_ptr<Store> store) : store_(std::move(store)), shared_(std::make_unique<Shared>()) {}
+  explicit Log(std::unique_ptr<Store> store)
+      : store_(std::move(store)), shared_(std::make_unique<Shared>()) {}
 
   Status take(std::int64_t number, std::string_view head, Job* job);
   std::optional<std::string> take_in(std::int64_t number, const Head& head);

@@ -76,7 +76,8 @@ std::optional<Head> head_of(std::string_view bytes, std::int64_t number) {
   head.id = get_sum(from);
   head.body = get_sum(from);
   const auto verdict = from.integer<std::uint8_t>();
-  if (kind > static_cast<std::uint8_t>(RowKind::kRemoval) || verdict > static_cast<std::uint8_t>(Verdict::kBad))
+  if (kind > static_cast<std::uint8_t>(RowKind::kRemoval) ||
+      verdict > static_cast<std::uint8_t>(Verdict::kBad))
     return std::nullopt;
   head.kind = static_cast<RowKind>(kind);
   head.verdict = static_cast<Verdict>(verdict);
@@ -98,7 +99,8 @@ std::optional<Head> head_of(std::string_view bytes, std::int64_t number) {
 std::string bytes_of(const Remark& remark) {
   std::string out;
   put(out, kRowVersion);
-  for (const std::string* text : {&remark.by, &remark.time_utc, &remark.reason}) put(out, std::string_view(*text));
+  for (const std::string* text : {&remark.by, &remark.time_utc, &remark.reason})
+    put(out, std::string_view(*text));
   return out;
 }
 

@@ -11,13 +11,13 @@
 #include "casebase/store/version_1.h"
 #include "planner/ground/base/file.h"
 
-// One file of SQLite: a table of heads, a table of bodies, a row of totals. It is opened defensively: the schema
-// has to be ours to the letter, with no other table, index, trigger or view.
+// One file of SQLite: a table of heads, a table of bodies, a row of totals. It is opened defensively: the
+// schema has to be ours to the letter, with no other table, index, trigger or view.
 //
 // Rows are only appended, so that writing touches the right edge of two trees and the row of totals. Before
 // writing, that edge is read and held against what it should be, and the file must have the size and no free
-// page, as a file has that only grew: then nothing that is stored can be overwritten, however damaged the rest
-// of the file is. Where it is not so, the whole structure is checked first (PRAGMA integrity_check).
+// page, as a file has that only grew: then nothing that is stored can be overwritten, however damaged the
+// rest of the file is. Where it is not so, the whole structure is checked first (PRAGMA integrity_check).
 
 namespace capstan::casebase {
 namespace {
@@ -126,7 +126,8 @@ Status SqliteStore::run(const std::string& sql, std::string_view doing) {
 
 Result<Statement> SqliteStore::prepare(const std::string& sql, std::string_view doing) {
   sqlite3_stmt* s = nullptr;
-  if (sqlite3_prepare_v2(db_.get(), sql.c_str(), -1, &s, nullptr) != SQLITE_OK) return fail(sqlite_fault(doing));
+  if (sqlite3_prepare_v2(db_.get(), sql.c_str(), -1, &s, nullptr) != SQLITE_OK)
+    return fail(sqlite_fault(doing));
   return Statement(s);
 }
 
@@ -145,7 +146,8 @@ Status SqliteStore::harden(int busy_ms) {
                                    {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
                                    {SQLITE_DBCONFIG_ENABLE_VIEW, 0},
                                    {SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0}}) {
-    if (sqlite3_db_config(db_.get(), option, on, nullptr) != SQLITE_OK) return fail(sqlite_fault("protect it"));
+    if (sqlite3_db_config(db_.get(), option, on, nullptr) != SQLITE_OK)
+      return fail(sqlite_fault("protect it"));
   }
   sqlite3_limit(db_.get(), SQLITE_LIMIT_LENGTH, kMaxValueBytes);
   sqlite3_limit(db_.get(), SQLITE_LIMIT_ATTACHED, 0);
@@ -154,15 +156,17 @@ Status SqliteStore::harden(int busy_ms) {
 }
 
 Status SqliteStore::make_tables() {
-  if (Status made = run(fmt::format("{}; {}; {}", kHeadTable, kBodyTable, kTotalTable), "make the case base"); !made)
+  if (Status made = run(fmt::format("{}; {}; {}", kHeadTable, kBodyTable, kTotalTable), "make the case base");
+      !made)
     return made;
   Result<Statement> s = prepare("INSERT INTO capstan_total VALUES(1, ?)", "make the case base");
   if (!s) return fail(s.error());
   const std::string none = bytes_of(Totals{});
   sqlite3_bind_blob(s->get(), 1, none.data(), static_cast<int>(none.size()), SQLITE_STATIC);
   if (sqlite3_step(s->get()) != SQLITE_DONE) return fail(sqlite_fault("make the case base"));
-  return run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kSchemaVersion),
-             "make the case base");
+  return run(
+      fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kSchemaVersion),
+      "make the case base");
 }
 
 /// In a file without any table, which is what SQLite opens where there was none.
@@ -183,7 +187,8 @@ Status SqliteStore::make_where_empty() {
 
 Status SqliteStore::connect(Missing missing, int busy_ms, Job& job) {
   std::error_code ignored;
-  const std::filesystem::path absolute = std::filesystem::absolute(path_, ignored);  // never a URI, ":memory:"
+  const std::filesystem::path absolute =
+      std::filesystem::absolute(path_, ignored);  // never a URI, ":memory:"
   const bool there = std::filesystem::exists(absolute, ignored);
   if (!there && missing == Missing::kRefuse)
     return fail(fault("CASE-OPEN", "there is no such case base", "`cases add` makes one"));
@@ -192,9 +197,11 @@ Status SqliteStore::connect(Missing missing, int busy_ms, Job& job) {
   const int flags =
       SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX | (missing == Missing::kCreate ? SQLITE_OPEN_CREATE : 0);
   sqlite3* raw = nullptr;
-  const int code = sqlite3_open_v2(absolute.c_str(), &raw, flags, nullptr);  // falls back to reading by itself
+  const int code =
+      sqlite3_open_v2(absolute.c_str(), &raw, flags, nullptr);  // falls back to reading by itself
   db_.reset(raw);
-  if (code != SQLITE_OK) return fail(fault("CASE-OPEN", fmt::format("cannot open it: {}", sqlite3_errstr(code))));
+  if (code != SQLITE_OK)
+    return fail(fault("CASE-OPEN", fmt::format("cannot open it: {}", sqlite3_errstr(code))));
   if (Status s = harden(busy_ms); !s) return s;
   if (missing == Missing::kCreate && sqlite3_db_readonly(db_.get(), "main") == 0) {
     const Result<std::int64_t> tables = integer("SELECT count(*) FROM sqlite_schema");
@@ -221,9 +228,10 @@ Result<std::int64_t> SqliteStore::version() {
   const Result<std::int64_t> of = integer("PRAGMA user_version");
   if (!of) return fail(of.error());
   if (*of > kSchemaVersion || *of < 1) {
-    return fail(fault("CASE-SCHEMA",
-                      fmt::format("the case base is of version {}, this program knows {}", *of, kSchemaVersion),
-                      "use the newer program that made it"));
+    return fail(
+        fault("CASE-SCHEMA",
+              fmt::format("the case base is of version {}, this program knows {}", *of, kSchemaVersion),
+              "use the newer program that made it"));
   }
   return of;
 }
@@ -236,7 +244,8 @@ Status SqliteStore::check_schema(std::span<const std::pair<std::string_view, std
   int code = SQLITE_ROW;
   while ((code = sqlite3_step(s->get())) == SQLITE_ROW) {
     const std::string name(bytes_at(s->get(), 1));
-    const auto ours = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
+    const auto ours =
+        std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
     if (bytes_at(s->get(), 0) != "table" || ours == tables.end() || bytes_at(s->get(), 2) != ours->second) {
       return fail(fault("CASE-SCHEMA", fmt::format("the {} '{}' is not one of a case base",
                                                    bytes_at(s->get(), 0).substr(0, 20), name.substr(0, 60))));
@@ -251,7 +260,8 @@ Status SqliteStore::check_schema(std::span<const std::pair<std::string_view, std
 Status SqliteStore::check_schema() {
   const Result<std::int64_t> of = version();
   if (!of) return fail(of.error());
-  if (*of != kSchemaVersion) return fail(fault("CASE-SCHEMA", "it changed its version meanwhile", "open it again"));
+  if (*of != kSchemaVersion)
+    return fail(fault("CASE-SCHEMA", "it changed its version meanwhile", "open it again"));
   const std::array<std::pair<std::string_view, std::string>, 3> ours = {
       {{"capstan_head", kHeadTable}, {"capstan_body", kBodyTable}, {"capstan_total", kTotalTable}}};
   return check_schema(ours);
@@ -264,7 +274,8 @@ Result<OldTotals> SqliteStore::old_totals() {
   if (code != SQLITE_ROW && code != SQLITE_DONE) return fail(sqlite_fault("read its totals"));
   OldTotals t;
   if (code == SQLITE_ROW) t = {sqlite3_column_int64(s->get(), 0), std::string(bytes_at(s->get(), 1))};
-  if (t.ids.size() != 32) return fail(fault("CASE-DAMAGED", "its totals are gone", "restore the file from a copy"));
+  if (t.ids.size() != 32)
+    return fail(fault("CASE-DAMAGED", "its totals are gone", "restore the file from a copy"));
   return t;
 }
 
@@ -274,7 +285,8 @@ Result<OldRows> SqliteStore::read_version_1(Job& job) {
   if (Status s = check_schema(ours); !s) return fail(s.error());
   Result<OldTotals> stated = old_totals();
   const Result<std::int64_t> pages = integer("PRAGMA page_count"), page = integer("PRAGMA page_size");
-  if (!stated || !pages || !page) return fail(!stated ? stated.error() : !pages ? pages.error() : page.error());
+  if (!stated || !pages || !page)
+    return fail(!stated ? stated.error() : !pages ? pages.error() : page.error());
   const auto room = static_cast<std::size_t>(*pages * *page / kLeastRowBytes);
   OldReader reader(path_, *std::move(stated));
   Result<Statement> s = prepare(old_select(), "read its cases");
@@ -282,7 +294,8 @@ Result<OldRows> SqliteStore::read_version_1(Job& job) {
   std::vector<OldCell> cells(static_cast<std::size_t>(sqlite3_column_count(s->get())));
   int code = SQLITE_ROW;
   while ((code = sqlite3_step(s->get())) == SQLITE_ROW) {
-    if (reader.count() >= room) return fail(fault("CASE-DAMAGED", "it gives more cases than it has room for"));
+    if (reader.count() >= room)
+      return fail(fault("CASE-DAMAGED", "it gives more cases than it has room for"));
     for (int i = 0; i < static_cast<int>(cells.size()); ++i) {
       const int type = sqlite3_column_type(s->get(), i);
       OldCell& cell = cells[static_cast<std::size_t>(i)];
@@ -313,7 +326,8 @@ Status SqliteStore::heads(std::int64_t after, const TakeHead& take) {
   if (!pages || !page) return fail(!pages ? pages.error() : page.error());
   // A tree whose branches were made to cross would give more rows than the file has room for.
   const std::int64_t room = *pages * *page / kLeastRowBytes;
-  Result<Statement> s = prepare("SELECT number, head FROM capstan_head WHERE number > ? ORDER BY number", "read its cases");
+  Result<Statement> s =
+      prepare("SELECT number, head FROM capstan_head WHERE number > ? ORDER BY number", "read its cases");
   if (!s) return fail(s.error());
   sqlite3_bind_int64(s->get(), 1, after);
   int code = SQLITE_ROW;
@@ -356,7 +370,8 @@ Status SqliteStore::bodies(std::span<const std::int64_t> numbers, const TakeBody
     sqlite3_bind_int64(s->get(), 1, numbers[i]);
     const int code = sqlite3_step(s->get());
     // A row in a broken page is as good as gone; only what is nobody's fault may be tried again.
-    if ((code & 0xff) == SQLITE_BUSY || (code & 0xff) == SQLITE_IOERR) return fail(sqlite_fault("read a case"));
+    if ((code & 0xff) == SQLITE_BUSY || (code & 0xff) == SQLITE_IOERR)
+      return fail(sqlite_fault("read a case"));
     if (code == SQLITE_ROW) take(i, bytes_at(s->get(), 0));
     sqlite3_reset(s->get());
   }
@@ -369,8 +384,7 @@ Status SqliteStore::check_structure() {
   if (!s) return fail(s.error());
   if (sqlite3_step(s->get()) != SQLITE_ROW) return fail(sqlite_fault("check it"));
   if (const std::string says(bytes_at(s->get(), 0)); says != "ok") {
-    return fail(fault("CASE-DAMAGED",
-                      "nothing is added, for its structure is broken: " + says.substr(0, 200),
+    return fail(fault("CASE-DAMAGED", "nothing is added, for its structure is broken: " + says.substr(0, 200),
                       "restore it from a copy, or export its cases into a new one"));
   }
   checked_ = true;
@@ -421,7 +435,8 @@ Status SqliteStore::insert(const Appended& appended) {
       if (!put(*s, 2, *bytes)) return fail(sqlite_fault("add a case"));
     }
   }
-  if (!put(*total, 1, appended.totals) || sqlite3_changes(db_.get()) != 1) return fail(sqlite_fault("add a case"));
+  if (!put(*total, 1, appended.totals) || sqlite3_changes(db_.get()) != 1)
+    return fail(sqlite_fault("add a case"));
   return {};
 }
 
@@ -439,13 +454,16 @@ Status SqliteStore::migrate() {
   const Result<OldTotals> stated = old_totals();
   if (!stated) return fail(stated.error());
   if (*stated != old_->stated)
-    return fail(fault("CASE-BUSY", "another program of an older version added to it meanwhile", "open it again"));
-  if (Status s = run("DROP TABLE capstan_case; DROP TABLE capstan_total", "turn it into version 2"); !s) return s;
+    return fail(
+        fault("CASE-BUSY", "another program of an older version added to it meanwhile", "open it again"));
+  if (Status s = run("DROP TABLE capstan_case; DROP TABLE capstan_total", "turn it into version 2"); !s)
+    return s;
   if (Status s = make_tables(); !s) return s;
   return insert({old_->rows, bytes_of(old_->totals)});
 }
 
-Status SqliteStore::append_within(std::int64_t after, const TakeHead& take, const Decide& decide, bool& changed) {
+Status SqliteStore::append_within(std::int64_t after, const TakeHead& take, const Decide& decide,
+                                  bool& changed) {
   if (old_) {
     if (Status s = migrate(); !s) return s;
     changed = true;

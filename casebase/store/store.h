@@ -17,23 +17,23 @@ namespace capstan::casebase {
 /// Whether a case base that is not there is made.
 enum class Missing : std::uint8_t { kRefuse, kCreate };
 
-/// A row to be stored: a head, which is read when the base is opened, and a body, which is read when the row is
-/// used.
+/// A row to be stored: a head, which is read when the base is opened, and a body, which is read when the row
+/// is used.
 struct NewRow {
   std::int64_t number = 0;
   std::string head, body;
 };
 
 /// A place that keeps the rows of a case base: a file, a server. It moves bytes and knows no case; what they
-/// mean, and whether they were altered, is the log's business (log.h). Rows are numbered from 1 without a gap,
-/// are only appended, and never change. Beside them there is one short text, the totals.
+/// mean, and whether they were altered, is the log's business (log.h). Rows are numbered from 1 without a
+/// gap, are only appended, and never change. Beside them there is one short text, the totals.
 ///
 /// Every implementation passes the contract's tests (tests/casebase/store).
 ///
 /// Threads   one call at a time; the log sees to that.
 /// Fails     CASE-BUSY another writer held the store for too long; CASE-DAMAGED the store cannot be read;
-///           CASE-SCHEMA it is not a case base, or was altered to be none; CASE-READ-ONLY; CASE-STORE no space,
-///           an unreachable server, any other fault of the store.
+///           CASE-SCHEMA it is not a case base, or was altered to be none; CASE-READ-ONLY; CASE-STORE no
+///           space, an unreachable server, any other fault of the store.
 class Store {
  public:
   using TakeHead = std::function<Status(std::int64_t number, std::string_view head)>;
@@ -55,11 +55,12 @@ class Store {
   /// Gives the rows behind `after` by rising number, as one state of the store, and then its totals. Ends at
   /// the first fault of `take`.
   [[nodiscard]] virtual Result<std::string> read(std::int64_t after, const TakeHead& take) = 0;
-  /// Gives the bodies of these rows, `i` counting `numbers`, in any order. A row that is not there is not given.
+  /// Gives the bodies of these rows, `i` counting `numbers`, in any order. A row that is not there is not
+  /// given.
   [[nodiscard]] virtual Status bodies(std::span<const std::int64_t> numbers, const TakeBody& take) = 0;
-  /// In one transaction, with no other writer between: gives the rows behind `after`, asks what to append, and
-  /// appends it. When it returns well, all of it is stored for good; when it fails, nothing is, but where the
-  /// connection was lost the outcome is unknown, and the same call may be made again.
+  /// In one transaction, with no other writer between: gives the rows behind `after`, asks what to append,
+  /// and appends it. When it returns well, all of it is stored for good; when it fails, nothing is, but where
+  /// the connection was lost the outcome is unknown, and the same call may be made again.
   [[nodiscard]] virtual Status append(std::int64_t after, const TakeHead& take, const Decide& decide) = 0;
 };
 

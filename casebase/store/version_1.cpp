@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kReportedRows = 20;
 
-constexpr std::array<std::string_view, 7> kTexts = {"operation",     "material_group", "tool_class", "machine_class",
-                                                    "verdict",       "provenance",     "source"};
+constexpr std::array<std::string_view, 7> kTexts = {
+    "operation", "material_group", "tool_class", "machine_class", "verdict", "provenance", "source"};
 constexpr std::array<std::string_view, 14> kNumbers = {
     "diameter_mm", "depth_mm", "width_mm", "tolerance_mm", "cutting_diameter_mm", "vc_m_min",     "fz_mm",
     "ap_mm",       "ae_mm",    "cycle_s",  "peak_force_n", "surface_ra_um",       "deviation_mm", "wear_mm"};
@@ -92,7 +92,8 @@ std::optional<Case> case_of_cells(std::span<const OldCell> cells) {
   const auto number = [&](std::size_t i) { return cells[1 + kTexts.size() + i].real; };
   const auto integer = [&](std::size_t i) { return cells[1 + kTexts.size() + kNumbers.size() + i].integer; };
   Case c;
-  c.asked = {.operation = text(0), .material_group = text(1), .tool_class = text(2), .machine_class = text(3)};
+  c.asked = {
+      .operation = text(0), .material_group = text(1), .tool_class = text(2), .machine_class = text(3)};
   const auto verdict = verdict_of(text(4));
   const auto origin = origin_of(text(5));
   if (!verdict || !origin) return std::nullopt;
@@ -112,8 +113,8 @@ std::optional<Case> case_of_cells(std::span<const OldCell> cells) {
   c.bound.ae_mm = number(8);
   std::size_t at = 9;
   for (std::optional<Figure>* figure :
-       {&c.observed.time_s, &c.observed.peak_force_n, &c.observed.surface_ra_um, &c.observed.size_deviation_mm,
-        &c.observed.wear_mm}) {
+       {&c.observed.time_s, &c.observed.peak_force_n, &c.observed.surface_ra_um,
+        &c.observed.size_deviation_mm, &c.observed.wear_mm}) {
     const double v = number(at++);
     if (v != 0.0) *figure = Figure{v, 0.0, c.origin};
   }
@@ -188,12 +189,12 @@ OldRows OldReader::end(Job& job) {
       out_.stated.count == static_cast<std::int64_t>(trusted_) && out_.stated.ids == digits_of(ids_);
   out_.damaged = refused_ != 0 || !as_stated;
   if (!as_stated) {
-    job.report(Diagnostic{
-        .code = "CASE-ROW",
-        .severity = Severity::kWarning,
-        .message = fmt::format("it should hold {} cases, and {} of them can be trusted", out_.stated.count, trusted_),
-        .file = file_,
-        .hint = "restore the file from a copy; nothing is added to this one"});
+    job.report(Diagnostic{.code = "CASE-ROW",
+                          .severity = Severity::kWarning,
+                          .message = fmt::format("it should hold {} cases, and {} of them can be trusted",
+                                                 out_.stated.count, trusted_),
+                          .file = file_,
+                          .hint = "restore the file from a copy; nothing is added to this one"});
   }
   return std::move(out_);
 }

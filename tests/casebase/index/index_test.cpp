@@ -8,7 +8,6 @@
 #include <random>
 #include <thread>
 
-
 namespace capstan::casebase {
 namespace {
 
@@ -164,7 +163,8 @@ TEST_P(IndexContract, CountsEachDimensionByItsWeight) {
 TEST_P(IndexContract, RefusesAPlaceThatIsNone) {
   const Of4 index(GetParam(), {Row{}});
   EXPECT_THROW((void)index.nearest({}, 1, {1, -1, 1, 1}), std::logic_error);
-  EXPECT_THROW((void)index.nearest({}, 1, {1, std::numeric_limits<double>::infinity(), 1, 1}), std::logic_error);
+  EXPECT_THROW((void)index.nearest({}, 1, {1, std::numeric_limits<double>::infinity(), 1, 1}),
+               std::logic_error);
 }
 
 /// Points of 16 dimensions: all over a cube, or around 200 centres with some of them equal.

@@ -20,8 +20,10 @@ Case full() {
     if (const auto* t = std::get_if<TextAt>(&f.at)) (*t)(c) = std::string(f.name);
     if (const auto* n = std::get_if<NumberAt>(&f.at)) (*n)(c) = f.low + next;
     if (const auto* n = std::get_if<CountAt>(&f.at)) (*n)(c) = 3;
-    if (const auto* g = std::get_if<FigureAt>(&f.at)) (*g)(c) = Figure{f.low + next, 0.5 * next, Origin::kSimulated};
-    if (const auto* s = std::get_if<SeriesAt>(&f.at)) (*s)(c) = {{{0.0, 0.1}, {60.0, 0.2 + next}}, Origin::kEntered};
+    if (const auto* g = std::get_if<FigureAt>(&f.at))
+      (*g)(c) = Figure{f.low + next, 0.5 * next, Origin::kSimulated};
+    if (const auto* s = std::get_if<SeriesAt>(&f.at))
+      (*s)(c) = {{{0.0, 0.1}, {60.0, 0.2 + next}}, Origin::kEntered};
   }
   c.from.time_utc = "2016-06-28T17:32:31Z";
   c.asked.cutter_diameter_mm = 12.0;
@@ -47,7 +49,8 @@ TEST(CaseFields, WearTheirUnitInTheirNames) {
   for (const Field& f : fields()) {
     if (f.unit.empty() || f.unit == "1") continue;
     std::string end = "_" + std::string(f.unit == "m/min" ? "m_min" : f.unit == "%" ? "percent" : f.unit);
-    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(end.begin(), end.end(), end.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     EXPECT_TRUE(f.name.ends_with(end)) << f.name;
   }
 }
@@ -66,7 +69,9 @@ TEST(CaseEncoding, RefusesEveryOtherLength) {
   for (std::size_t n = 0; n < bytes.size(); ++n) {
     // A record that ends between two fields is one of fewer fields.
     const auto back = decoded(bytes.substr(0, n));
-    if (back) EXPECT_EQ(encoded(*back), bytes.substr(0, n));
+    if (back) {
+      EXPECT_EQ(encoded(*back), bytes.substr(0, n));
+    }
   }
   EXPECT_FALSE(decoded(bytes + '\0').has_value());
 }
@@ -78,7 +83,9 @@ TEST(CaseEncoding, ReadsAnyBytesOrNone) {
     std::string broken = bytes;
     for (int n = 0; n <= i % 3; ++n) broken[random() % broken.size()] = static_cast<char>(random());
     const auto back = decoded(broken);
-    if (back && !fault_of(*back)) EXPECT_EQ(decoded(encoded(*back)), back);
+    if (back && !fault_of(*back)) {
+      EXPECT_EQ(decoded(encoded(*back)), back);
+    }
   }
 }
 

@@ -268,10 +268,12 @@ class CommandLine {
   }
 
   void case_verbs(CLI::App& cases) {
-    auto* list = on_base(cases, "list", "the cases, or those that hold all of some words", Command::kCasesList);
+    auto* list =
+        on_base(cases, "list", "the cases, or those that hold all of some words", Command::kCasesList);
     list->add_option("words", out_.words, "an origin, a verdict, a part of a category or of a source");
     auto* show = on_base(cases, "show", "all that is known of a case", Command::kCasesShow);
-    auto* judge = on_base(cases, "judge", "give cases a verdict, which supersedes the last", Command::kCasesJudge);
+    auto* judge =
+        on_base(cases, "judge", "give cases a verdict, which supersedes the last", Command::kCasesJudge);
     auto* remove = on_base(cases, "remove", "let cases count no more; adding them again changes nothing",
                            Command::kCasesRemove);
     auto* out = on_base(cases, "export", "all cases as CSV on standard output", Command::kCasesExport);

@@ -27,7 +27,8 @@ int said(Session& s, const Say& say, const std::string& done) {
 }  // namespace
 
 int run_cases_judge(Session& s) {
-  const auto verdict = casebase::verdict_of(s.options.judgement.verdict).value_or(casebase::Verdict::kUnknown);
+  const auto verdict =
+      casebase::verdict_of(s.options.judgement.verdict).value_or(casebase::Verdict::kUnknown);
   return said(
       s, [&](auto& base, const auto& ids, const auto& remark) { return base.judge(ids, verdict, remark); },
       "judged " + s.options.judgement.verdict);

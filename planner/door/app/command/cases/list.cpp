@@ -16,8 +16,8 @@ bool wanted(const Case& c, const std::vector<std::string>& words) {
   return std::all_of(words.begin(), words.end(), [&](const std::string& word) {
     if (word == to_text(c.origin) || word == to_text(c.observed.verdict)) return true;
     for (const std::string* text :
-         {&c.asked.operation, &c.asked.material_group, &c.asked.tool_class, &c.asked.machine_class, &c.from.source,
-          &c.from.part, &c.from.workingstep, &c.from.tool_instance}) {
+         {&c.asked.operation, &c.asked.material_group, &c.asked.tool_class, &c.asked.machine_class,
+          &c.from.source, &c.from.part, &c.from.workingstep, &c.from.tool_instance}) {
       if (text->find(word) != std::string::npos) return true;
     }
     return false;
@@ -34,8 +34,9 @@ int run_cases_list(Session& s) {
   std::erase_if(cases, [&](const Case& c) { return !wanted(c, s.options.words); });
   s.summary = std::to_string(cases.size()) + " of " + counted(base->size(), "case", "cases");
   if (s.options.json) return print(cases_json(cases)) ? kDone : kImpossible;
-  std::vector<std::vector<std::string>> rows = {{"case", "operation", "material", "tool", "D", "cutter", "vc m/min",
-                                                 "fz mm", "time s", "verdict", "origin", "source"}};
+  std::vector<std::vector<std::string>> rows = {{"case", "operation", "material", "tool", "D", "cutter",
+                                                 "vc m/min", "fz mm", "time s", "verdict", "origin",
+                                                 "source"}};
   for (const Case& c : cases) {
     rows.push_back({c.id.substr(0, 12), c.asked.operation, c.asked.material_group, c.asked.tool_class,
                     number_text(c.asked.diameter_mm), number_text(c.asked.cutter_diameter_mm),

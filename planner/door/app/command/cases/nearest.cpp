@@ -30,20 +30,24 @@ int run_cases_nearest(Session& s) {
   question.coolant = casebase::coolant_of(q.coolant).value_or(casebase::Coolant::kUnknown);
   const auto near = base->nearest(question, q.count);
   if (!near) return s.end(near.error(), kUsage);
-  std::vector<std::vector<std::string>> rows = {{"case", "distance", "D", "depth", "width", "tolerance", "cutter", "teeth", "stick-out", "vc m/min", "fz mm",
-       "verdict", "origin", "source"}};
+  std::vector<std::vector<std::string>> rows = {{"case", "distance", "D", "depth", "width", "tolerance",
+                                                 "cutter", "teeth", "stick-out", "vc m/min", "fz mm",
+                                                 "verdict", "origin", "source"}};
   for (const auto& [c, distance] : *near) {
-    rows.push_back({c.id.substr(0, 12), trimmed(distance, 4), number_text(c.asked.diameter_mm), number_text(c.asked.depth_mm),
-                    number_text(c.asked.width_mm), number_text(c.asked.tolerance_mm), number_text(c.asked.cutter_diameter_mm),
-                    number_text(c.asked.teeth), number_text(c.asked.stick_out_mm), number_text(c.bound.vc_m_min),
-                    number_text(c.bound.fz_mm), std::string(to_text(c.observed.verdict)), std::string(to_text(c.origin)), c.from.source});
+    rows.push_back({c.id.substr(0, 12), trimmed(distance, 4), number_text(c.asked.diameter_mm),
+                    number_text(c.asked.depth_mm), number_text(c.asked.width_mm),
+                    number_text(c.asked.tolerance_mm), number_text(c.asked.cutter_diameter_mm),
+                    number_text(c.asked.teeth), number_text(c.asked.stick_out_mm),
+                    number_text(c.bound.vc_m_min), number_text(c.bound.fz_mm),
+                    std::string(to_text(c.observed.verdict)), std::string(to_text(c.origin)), c.from.source});
   }
   std::string out = near->empty() ? "no case shares these categories\n" : table(rows, "");
   const auto answer = base->ask(question);
   if (answer.precedent) {
     const auto& p = *answer.precedent;
     out += "precedent: case " + p.case_id.substr(0, 12) + ", " + p.provenance + ", one of " +
-           std::to_string(p.neighbours) + "; vc " + number_text(p.vc_m_min) + " m/min, fz " + number_text(p.fz_mm) + " mm\n";
+           std::to_string(p.neighbours) + "; vc " + number_text(p.vc_m_min) + " m/min, fz " +
+           number_text(p.fz_mm) + " mm\n";
   } else {
     out += "no precedent: " + answer.why + "\n";
   }

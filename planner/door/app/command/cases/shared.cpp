@@ -39,7 +39,8 @@ std::string json_of(const Field& f, const casebase::Case& c) {
     const casebase::Series& series = value(*s, c);
     std::string out = "{\"origin\": " + quoted(to_text(series.origin)) + ", \"samples\": [";
     for (const casebase::Sample& sample : series.samples) {
-      out += (&sample == series.samples.data() ? "[" : ", [") + shortest(sample.t_s) + ", " + shortest(sample.value) + ']';
+      out += (&sample == series.samples.data() ? "[" : ", [") + shortest(sample.t_s) + ", " +
+             shortest(sample.value) + ']';
     }
     return out + "]}";
   }

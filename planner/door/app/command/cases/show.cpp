@@ -19,9 +19,9 @@ std::string value_text(const casebase::Field& f, const casebase::Case& c) {
   if (const auto* g = std::get_if<casebase::FigureAt>(&f.at))
     return figure_text(value(*g, c)) + unit + ", " + std::string(to_text(value(*g, c)->origin));
   const casebase::Series& series = value(std::get<casebase::SeriesAt>(f.at), c);
-  return counted(series.samples.size(), "sample", "samples") + ", " + trimmed(series.samples.front().value, 6) + " to " +
-         trimmed(series.samples.back().value, 6) + unit + " over " + trimmed(series.samples.back().t_s, 3) + " s, " +
-         std::string(to_text(series.origin));
+  return counted(series.samples.size(), "sample", "samples") + ", " +
+         trimmed(series.samples.front().value, 6) + " to " + trimmed(series.samples.back().value, 6) + unit +
+         " over " + trimmed(series.samples.back().t_s, 3) + " s, " + std::string(to_text(series.origin));
 }
 
 }  // namespace
@@ -41,8 +41,10 @@ int run_cases_show(Session& s) {
       if (!is_default(f, *c)) rows.push_back({std::string(f.name), value_text(f, *c)});
     }
     for (const auto& said : base->said_of(*id)) {
-      const std::string what = said.verdict ? "judged " + std::string(to_text(*said.verdict)) : std::string("removed");
-      rows.push_back({what, said.time_utc + (said.time_utc.empty() ? "" : " ") + "by " + said.by + ": " + said.reason});
+      const std::string what =
+          said.verdict ? "judged " + std::string(to_text(*said.verdict)) : std::string("removed");
+      rows.push_back(
+          {what, said.time_utc + (said.time_utc.empty() ? "" : " ") + "by " + said.by + ": " + said.reason});
     }
     out += (out.empty() ? "" : "\n") + service::table(rows, "");
     cases.push_back(*std::move(c));
