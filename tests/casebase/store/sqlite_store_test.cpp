@@ -10,7 +10,6 @@
 #include <iterator>
 #include <map>
 #include <set>
-#include <thread>
 
 #include "tests/casebase/sample.h"
 
@@ -45,15 +44,6 @@ TEST(CaseStore, KeepsWhatWasAdded) {
     std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
     EXPECT_EQ(base->cases(), cases);
   }
-  EXPECT_EQ(job.count(Severity::kWarning), 0u);
-}
-
-TEST(CaseStore, AddsEqualCasesOnce) {
-  const Folder folder;
-  fill(folder.file(), {sample(), sample(), sample(11.0)});
-  fill(folder.file(), {sample(), sample(12.0)});
-  Job job;
-  EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), 3u);
   EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
@@ -371,34 +361,6 @@ TEST(CaseStore, SaysWhenAnotherWriterHoldsIt) {
   ASSERT_EQ(sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr), SQLITE_OK);
   EXPECT_TRUE(log.add(more).has_value());
   sqlite3_close(other);
-}
-
-TEST(CaseStore, TakesEightWritersAtATime) {
-  const Folder folder;
-  fill(folder.file(), {});
-  constexpr std::size_t kWriters = 8;
-  const std::vector<Case> cases = random_cases(100, 31);
-  std::vector<std::string> faults(kWriters);
-  std::vector<std::thread> writers;
-  for (std::size_t w = 0; w < kWriters; ++w) {
-    writers.emplace_back([&, w] {
-      Job job;
-      auto base = CaseBase::open(folder.file(), job);
-      if (!base) {
-        faults[w] = to_text(base.error());
-        return;
-      }
-      for (std::size_t i = w * 10; i < w * 10 + 30 && faults[w].empty();
-           ++i) {  // twenty of them others add, too
-        if (const Status s = base->add(cases[i]); !s) faults[w] = to_text(s.error());
-      }
-    });
-  }
-  for (std::thread& t : writers) t.join();
-  EXPECT_EQ(faults, std::vector<std::string>(kWriters));
-  Job job;
-  EXPECT_EQ(CaseBase::open(folder.file(), job)->size(), cases.size());
-  EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
 TEST(CaseStore, LosesNothingWhenNoSpaceIsLeft) {
