@@ -23,22 +23,21 @@ enum Dimension : std::size_t {
 /// How a number becomes a coordinate: log(max(number, least)) / scale. A distance of one is a factor of
 /// e^scale.
 struct Scale {
-  std::string_view name;
   double scale, least;
 };
 // Version 2. Defaults, unsourced, but where a line says more. `least`: below, nobody tells two apart.
 constexpr double kTwice = std::numbers::ln2;
 constexpr std::array<Scale, kDimensions> kScales = {{
-    {"diameter", kTwice, 1e-3},
-    {"depth", kTwice, 1e-3},
-    {"width", kTwice, 1e-3},
-    {"tolerance", 2.0 * kTwice, 1e-4},  // four times as wide
-    {"roughness", 2.0 * kTwice, 1e-3},  // two steps of the series of ISO 1302: 0.8, 1.6, 3.2
-    {"cutter diameter", kTwice, 1e-3},
-    {"teeth", kTwice, 1.0},
-    {"stick-out", kTwice, 1e-3},      // eight times as much bending (a beam's, with the third power)
-    {"hardness", 0.5 * kTwice, 1.0},  // 200 and 283 HB
-    {"coolant", 1.0, 0.0},            // not a logarithm: see `coolant_place`
+    {kTwice, 1e-3},        // diameter
+    {kTwice, 1e-3},        // depth
+    {kTwice, 1e-3},        // width
+    {2.0 * kTwice, 1e-4},  // tolerance: four times as wide
+    {2.0 * kTwice, 1e-3},  // roughness: two steps of the series of ISO 1302: 0.8, 1.6, 3.2
+    {kTwice, 1e-3},        // cutter diameter
+    {kTwice, 1.0},         // teeth
+    {kTwice, 1e-3},        // stick-out: eight times as much bending (a beam's, with the third power)
+    {0.5 * kTwice, 1.0},   // hardness: 200 and 283 HB
+    {1.0, 0.0},            // coolant: not a logarithm: see `coolant_place`
 }};
 constexpr double kNoToleranceMm = 1.0;  // what no tolerance counts as. Default, unsourced
 
@@ -71,8 +70,6 @@ constexpr std::array<Hardness, 10> kBrinell = {{{20, 226},
                                                 {65, 739}}};
 
 }  // namespace
-
-std::string_view dimension_name(std::size_t i) { return kScales.at(i).name; }
 
 double hb_of_hrc(double hrc) {
   if (!(hrc >= kBrinell.front().hrc)) return 0.0;

@@ -3,13 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "casebase/record/case.h"
 
-/// A question as a point: where distance is measured.
+/// A question as a point: where distance is measured. Version 2; stores keep the numbers as they are, so that
+/// they need not change with it.
 ///
 /// Each number of a question is a coordinate: its logarithm, divided by a fixed scale. The scales never
 /// depend on the cases stored, so that a distance means the same tomorrow. Distance is Euclid's. (With the
@@ -17,19 +16,15 @@
 /// distance functions", JAIR 6, 1997, is this.)
 namespace capstan::casebase {
 
-inline constexpr int kNormalisationVersion = 2;
 inline constexpr std::size_t kDimensions = 10;
 
-/// The numbers of a question in the order of the dimensions, as they are, and which are known: bit i is
-/// dimension i.
+/// The numbers of a question as they are, and which are known: bit i is dimension i. In this order: diameter,
+/// depth, width, tolerance, roughness, cutter diameter, teeth, stick-out, hardness, coolant.
 struct Key {
   std::array<double, kDimensions> raw{};
   std::uint16_t known = 0;
   bool operator==(const Key&) const = default;
 };
-/// "diameter", "depth", "width", "tolerance", "roughness", "cutter diameter", "teeth", "stick-out",
-/// "hardness", "coolant".
-[[nodiscard]] std::string_view dimension_name(std::size_t i);
 
 /// Needs a question without fault.
 [[nodiscard]] Key key_of(const Question& q);

@@ -139,13 +139,6 @@ const auto& all() {
 std::span<const Field> fields() { return all(); }
 std::span<const Field> question_fields() { return fields().first(kQuestionFields); }
 
-const Field* find_field(std::string_view name) {
-  for (const Field& f : fields()) {
-    if (f.name == name) return &f;
-  }
-  return nullptr;
-}
-
 bool is_default(const Field& f, const Case& c) {
   if (const auto* t = std::get_if<TextAt>(&f.at)) return value(*t, c).empty();
   if (const auto* n = std::get_if<NumberAt>(&f.at)) return value(*n, c) == 0.0;

@@ -47,7 +47,6 @@ struct Field {
 /// All fields by rising tag. The question's come first: they are `question_fields()`.
 [[nodiscard]] std::span<const Field> fields();
 [[nodiscard]] std::span<const Field> question_fields();
-[[nodiscard]] const Field* find_field(std::string_view name);
 
 /// The place of a field in a case that may only be read.
 template <class At>
