@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "planner/ground/base/number.h"
@@ -240,6 +241,12 @@ std::string counts(const Advice& a) {
 
 }  // namespace
 
+std::size_t cuts_told(const std::vector<Evidence>& near) {
+  std::set<std::size_t> cuts;
+  for (const Weighted& w : weighed(near)) cuts.insert(w.cut);
+  return cuts.size();
+}
+
 double success_of(const std::vector<Evidence>& near, const Values& values) {
   return success(weighed(near), values);
 }
@@ -295,6 +302,12 @@ Advice advise(std::vector<Evidence> near, const Values& asked) {
     out.why += fmt::format("; {} said to be good not believed: more than {} times the table's values",
                            out.doubted == 1 ? "one" : std::to_string(out.doubted), trimmed(kBelieved, 1));
   if (!out.leads) out.why += "; none that went well";
+  return out;
+}
+
+std::string words_of(const Values& v) {
+  std::string out = trimmed(v.vc_m_min, 1) + " m/min and " + trimmed(v.fz_mm, 4) + " mm per tooth";
+  if (v.ap_mm > 0.0) out += ", at most " + trimmed(v.ap_mm, 2) + " mm deep";
   return out;
 }
 

@@ -77,6 +77,11 @@ inline constexpr double kTrustInTable = 0.9;
 /// any of the values rises.
 [[nodiscard]] double success_of(const std::vector<Evidence>& near, const Values& values);
 
+/// How many cuts these cases tell of.
+[[nodiscard]] std::size_t cuts_told(const std::vector<Evidence>& near);
+
+/// "180 m/min and 0.08 mm per tooth, at most 4 mm deep".
+[[nodiscard]] std::string words_of(const Values& v);
 /// Cases a person can look up: "a1b2c3d4e5f6 (measured, bad, 0.02 away)", at most `most`.
 [[nodiscard]] std::string words_of(const std::vector<Leaned>& cases, std::size_t most);
 

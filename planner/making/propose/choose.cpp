@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/making/propose/members.h"
+#include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/preferences.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -107,6 +108,7 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
       tooling::Preferences wanted = step::preferences_of(choice.piece, choice.batch, step, shape);
       wanted.used = used;
       auto s = tooling::select(step.tool, choice.usable, plan.material, plan.machine, wanted);
+      step::weigh_by_cases(choice.cases, plan, step.operation, shape, s);
       if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
         out.tools.push_back(std::move(s));
         continue;

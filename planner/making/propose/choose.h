@@ -12,6 +12,10 @@
 
 // Which chain of a proposal is taken.
 
+namespace capstan::casebase {
+class CaseBase;
+}
+
 namespace capstan::propose {
 
 /// Criteria for chains and their cutters.
@@ -22,6 +26,7 @@ struct Choice {
   const optimise::Options& options;
   double margin_deviations = 0.0;  ///< of loads against their limits
   int batch = 1;                   ///< pieces
+  const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
 };
 
 struct Chosen {
