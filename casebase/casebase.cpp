@@ -5,7 +5,6 @@
 #include <map>
 
 #include "casebase/index/index.h"
-#include "casebase/recall.h"
 #include "casebase/store.h"
 
 namespace capstan::casebase {
@@ -128,21 +127,6 @@ Result<std::vector<Neighbour>> CaseBase::nearest(const Question& q, std::size_t 
   }
   return found;
 }
-
-Answer CaseBase::ask(const Question& q) const {
-  if (const auto wrong = fault_of(q)) return {std::nullopt, "the question cannot be: " + *wrong};
-  const Bucket* bucket = impl_->bucket(q);
-  if (bucket == nullptr) {
-    return {std::nullopt, "no case of this operation, material, tool class and machine with these sizes"};
-  }
-  std::vector<Near> near;
-  for (const Hit& hit : bucket->index->within(point_of(q), kPrecedentDistance * kPrecedentDistance)) {
-    near.push_back({&impl_->cases[bucket->rows[hit.row]], std::sqrt(hit.distance2)});
-  }
-  return choose(near);
-}
-
-std::optional<model::Precedent> CaseBase::recall(const Question& q) const { return ask(q).precedent; }
 
 std::size_t CaseBase::size() const { return impl_->cases.size(); }
 const std::vector<Case>& CaseBase::cases() const { return impl_->cases; }

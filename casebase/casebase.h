@@ -13,7 +13,6 @@
 #include "planner/model/features/shape.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
-#include "planner/model/plan/proposal.h"
 #include "planner/model/plan/resources/machine.h"
 #include "planner/model/plan/resources/material.h"
 
@@ -76,12 +75,6 @@ struct Neighbour {
 /// factor of 2, all else equal. Default, unsourced.
 inline constexpr double kPrecedentDistance = 0.5;
 
-/// A precedent or, in words for people, why there is none.
-struct Answer {
-  std::optional<model::Precedent> precedent;
-  std::string why;
-};
-
 /// Cases in one SQLite file, with an exact nearest-neighbour index per combination of categories that is
 /// rebuilt from the store, never loaded.
 ///
@@ -115,15 +108,6 @@ class CaseBase {
   /// The k nearest cases of the question's categories, nearest first, equal distances by id. Whatever
   /// their verdict and provenance: the caller sees both. Fails CASE-INVALID on a question that cannot be.
   [[nodiscard]] Result<std::vector<Neighbour>> nearest(const Question& q, std::size_t k) const;
-
-  /// The case to start from, or why there is none. Only good cases within `kPrecedentDistance` count
-  /// (simulated ones also without a verdict). Provenances are not mixed: measured cases if there are any,
-  /// else entered ones, else simulated ones, and `neighbours` counts those of that kind alone. Skipped are: a
-  /// case next to a bad one that was cut no harder and is at least as trustworthy; a case whose vc or fz is
-  /// more than twice or less than half the median, if three or more are near.
-  [[nodiscard]] Answer ask(const Question& q) const;
-  /// Recall: the precedent of `ask`.
-  [[nodiscard]] std::optional<model::Precedent> recall(const Question& q) const;
 
   [[nodiscard]] std::size_t size() const;
   /// All cases by id.

@@ -11,7 +11,7 @@ constexpr std::size_t kMostLookedAt = 1U << 14U;
 }  // namespace
 
 std::vector<Evidence> evidence_near(const CaseBase& base, const Question& question,
-                                    std::string_view strategy) {
+                                    double cutter_diameter_mm) {
   std::vector<Evidence> out;
   for (std::size_t k = kNearAsked; k <= kMostLookedAt; k *= 4) {
     const auto near = base.nearest(question, k);
@@ -23,8 +23,7 @@ std::vector<Evidence> evidence_near(const CaseBase& base, const Question& questi
         all = true;
         break;
       }
-      Evidence e = evidence_of(n.found, n.distance, question.cutter_diameter_mm);
-      if (strategy.empty() || e.strategy.empty() || e.strategy == strategy) out.push_back(std::move(e));
+      out.push_back(evidence_of(n.found, n.distance, cutter_diameter_mm));
     }
     if (all || cuts_told(out) >= kNearAsked) break;
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "casebase/casebase.h"
@@ -8,10 +7,10 @@
 
 namespace capstan::casebase {
 
-/// The nearest cases of a base as evidence: within `kPrecedentDistance`, and as many as it takes to see
-/// kNearAsked cuts, each counted once. Cases of another strategy than the one named are left out; an empty
-/// name, and a case without one, is any. Empty for a question that cannot be (`fault_of`).
+/// The nearest cases of a base as evidence for a cut with a cutter of that diameter: within
+/// `kPrecedentDistance`, and as many as it takes to see kNearAsked cuts, each counted once. Empty for a
+/// question that cannot be (`fault_of`).
 [[nodiscard]] std::vector<Evidence> evidence_near(const CaseBase& base, const Question& question,
-                                                  std::string_view strategy);
+                                                  double cutter_diameter_mm);
 
 }  // namespace capstan::casebase

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "casebase/casebase.h"
+#include "casebase/recall/recall.h"
 #include "planner/door/app/command/session.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/door/service/reading.h"
@@ -84,13 +85,12 @@ int run_cases_nearest(Session& s) {
                     c.provenance, c.source});
   }
   std::string out = near->empty() ? "no case shares these categories\n" : table(rows, "");
-  const auto answer = base->ask(question);
-  if (answer.precedent) {
-    const auto& p = *answer.precedent;
-    out += "precedent: case " + p.case_id.substr(0, 12) + ", " + p.provenance + ", one of " +
-           std::to_string(p.neighbours) + "; vc " + n(p.vc_m_min) + " m/min, fz " + n(p.fz_mm) + " mm\n";
+  const auto advice = casebase::advise(casebase::evidence_near(*base, question, 0.0), {});
+  if (advice.leads) {
+    out += "precedent (" + std::string(to_text(advice.origin)) + "): " + words_of(advice.start) + ", " +
+           trimmed(100.0 * advice.success, 0) + " % likely to go well; " + advice.why + "\n";
   } else {
-    out += "no precedent: " + answer.why + "\n";
+    out += "no precedent: " + advice.why + "\n";
   }
   return print(out) ? kDone : kImpossible;
 }

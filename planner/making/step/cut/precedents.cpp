@@ -40,7 +40,7 @@ std::vector<Evidence> evidence_of(const PlanSoFar& p, const StepDraft& step, con
                                   const optimise::CutQuestion& q) {
   const auto asked = casebase::question_of(step.operation.type, p.plan.material, step.cutter, p.plan.machine,
                                            casebase::sizes_of(shape));
-  auto near = casebase::evidence_near(*p.wishes.cases, asked, {});
+  auto near = casebase::evidence_near(*p.wishes.cases, asked, step.cutter.cutting_diameter_mm);
   for (Evidence& e : near) e.cut = at_table_terms(e.cut, q);
   return near;
 }
@@ -113,8 +113,13 @@ Experience experience_with(const casebase::CaseBase& cases, const model::Plan& p
   Experience out;
   const auto asked = casebase::question_of(operation, plan.material, candidate.cutter, plan.machine,
                                            casebase::sizes_of(shape));
-  auto near = casebase::evidence_near(cases, asked, {});
+  auto near = casebase::evidence_near(cases, asked, candidate.cutter.cutting_diameter_mm);
   std::erase_if(near, [](const Evidence& e) { return e.origin == casebase::Origin::kSimulated; });
+  optimise::CutQuestion q;
+  q.cutter = candidate.cutter;
+  q.kind = model::is_a(operation, model::TypeId::kDrillingTypeOperation) ? optimise::CutKind::kDrill
+                                                                         : optimise::CutKind::kRough;
+  for (Evidence& e : near) e.cut = at_table_terms(e.cut, q);
   if (near.empty() || !(candidate.vc_m_min > 0.0) || !(candidate.fz_mm > 0.0)) return out;
   const Advice advice = casebase::advise(std::move(near), {candidate.vc_m_min, candidate.fz_mm, 0.0, 0.0});
   out.good = advice.good;
