@@ -1,18 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <string_view>
+#include <vector>
 
-#include "casebase/casebase.h"
+#include "casebase/record/case.h"
 
 namespace capstan::casebase {
-
-/// Where a case comes from, best first; what came of it. The words of `Case::provenance` and `Case::verdict`.
-enum class Origin : std::uint8_t { kMeasured, kEntered, kSimulated };
-enum class Verdict : std::uint8_t { kUnknown, kGood, kBad };
-[[nodiscard]] std::string_view to_text(Origin o);
-[[nodiscard]] std::string_view to_text(Verdict v);
 
 /// The values of a cut that a case can speak about. Zero: open.
 struct Values {
@@ -38,9 +31,9 @@ struct Evidence {
   Values cut;
 };
 
-/// A case as evidence for a cut at that distance with a cutter of that diameter; 0: not known. Its feed is taken
-/// as it is for a cutter that is at least as large, and in proportion to the diameter for a smaller one. A worn
-/// edge is laid on the speed, a failure without a name on speed and feed.
+/// A case as evidence for a question at that distance. Its feed is taken as it is for a cutter that is at least
+/// as large, and in proportion to the diameter for a smaller one. Worn edges are laid on the speed, broken ones
+/// on feed and depth, chatter on the depth; a failure without a name on speed and feed.
 [[nodiscard]] Evidence evidence_of(const Case& c, double distance, double cutter_diameter_mm);
 
 }  // namespace capstan::casebase

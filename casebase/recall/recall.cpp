@@ -10,8 +10,7 @@ constexpr std::size_t kMostLookedAt = 1U << 14U;
 
 }  // namespace
 
-std::vector<Evidence> evidence_near(const CaseBase& base, const Question& question,
-                                    double cutter_diameter_mm) {
+std::vector<Evidence> evidence_near(const CaseBase& base, const Question& question) {
   std::vector<Evidence> out;
   for (std::size_t k = kNearAsked; k <= kMostLookedAt; k *= 4) {
     const auto near = base.nearest(question, k);
@@ -23,7 +22,7 @@ std::vector<Evidence> evidence_near(const CaseBase& base, const Question& questi
         all = true;
         break;
       }
-      out.push_back(evidence_of(n.found, n.distance, cutter_diameter_mm));
+      out.push_back(evidence_of(n.found, n.distance, question.cutter_diameter_mm));
     }
     if (all || cuts_told(out) >= kNearAsked) break;
   }

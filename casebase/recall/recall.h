@@ -7,10 +7,8 @@
 
 namespace capstan::casebase {
 
-/// The nearest cases of a base as evidence for a cut with a cutter of that diameter: within
-/// `kPrecedentDistance`, and as many as it takes to see kNearAsked cuts, each counted once. Empty for a
-/// question that cannot be (`fault_of`).
-[[nodiscard]] std::vector<Evidence> evidence_near(const CaseBase& base, const Question& question,
-                                                  double cutter_diameter_mm);
+/// The nearest cases of a base as evidence: within `kPrecedentDistance`, and as many as it takes to see
+/// kNearAsked cuts, each counted once. Empty for a question that cannot be (`fault_of`).
+[[nodiscard]] std::vector<Evidence> evidence_near(const CaseBase& base, const Question& question);
 
 }  // namespace capstan::casebase

@@ -16,7 +16,7 @@ class Shop {
   /// A drilled hole of 3 to 20 mm, 1 to 5 diameters deep.
   Question question() {
     Question q = sample().asked;
-    q.diameter_mm = 3.0 * std::pow(20.0 / 3.0, share());
+    q.diameter_mm = q.cutter_diameter_mm = 3.0 * std::pow(20.0 / 3.0, share());
     q.depth_mm = q.diameter_mm * std::pow(5.0, share());
     q.tolerance_mm = 0.01 * std::pow(20.0, share());
     return q;
@@ -35,8 +35,8 @@ class Shop {
     constexpr double kFails = 1.35, kWrong = 0.1;
     Case c = sample();
     c.asked = question();
-    c.source = "part " + std::to_string(number);
-    c.cycle_s = 0.0;
+    c.from.source = "part " + std::to_string(number);
+    c.observed.time_s.reset();
     double speed = std::exp(0.1 * normal_(random_)), feed = std::exp(0.1 * normal_(random_));
     if (share() < 0.15) {
       speed *= 1.4;
@@ -51,10 +51,9 @@ class Shop {
       feed *= std::pow(10.0, 2.0 * share() - 1.0);
       bad = share() < 0.5;
     }
-    c.cutting_diameter_mm = c.asked.diameter_mm;
-    c.vc_m_min = speed * law(c.asked).vc_m_min;
-    c.fz_mm = feed * law(c.asked).fz_mm;
-    c.verdict = bad ? "bad" : "good";
+    c.bound.vc_m_min = speed * law(c.asked).vc_m_min;
+    c.bound.fz_mm = feed * law(c.asked).fz_mm;
+    c.observed.verdict = bad ? Verdict::kBad : Verdict::kGood;
     return c;
   }
 
@@ -84,7 +83,7 @@ TEST(RecallPropertyOfNoise, OneWrongCaseInTenLeavesPrecedentsAndTheirSpeed) {
   for (int i = 0; i < kQueries; ++i) {
     const Question q = shop.question();
     const Values law = Shop::law(q);
-    const auto near = evidence_near(base, q, q.diameter_mm);
+    const auto near = evidence_near(base, q);
     const Advice a = advise(near, {});
     const auto off = [&](const Values& v) {
       return std::max(std::abs(v.vc_m_min / law.vc_m_min - 1.0), std::abs(v.fz_mm / law.fz_mm - 1.0));

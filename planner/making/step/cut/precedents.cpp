@@ -40,7 +40,7 @@ std::vector<Evidence> evidence_of(const PlanSoFar& p, const StepDraft& step, con
                                   const optimise::CutQuestion& q) {
   const auto asked = casebase::question_of(step.operation.type, p.plan.material, step.cutter, p.plan.machine,
                                            casebase::sizes_of(shape));
-  auto near = casebase::evidence_near(*p.wishes.cases, asked, step.cutter.cutting_diameter_mm);
+  auto near = casebase::evidence_near(*p.wishes.cases, asked);
   for (Evidence& e : near) e.cut = at_table_terms(e.cut, q);
   return near;
 }
@@ -113,7 +113,7 @@ Experience experience_with(const casebase::CaseBase& cases, const model::Plan& p
   Experience out;
   const auto asked = casebase::question_of(operation, plan.material, candidate.cutter, plan.machine,
                                            casebase::sizes_of(shape));
-  auto near = casebase::evidence_near(cases, asked, candidate.cutter.cutting_diameter_mm);
+  auto near = casebase::evidence_near(cases, asked);
   std::erase_if(near, [](const Evidence& e) { return e.origin == casebase::Origin::kSimulated; });
   optimise::CutQuestion q;
   q.cutter = candidate.cutter;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "casebase/casebase.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/physics/motion/time.h"
