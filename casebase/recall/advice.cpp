@@ -18,9 +18,11 @@
 //
 // Weight      a Gaussian kernel of the distance (Nadaraya 1964, Watson 1964), shared among cases that tell of
 //             one cut.
-// Start       the weighted median of the logarithms of good settings: up to half of the weight may be anything
+// Start       the weighted median of the logarithms of good settings: up to half of the weight may be
+// anything
 //             (breakdown point 1/2; P. J. Huber, Robust Statistics, 1981).
-// Success     beta-binomial with a monotone likelihood: at values x, a good cut counts in full where it was as
+// Success     beta-binomial with a monotone likelihood: at values x, a good cut counts in full where it was
+// as
 //             hard as x in each value or harder, a bad one where it was as hard or less; beyond that each
 //             fades by exp(-d / band), d the largest difference of the logarithms. The mean of the posterior,
 //             (a + S) / (a + b + S + F), so falls where any value rises.
@@ -30,11 +32,12 @@
 namespace capstan::casebase {
 namespace {
 
-constexpr double kBandwidth = 0.25;    // of the kernel: half of the distance within which cases count
-constexpr double kFade = 0.1;          // ln: a tenth harder. Default, unsourced
-constexpr double kPrior = 2.0;         // cuts that the trust in the table is worth. Default, unsourced
-constexpr double kLeastShare = 0.25;   // of the asked values, below which nothing is lowered. Default, unsourced
-constexpr double kSpeaks = 0.05;       // of the weight of failures: less blames nothing. Default, unsourced
+constexpr double kBandwidth = 0.25;  // of the kernel: half of the distance within which cases count
+constexpr double kFade = 0.1;        // ln: a tenth harder. Default, unsourced
+constexpr double kPrior = 2.0;       // cuts that the trust in the table is worth. Default, unsourced
+constexpr double kLeastShare =
+    0.25;                         // of the asked values, below which nothing is lowered. Default, unsourced
+constexpr double kSpeaks = 0.05;  // of the weight of failures: less blames nothing. Default, unsourced
 constexpr int kBisections = 40;
 
 /// What a failed cut of this origin counts; of a good one, that a simulation went well proves nothing.
@@ -296,8 +299,9 @@ Advice advise(std::vector<Evidence> near, const Values& asked) {
     out.cases.push_back({w.of->id, w.of->distance, w.of->origin, w.of->verdict, w.weight, w.of->cut});
   }
   const int n = out.good + out.bad + out.unjudged;
-  out.why = fmt::format("{} near ({}), the nearest {} away", n == 1 ? "one cut is" : fmt::format("{} cuts are", n),
-                        counts(out), trimmed(out.nearest, 3));
+  out.why =
+      fmt::format("{} near ({}), the nearest {} away", n == 1 ? "one cut is" : fmt::format("{} cuts are", n),
+                  counts(out), trimmed(out.nearest, 3));
   if (out.doubted > 0)
     out.why += fmt::format("; {} said to be good not believed: more than {} times the table's values",
                            out.doubted == 1 ? "one" : std::to_string(out.doubted), trimmed(kBelieved, 1));

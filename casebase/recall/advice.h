@@ -8,6 +8,9 @@
 
 namespace capstan::casebase {
 
+/// Probability of success of a cut by the table, before any case. Default, unsourced.
+inline constexpr double kTrustInTable = 0.9;
+
 /// A near case that an advice leans on.
 struct Leaned {
   std::string id;
@@ -24,20 +27,20 @@ struct Advice {
   /// Speed and feed to start from, and the most that is taken: the asked values, or the centre of good cuts;
   /// lowered where cuts failed. Depth: the most that is taken; 0: whatever the limits allow. Width is kept.
   Values start;
-  bool leads = false;               ///< good cuts say where to start
-  Origin origin = Origin::kEntered; ///< of those
-  bool lowered = false;             ///< failed cuts made speed, feed or depth less
-  bool at_bottom = false;           ///< ... and at the least values it is still likelier to fail than it may
-  bool held_back = false;           ///< good cuts were harder than the asked values allow to start
-  Values centre;                    ///< of good cuts, before it is held back or lowered
+  bool leads = false;                ///< good cuts say where to start
+  Origin origin = Origin::kEntered;  ///< of those
+  bool lowered = false;              ///< failed cuts made speed, feed or depth less
+  bool at_bottom = false;            ///< ... and at the least values it is still likelier to fail than it may
+  bool held_back = false;            ///< good cuts were harder than the asked values allow to start
+  Values centre;                     ///< of good cuts, before it is held back or lowered
   int good = 0, bad = 0, unjudged = 0;  ///< near cuts, each told once
-  int cut_good = 0;                 ///< of the good ones those that were not simulated
-  int doubted = 0;                  ///< of the unjudged ones those that are said to have gone well, but too hard
-  double nearest = 0.0;             ///< distance of the nearest
-  double success_asked = 1.0;       ///< probability that the asked values (else the centre) go well
-  double success = 1.0;             ///< the same of `start`
-  std::vector<Leaned> cases;        ///< heaviest first, at most kLeanedShown
-  std::string why;                  ///< one line for people, also when there is none
+  int cut_good = 0;                     ///< of the good ones those that were not simulated
+  int doubted = 0;       ///< of the unjudged ones those that are said to have gone well, but too hard
+  double nearest = 0.0;  ///< distance of the nearest
+  double success_asked = kTrustInTable;  ///< probability that the asked values (else the centre) go well
+  double success = kTrustInTable;        ///< the same of `start`
+  std::vector<Leaned> cases;             ///< heaviest first, at most kLeanedShown
+  std::string why;                       ///< one line for people, also when there is none
 
   [[nodiscard]] bool any() const { return good + bad + unjudged > 0; }
 };
@@ -47,8 +50,8 @@ inline constexpr std::size_t kLeanedShown = 8;
 /// Cuts that are asked for an advice: the nearest, each counted once. Default, unsourced.
 inline constexpr std::size_t kNearAsked = 64;
 /// How far above the asked values (the table's) good cuts may start, and how many it takes: one says little,
-/// for the life of edges at constant values varies by more than 100 %. Below there is no such limit. Defaults,
-/// unsourced.
+/// for the life of edges at constant values varies by more than 100 %. Below there is no such limit.
+/// Defaults, unsourced.
 inline constexpr double kCaseReach = 1.25;
 inline constexpr int kRepeats = 3;
 /// How many times as hard as the asked values a cut may have been for its success to be believed: what is
@@ -56,19 +59,17 @@ inline constexpr int kRepeats = 3;
 inline constexpr double kBelieved = 3.0;
 /// Least probability of success that a cut is started with. Default, unsourced.
 inline constexpr double kLeastSuccess = 0.75;
-/// Probability of success of a cut by the table, before any case. Default, unsourced.
-inline constexpr double kTrustInTable = 0.9;
 
 /// What these cases, all near enough to count, say of a cut with the asked values; zero values are open: the
 /// start is then the good cuts' own.
 ///
-/// Each case weighs by its distance; cases of one run, or with the same observations, share the weight of one.
-/// Of good cuts the weighted median of log vc and of log fz is the centre, by the most trusted origin that
-/// there is; origins are never mixed in it. A simulated cut without a verdict leads only where no values are
-/// asked: a computation that went well proves no cut. Whether values go well is the mean of a beta
+/// Each case weighs by its distance; cases of one run, or with the same observations, share the weight of
+/// one. Of good cuts the weighted median of log vc and of log fz is the centre, by the most trusted origin
+/// that there is; origins are never mixed in it. A simulated cut without a verdict leads only where no values
+/// are asked: a computation that went well proves no cut. Whether values go well is the mean of a beta
 /// distribution: prior, good cuts that were as hard or harder, bad ones that were as hard or less. Values
-/// beyond what is likely enough are lowered, until it is. A good cut more than kBelieved times as hard as what
-/// is asked counts as one without a verdict.
+/// beyond what is likely enough are lowered, until it is. A good cut more than kBelieved times as hard as
+/// what is asked counts as one without a verdict.
 ///
 /// Determinism  the same for any order of the cases. Neither their time nor their number in the base counts.
 [[nodiscard]] Advice advise(std::vector<Evidence> near, const Values& asked);

@@ -29,9 +29,9 @@ std::string told_of(const Case& c) {
   const Observed& o = c.observed;
   std::string out;
   bool any = false;
-  for (const auto* f : {&o.time_s, &o.spindle_load_percent, &o.peak_force_n, &o.torque_nm, &o.power_w,
-                        &o.size_deviation_mm, &o.position_deviation_mm, &o.lag_mm, &o.surface_ra_um,
-                        &o.wear_mm}) {
+  for (const auto* f :
+       {&o.time_s, &o.spindle_load_percent, &o.peak_force_n, &o.torque_nm, &o.power_w, &o.size_deviation_mm,
+        &o.position_deviation_mm, &o.lag_mm, &o.surface_ra_um, &o.wear_mm}) {
     out += '/';
     if (!*f) continue;
     any = true;

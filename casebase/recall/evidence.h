@@ -31,9 +31,9 @@ struct Evidence {
   Values cut;
 };
 
-/// A case as evidence for a question at that distance. Its feed is taken as it is for a cutter that is at least
-/// as large, and in proportion to the diameter for a smaller one. Worn edges are laid on the speed, broken ones
-/// on feed and depth, chatter on the depth; a failure without a name on speed and feed.
+/// A case as evidence for a question at that distance. Its feed is taken as it is for a cutter that is at
+/// least as large, and in proportion to the diameter for a smaller one. Worn edges are laid on the speed,
+/// broken ones on feed and depth, chatter on the depth; a failure without a name on speed and feed.
 [[nodiscard]] Evidence evidence_of(const Case& c, double distance, double cutter_diameter_mm);
 
 }  // namespace capstan::casebase

@@ -39,7 +39,8 @@ Judged judge(const Choice& choice, std::vector<model::ProposedStep> chain, const
     tools.push_back(std::move(s));
     if (step.operation == model::TypeId::kWorkpieceProbing) continue;
     if (tools.back().ranked.empty()) return out;
-    const auto e = step::experience_with(*choice.cases, plan, step.operation, shape, tools.back().ranked.front());
+    const auto e =
+        step::experience_with(*choice.cases, plan, step.operation, shape, tools.back().ranked.front());
     if (e.bad >= casebase::kRepeats && e.success < kLikelierToFail) {
       out.known = Known::kFailed;
       out.words = step.name + " " + trimmed(100.0 * e.success, 0) + " % likely to go well: " + e.words;
@@ -59,7 +60,8 @@ model::Proposal by_cases(const Choice& choice, model::Proposal proposal, const m
   std::vector<Judged> all;
   for (auto& chain : proposal.chains) all.push_back(judge(choice, std::move(chain), shape));
   const std::string was_first = draft::key_of(all.front().chain);
-  std::stable_sort(all.begin(), all.end(), [](const Judged& a, const Judged& b) { return a.known < b.known; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Judged& a, const Judged& b) { return a.known < b.known; });
   Judged& first = all.front();
   if (draft::key_of(first.chain) != was_first && first.known == Known::kProven) {
     for (model::ProposedStep& step : first.chain)
@@ -68,7 +70,8 @@ model::Proposal by_cases(const Choice& choice, model::Proposal proposal, const m
   proposal.chains.clear();
   for (Judged& j : all) {
     if (j.known == Known::kFailed)
-      proposal.rejected.push_back({chain_text(j.chain, shape), "put last, for it went badly before: " + j.words});
+      proposal.rejected.push_back(
+          {chain_text(j.chain, shape), "put last, for it went badly before: " + j.words});
     proposal.chains.push_back(std::move(j.chain));
   }
   return proposal;

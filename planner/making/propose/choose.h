@@ -24,8 +24,8 @@ struct Choice {
   const std::vector<model::Cutter>& usable;  ///< cutters that may be used
   const draft::Bans& bans;
   const optimise::Options& options;
-  double margin_deviations = 0.0;  ///< of loads against their limits
-  int batch = 1;                   ///< pieces
+  double margin_deviations = 0.0;             ///< of loads against their limits
+  int batch = 1;                              ///< pieces
   const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
 };
 

@@ -29,8 +29,8 @@ class Shop {
             .fz_mm = 0.011 * q.diameter_mm * std::pow(depth, -0.15)};
   }
 
-  /// A cut about the law: harder than 1.35 times it, it fails. Every tenth is wrong: half of these have the other
-  /// verdict, half were cut, or written down, by up to ten times off.
+  /// A cut about the law: harder than 1.35 times it, it fails. Every tenth is wrong: half of these have the
+  /// other verdict, half were cut, or written down, by up to ten times off.
   Case cut(std::size_t number) {
     constexpr double kFails = 1.35, kWrong = 0.1;
     Case c = sample();
@@ -65,7 +65,8 @@ class Shop {
   std::normal_distribution<double> normal_{0.0, 1.0};
 };
 
-// The issue asks for 95 % of queries and a tenth at 1e5 cases; a sixth of them are measured here, and all in soak.
+// The issue asks for 95 % of queries and a tenth at 1e5 cases; a sixth of them are measured here, and all in
+// soak.
 TEST(RecallPropertyOfNoise, OneWrongCaseInTenLeavesPrecedentsAndTheirSpeed) {
   const std::size_t cases = std::getenv("CAPSTAN_SOAK") != nullptr ? 100'000 : 16'000;
   constexpr int kQueries = 400;

@@ -1,5 +1,5 @@
-#include "casebase/recall/recall.h"
 #include "casebase/casebase.h"
+#include "casebase/recall/recall.h"
 
 #include <utility>
 

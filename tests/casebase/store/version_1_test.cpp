@@ -1,5 +1,5 @@
-#include "casebase/recall/recall.h"
 #include "casebase/store/version_1.h"
+#include "casebase/recall/recall.h"
 
 #include "casebase/casebase.h"
 #include "tests/casebase/sample.h"

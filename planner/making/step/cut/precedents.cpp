@@ -16,10 +16,10 @@ namespace capstan::step {
 namespace {
 
 using casebase::Advice;
-using casebase::words_of;
-using draft::StepDraft;
 using casebase::Evidence;
 using casebase::Values;
+using casebase::words_of;
+using draft::StepDraft;
 
 constexpr std::size_t kNamed = 5;  // cases in one line
 
@@ -83,7 +83,8 @@ std::optional<Advice> judged_by_cases(const PlanSoFar& p, const StepDraft& step,
   const double d = q.cutter.cutting_diameter_mm;
   const int teeth = std::max(1, q.cutter.teeth);
   if (!(d > 0.0) || !(a.n_rpm > 0.0)) return std::nullopt;
-  const Values cut{std::numbers::pi * d * a.n_rpm / 1000.0, a.feed_mm_min / (a.n_rpm * teeth), a.ap_mm, a.ae_mm};
+  const Values cut{std::numbers::pi * d * a.n_rpm / 1000.0, a.feed_mm_min / (a.n_rpm * teeth), a.ap_mm,
+                   a.ae_mm};
   Advice out = casebase::advise(evidence_of(p, step, shape, q), at_table_terms(cut, q));
   if (!out.any()) return std::nullopt;
   return out;
@@ -93,15 +94,16 @@ model::Reason reason_of(const FromCases& from) {
   const casebase::Advice& a = from.advice;
   std::string text;
   if (a.leads) {
-    text = "starts from the middle of " + std::string(to_text(a.origin)) + " cuts that went well: " +
-           words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
+    text = "starts from the middle of " + std::string(to_text(a.origin)) +
+           " cuts that went well: " + words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
     if (a.held_back)
-      text += ", held at what the table bears (" + trimmed(casebase::kCaseReach, 2) + " times its values after " +
-              std::to_string(casebase::kRepeats) + " repeats, before that once)";
+      text += ", held at what the table bears (" + trimmed(casebase::kCaseReach, 2) +
+              " times its values after " + std::to_string(casebase::kRepeats) + " repeats, before that once)";
   }
   if (a.lowered) {
     text += (text.empty() ? "" : "; ") + std::string("below cuts that failed: ") + words_of(a.start) + ", " +
-            trimmed(100.0 * a.success, 0) + " %" + " likely to go well" + (a.at_bottom ? ", the least that is tried" : "");
+            trimmed(100.0 * a.success, 0) + " %" + " likely to go well" +
+            (a.at_bottom ? ", the least that is tried" : "");
   }
   text += "; " + a.why + ": " + casebase::words_of(a.cases, kNamed);
   const std::string first = a.cases.empty() ? "none" : a.cases.front().id;
@@ -145,8 +147,9 @@ void weigh_by_cases(const casebase::CaseBase* cases, const model::Plan& plan, mo
     any = true;
     c.score += (e.time_factor - 1.0) * c.estimated_s;
     c.estimated_s *= e.time_factor;
-    c.why.text += "; by cases " + trimmed(100.0 * e.success, 0) + " % likely to go well, its time taken times " +
-                  trimmed(e.time_factor, 2) + " (" + e.words + ")";
+    c.why.text += "; by cases " + trimmed(100.0 * e.success, 0) +
+                  " % likely to go well, its time taken times " + trimmed(e.time_factor, 2) + " (" + e.words +
+                  ")";
   }
   if (!any) return;
   std::stable_sort(selection.ranked.begin(), selection.ranked.end(),

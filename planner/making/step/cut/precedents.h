@@ -26,8 +26,8 @@ struct FromCases {
 
 /// Lets near cases say where speed and feed start from and how deep the cut may be; both are upper bounds,
 /// too, and every limit of the mechanics still holds. Nothing where there is no case base.
-/// Cases are compared at the table's terms: the feed of a narrow cut by its largest chip, the speed of a short
-/// arc of contact by that of a long one, that of a cutter in with its tip by the diameter that cuts.
+/// Cases are compared at the table's terms: the feed of a narrow cut by its largest chip, the speed of a
+/// short arc of contact by that of a long one, that of a cutter in with its tip by the diameter that cuts.
 [[nodiscard]] std::optional<FromCases> start_from_cases(const PlanSoFar& p, const draft::StepDraft& step,
                                                         const model::FeatureShape& shape,
                                                         optimise::CutQuestion& q);
@@ -40,7 +40,8 @@ struct FromCases {
 
 /// What near cases say of values that the step has, whoever chose them: the probability that they go well.
 /// Nothing where there is no case base, or no case near.
-[[nodiscard]] std::optional<casebase::Advice> judged_by_cases(const PlanSoFar& p, const draft::StepDraft& step,
+[[nodiscard]] std::optional<casebase::Advice> judged_by_cases(const PlanSoFar& p,
+                                                              const draft::StepDraft& step,
                                                               const model::FeatureShape& shape,
                                                               const optimise::CutQuestion& q,
                                                               const optimise::CutAnswer& a);

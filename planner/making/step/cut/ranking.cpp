@@ -106,7 +106,8 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
       take(kReturns);
     }
     // Cuts that are made in vain take their time, too.
-    if (t < kNever && cases) t *= casebase::kTrustInTable / cases->advice.success;
+    if (t < kNever && cases && cases->advice.good + cases->advice.bad > 0)
+      t *= casebase::kTrustInTable / cases->advice.success;
     if (t < kNever && !is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
     times.emplace_back(t, i);
   }

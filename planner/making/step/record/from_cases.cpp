@@ -46,11 +46,13 @@ void tell_without(model::Plan& plan, const StepDraft& step, const PathWithCut& m
     other = cuts.in_one_pass(without_cases(from, made.question), *std::move(other));
   if (other && other->feasible && rate(*other) > 0.0) {
     const double then_s = now_s * rate(made.answer) / rate(*other);
-    why += ", about " + motion::duration_text(then_s) + " of cutting instead of " + motion::duration_text(now_s);
+    why +=
+        ", about " + motion::duration_text(then_s) + " of cutting instead of " + motion::duration_text(now_s);
     told.with_s += now_s;
     told.without_s += then_s;
   }
-  if (auto* d = decision_of(plan, step); d != nullptr) d->rejected.push_back({std::move(what), std::move(why)});
+  if (auto* d = decision_of(plan, step); d != nullptr)
+    d->rejected.push_back({std::move(what), std::move(why)});
 }
 
 std::string step_text(const model::Plan& plan, const StepDraft& step) {
@@ -105,8 +107,10 @@ void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, co
   if (!judged || judged->success_asked >= casebase::kLeastSuccess) return;
   job.report({.code = "CASE-BAD-NEAR",
               .severity = Severity::kWarning,
-              .message = step_text(plan, step) + failed_text(*judged) + "; speed and feed stay as the file states "
-                         "them, " + percent(judged->success_asked) + " likely to go well",
+              .message = step_text(plan, step) + failed_text(*judged) +
+                         "; speed and feed stay as the file states "
+                         "them, " +
+                         percent(judged->success_asked) + " likely to go well",
               .file = plan.file_name,
               .hint = std::string("re-open the technology (--reopen), or ") + kWhatToDo});
 }
@@ -115,12 +119,14 @@ void tell_all_cases(const CasesTold& told, Job& job) {
   const int all = told.leaning + told.weighed + told.none;
   if (all == 0) return;
   std::string text = std::to_string(told.leaning) + " of " +
-                     counted(static_cast<std::size_t>(all), "step starts", "steps start") + " from near cases";
+                     counted(static_cast<std::size_t>(all), "step starts", "steps start") +
+                     " from near cases";
   if (told.lowered > 0) text += ", " + std::to_string(told.lowered) + " of them below failed ones";
   if (told.with_s > 0.0)
     text += ": about " + motion::duration_text(told.with_s) + " of cutting, by the table without cases " +
             motion::duration_text(told.without_s);
-  if (told.weighed > 0) text += "; near " + std::to_string(told.weighed) + " there are cases that change nothing";
+  if (told.weighed > 0)
+    text += "; near " + std::to_string(told.weighed) + " there are cases that change nothing";
   if (told.none > 0)
     text += "; " + std::to_string(told.none) + " without a case within a distance of " +
             trimmed(casebase::kPrecedentDistance, 2) + ": there the table holds";

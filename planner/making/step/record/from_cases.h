@@ -10,10 +10,10 @@ namespace capstan::step {
 
 /// What cases came to in a plan, for one line at its end.
 struct CasesTold {
-  int leaning = 0;   ///< steps that start from near cases
-  int lowered = 0;   ///< of these, below failed ones
-  int weighed = 0;   ///< steps near which there are cases that change nothing
-  int none = 0;      ///< steps without a case near
+  int leaning = 0;                       ///< steps that start from near cases
+  int lowered = 0;                       ///< of these, below failed ones
+  int weighed = 0;                       ///< steps near which there are cases that change nothing
+  int none = 0;                          ///< steps without a case near
   double with_s = 0.0, without_s = 0.0;  ///< cutting time of those that lean, about: as planned, by the table
 };
 

@@ -106,7 +106,8 @@ TEST_F(Precedents, AThousandCopiesOfOneFailureAreOne) {
     c.from.source = "copy " + std::to_string(n++);
   };
   const auto copies = cut(1000, Verdict::kBad, copy);
-  add("one.db", std::vector<Case>(copies.begin(), copies.begin() + static_cast<std::ptrdiff_t>(planned_.size())));
+  add("one.db",
+      std::vector<Case>(copies.begin(), copies.begin() + static_cast<std::ptrdiff_t>(planned_.size())));
   add("copies.db", copies);
   const std::string of_one = program("one.db");
   EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
