@@ -69,13 +69,4 @@ struct Selection {
   std::string would_fit;  ///< when nothing fits: what would
 };
 
-/// A case as planning uses it: a cut of the past, near to the one that is planned.
-struct Precedent {
-  std::string case_id;
-  double distance = 0.0;
-  int neighbours = 0;
-  std::string provenance;  ///< "measured", "simulated", "entered"
-  double vc_m_min = 0.0, fz_mm = 0.0, ap_mm = 0.0, ae_mm = 0.0;
-};
-
 }  // namespace capstan::model
