@@ -121,6 +121,7 @@ void Log::index() const {
 }
 
 std::optional<std::uint32_t> Log::find(const Id& id) const {
+  const std::lock_guard lock(shared_->indexing);
   index();
   const auto found = by_id_.find(id);
   if (found == by_id_.end()) return std::nullopt;

@@ -43,7 +43,8 @@ struct Note {
 /// limits are computed again, and the head is made of it again. So no altered number is ever given; a body
 /// that was altered is noticed when it is used, or by `verify`.
 ///
-/// Threads   `load` may be called from many threads; nothing else beside it.
+/// Threads   the const members may be called from many threads; the others from one, without readers at that
+/// time.
 class Log {
  public:
   /// Rows that are altered or gone are reported (CASE-ROW) and left out; then `append` refuses
@@ -76,7 +77,8 @@ class Log {
 
  private:
   struct Shared {
-    std::mutex mutex;  // of the store, and of what follows
+    std::mutex indexing;  // of `by_id_`
+    std::mutex mutex;     // of the store, and of what follows
     std::vector<Diagnostic> faults;
     bool damaged = false;
   };

@@ -1,5 +1,8 @@
 #include "casebase/recall/recall.h"
 #include "casebase/casebase.h"
+
+#include <thread>
+
 #include "casebase/index/index.h"
 #include "casebase/key/normalisation.h"
 #include "casebase/record/sha256.h"
@@ -57,6 +60,50 @@ TEST_F(Recall, GivesNothingPastTheThreshold) {
   q.diameter_mm = 14.3;  // log2(1.43) = 0.516
   EXPECT_FALSE(advised(q).any());
   EXPECT_EQ(base_.nearest(q, 1)->size(), 1u);
+}
+
+TEST_F(Recall, TakesNoPrecedentOfAnotherCutter) {
+  // The same pocket, by a mill of twice the diameter, of twice the teeth, or standing out twice as far.
+  Case c = sample();
+  c.asked.stick_out_mm = 40.0;
+  keep({c});
+  for (const auto change : std::vector<void (*)(Question&)>{[](Question& q) { q.cutter_diameter_mm *= 2.0; },
+                                                            [](Question& q) { q.teeth *= 2; },
+                                                            [](Question& q) { q.stick_out_mm *= 2.0; }}) {
+    Question q = c.asked;
+    EXPECT_TRUE(advised(q).leads);
+    change(q);
+    EXPECT_FALSE(advised(q).any());
+    EXPECT_NEAR(base_.nearest(q, 1)->front().distance, 1.0, 1e-12);
+  }
+}
+
+TEST_F(Recall, FindsWhatWasAddedSinceTheIndexWasMade) {
+  keep({sample(10.0)});
+  EXPECT_EQ(base_.nearest(sample().asked, 9)->size(), 1u);
+  for (int i = 1; i <= 700; ++i) {  // beyond the tail that is looked at one by one
+    keep({sample(10.0, 30.0, "part " + std::to_string(i + 1))});
+    if (i % 100 != 0) continue;
+    EXPECT_EQ(base_.nearest(sample().asked, 2000)->size(), static_cast<std::size_t>(i) + 1);
+  }
+}
+
+TEST_F(Recall, AnswersManyThreadsAlike) {
+  keep(random_cases(300, 13));
+  std::vector<std::vector<Neighbour>> answers(4);
+  std::vector<std::thread> threads;
+  for (auto& mine : answers) {
+    threads.emplace_back([&] {
+      for (const Case& asked : random_cases(30, 14)) {
+        const auto near = base_.nearest(asked.asked, 5).value();
+        mine.insert(mine.end(), near.begin(), near.end());
+        for (const Neighbour& n : near) mine.push_back({base_.get(n.found.id).value(), n.distance});
+      }
+    });
+  }
+  for (std::thread& t : threads) t.join();
+  EXPECT_FALSE(answers.front().empty());
+  for (const auto& other : answers) EXPECT_EQ(other, answers.front());
 }
 
 TEST_F(Recall, TakesTheFeedOfALargerCutterByItsDiameter) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/plans.h"
+#include "tests/support/corpus.h"
 
 // The verbs of `capstan cases`, run as a user runs them.
 
@@ -16,10 +16,13 @@ class Cases : public CommandTest {
  protected:
   void SetUp() override {
     CommandTest::SetUp();
-    put("plate.p21", testing::drilled_plate());
-    ASSERT_EQ(run("plan plate.p21 -o plan.json -o plan.p21 -o plan.stpnc").code, 0);
+    const Ran planned = run("plan '" + capstan::testing::source_dir() +
+                            "/examples/bracket.p21' -o plan.json -o plan.p21 -o plan.stpnc");
+    ASSERT_EQ(planned.code, 0) << planned.err;
     const Ran added = run("cases add base.db plan.json");
     ASSERT_EQ(added.code, 0) << added.err;
+    // Its counterbored hole makes cases, too: one of each part of it.
+    ASSERT_THAT(added.err, HasSubstr("read 20 cases, 20 of them new"));
   }
   /// The id of the first case of the list, or what the list says.
   std::string first() {
