@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "casebase/recall.h"
 #include "casebase/search.h"
 #include "casebase/store/log.h"
 
@@ -156,21 +155,6 @@ Result<std::vector<Neighbour>> CaseBase::within(const Question& q, double distan
   if (const auto wrong = fault_of(q)) return fail("CASE-INVALID", "the question cannot be: " + *wrong);
   return impl_->loaded(impl_->search.within(q, distance * distance));
 }
-
-Answer CaseBase::ask(const Question& q) const {
-  if (const auto wrong = fault_of(q)) return {std::nullopt, "the question cannot be: " + *wrong};
-  if (!impl_->search.any(q)) {
-    return {std::nullopt, "no case of this operation, material, tool class and machine with these sizes"};
-  }
-  const Result<std::vector<Neighbour>> found = within(q, kPrecedentDistance);
-  if (!found) return {std::nullopt, found.error().message};
-  std::vector<Near> near;
-  near.reserve(found->size());
-  for (const Neighbour& n : *found) near.push_back({&n.found, n.distance});
-  return choose(near);
-}
-
-std::optional<model::Precedent> CaseBase::recall(const Question& q) const { return ask(q).precedent; }
 
 std::size_t CaseBase::size() const { return impl_->log.live(); }
 

@@ -14,7 +14,6 @@
 #include "planner/model/features/shape.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
-#include "planner/model/plan/proposal.h"
 #include "planner/model/plan/resources/machine.h"
 #include "planner/model/plan/resources/material.h"
 
@@ -30,12 +29,6 @@ struct Neighbour {
 /// Beyond this distance there is no precedent. One size apart by a factor of 2^0.5, or the tolerance by a
 /// factor of 2, all else equal. Default, unsourced.
 inline constexpr double kPrecedentDistance = 0.5;
-
-/// A precedent or, in words for people, why there is none.
-struct Answer {
-  std::optional<model::Precedent> precedent;
-  std::string why;
-};
 
 /// Cases in a store, with an exact nearest-neighbour index per combination of categories that is rebuilt from
 /// the store, never loaded. Nothing that is stored is ever altered: a verdict or a removal is a new row.
@@ -92,15 +85,6 @@ class CaseBase {
   [[nodiscard]] Result<std::vector<Neighbour>> nearest(const Question& q, std::size_t k) const;
   /// All cases of the question's categories within a distance, in the same order.
   [[nodiscard]] Result<std::vector<Neighbour>> within(const Question& q, double distance) const;
-
-  /// The case to start from, or why there is none. Only good cases within `kPrecedentDistance` count
-  /// (simulated ones also without a verdict). Origins are not mixed: measured cases if there are any,
-  /// else entered ones, else simulated ones, and `neighbours` counts those of that kind alone. Skipped are: a
-  /// case next to a bad one that was cut no harder and is at least as trustworthy; a case whose vc or fz is
-  /// more than twice or less than half the median, if three or more are near.
-  [[nodiscard]] Answer ask(const Question& q) const;
-  /// Recall: the precedent of `ask`.
-  [[nodiscard]] std::optional<model::Precedent> recall(const Question& q) const;
 
   /// How many cases there are, without those that are removed.
   [[nodiscard]] std::size_t size() const;

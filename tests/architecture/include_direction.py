@@ -68,7 +68,7 @@ ALLOWED = {
     "probing": MODEL + " library draft piece step",
     "step": MODEL + " toolpaths casebase library selection mechanics motion stock engagement toolpath optimise"
     " draft piece workholding",
-    "propose": MODEL + " rules library selection optimise draft piece step",
+    "propose": MODEL + " rules casebase library selection optimise draft piece step",
     "given": MODEL + " mechanics motion rules shop library formats selection draft piece step",
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",

@@ -1,3 +1,4 @@
+#include "casebase/recall/recall.h"
 #include "casebase/casebase.h"
 
 #include <thread>
@@ -14,6 +15,8 @@ namespace {
 class Recall : public testing::Test {
  protected:
   void keep(std::vector<Case> cases) { ASSERT_TRUE(base_.add(cases).has_value()); }
+  /// What the base says where nothing else says where to start.
+  [[nodiscard]] Advice advised(const Question& q) const { return advise(evidence_near(base_, q), {}); }
   Folder folder_;
   Job job_;
   CaseBase base_ = CaseBase::open_or_create(folder_.file(), job_).value();
@@ -29,31 +32,33 @@ TEST(Sha256, MatchesThePublishedExamples) {  // FIPS 180-2, appendix B.1 and B.2
 TEST_F(Recall, GivesNothingFromAnEmptyBase) {
   EXPECT_EQ(base_.size(), 0u);
   EXPECT_TRUE(base_.nearest(sample().asked, 3)->empty());
-  const Answer a = base_.ask(sample().asked);
-  EXPECT_FALSE(a.precedent.has_value());
+  const Advice a = advised(sample().asked);
+  EXPECT_FALSE(a.any());
   EXPECT_FALSE(a.why.empty());
 }
 
-TEST_F(Recall, GivesTheCaseWithItsDistanceAndProvenance) {
+TEST_F(Recall, GivesTheCaseWithItsDistanceAndOrigin) {
   keep({sample(10.0, 30.0)});
   Question q = sample().asked;
-  q.diameter_mm = 12.0;  // of the feature alone: with the same drill it would be milled round
-  const auto p = base_.recall(q);
-  ASSERT_TRUE(p.has_value());
-  EXPECT_NEAR(p->distance, std::log2(1.2), 1e-12);
-  EXPECT_EQ(p->provenance, "measured");
-  EXPECT_EQ(p->neighbours, 1);
-  EXPECT_EQ(p->vc_m_min, 30.0);
-  EXPECT_EQ(p->fz_mm, 0.1);
+  q.diameter_mm = 12.0;
+  const Advice a = advised(q);
+  ASSERT_TRUE(a.leads);
+  EXPECT_NEAR(a.nearest, std::log2(1.2), 1e-12);
+  EXPECT_EQ(a.origin, Origin::kMeasured);
+  EXPECT_EQ(a.good, 1);
+  EXPECT_EQ(a.start.vc_m_min, 30.0);
+  EXPECT_EQ(a.start.fz_mm, 0.1);
+  ASSERT_EQ(a.cases.size(), 1u);
+  EXPECT_EQ(a.cases.front().id, sample(10.0, 30.0).id);
 }
 
-TEST_F(Recall, SaysNoPrecedentPastTheThreshold) {
+TEST_F(Recall, GivesNothingPastTheThreshold) {
   keep({sample(10.0)});
   Question q = sample().asked;
   q.diameter_mm = 14.0;  // log2(1.4) = 0.485
-  EXPECT_TRUE(base_.recall(q).has_value());
+  EXPECT_TRUE(advised(q).leads);
   q.diameter_mm = 14.3;  // log2(1.43) = 0.516
-  EXPECT_FALSE(base_.recall(q).has_value());
+  EXPECT_FALSE(advised(q).any());
   EXPECT_EQ(base_.nearest(q, 1)->size(), 1u);
 }
 
@@ -66,9 +71,9 @@ TEST_F(Recall, TakesNoPrecedentOfAnotherCutter) {
                                                             [](Question& q) { q.teeth *= 2; },
                                                             [](Question& q) { q.stick_out_mm *= 2.0; }}) {
     Question q = c.asked;
-    EXPECT_TRUE(base_.recall(q).has_value());
+    EXPECT_TRUE(advised(q).leads);
     change(q);
-    EXPECT_FALSE(base_.recall(q).has_value());
+    EXPECT_FALSE(advised(q).any());
     EXPECT_NEAR(base_.nearest(q, 1)->front().distance, 1.0, 1e-12);
   }
 }
@@ -101,53 +106,42 @@ TEST_F(Recall, AnswersManyThreadsAlike) {
   for (const auto& other : answers) EXPECT_EQ(other, answers.front());
 }
 
+TEST_F(Recall, TakesTheFeedOfALargerCutterByItsDiameter) {
+  keep({sample(10.0, 30.0)});
+  const auto of = [&](double diameter_mm) {
+    Question q = sample().asked;
+    q.cutter_diameter_mm = diameter_mm;
+    return evidence_near(base_, q).front().cut.fz_mm;
+  };
+  EXPECT_DOUBLE_EQ(of(8.0), 0.08);
+  EXPECT_DOUBLE_EQ(of(10.0), 0.1);
+  EXPECT_DOUBLE_EQ(of(12.0), 0.1);
+}
+
+TEST_F(Recall, SeesPastAThousandCopiesOfOneCase) {
+  std::vector<Case> all;
+  for (int i = 0; i < 1000; ++i) {
+    all.push_back(sample(10.0, 45.0, "pasted"));
+    all.back().observed.time_s = Figure{6.5 + 1e-6 * i};
+  }
+  all.push_back(sample(10.5, 30.0, "part 1"));
+  all.push_back(sample(10.6, 30.0, "part 2"));
+  all[1001].observed.time_s = Figure{6.7};
+  keep(all);
+  const Advice a = advised(sample().asked);
+  EXPECT_EQ(a.good, 3);
+  EXPECT_EQ(a.start.vc_m_min, 30.0);
+}
+
 TEST_F(Recall, MatchesEveryCategoryExactly) {
   keep({sample()});
   for (std::string Question::*const category :
        {&Question::operation, &Question::material_group, &Question::tool_class, &Question::machine_class}) {
     Question q = sample().asked;
     q.*category += "x";
-    EXPECT_FALSE(base_.recall(q).has_value());
+    EXPECT_FALSE(advised(q).any());
     EXPECT_TRUE(base_.nearest(q, 5)->empty());
   }
-}
-
-TEST_F(Recall, NeverMixesProvenances) {
-  Case near = sample(10.0, 40.0, "plan");
-  near.origin = Origin::kSimulated;
-  near.observed.verdict = Verdict::kUnknown;
-  near.observed.time_s->origin = Origin::kSimulated;
-  const Case measured = sample(11.0, 30.0);
-  keep({near, measured});
-  const auto p = base_.recall(near.asked);
-  ASSERT_TRUE(p.has_value());
-  EXPECT_EQ(p->provenance, "measured");
-  EXPECT_EQ(p->neighbours, 1);
-  EXPECT_EQ(p->vc_m_min, 30.0);
-}
-
-TEST_F(Recall, DoesNotLeadByABadOrUnjudgedCutting) {
-  Case bad = sample(10.0, 30.0, "broken");
-  bad.observed.verdict = Verdict::kBad;
-  Case unjudged = sample(10.0, 20.0, "running");
-  unjudged.observed.verdict = Verdict::kUnknown;
-  keep({bad, unjudged});
-  EXPECT_FALSE(base_.recall(bad.asked).has_value());
-}
-
-TEST_F(Recall, PassesOverWhatFailedWhenCutNoHarder) {
-  Case bad = sample(10.0, 28.0, "broken");
-  bad.observed.verdict = Verdict::kBad;
-  keep({bad, sample(10.0, 30.0), sample(11.0, 25.0)});
-  EXPECT_EQ(base_.recall(bad.asked)->vc_m_min, 25.0);
-}
-
-TEST_F(Recall, PassesOverAPoisonedOutlier) {
-  keep({sample(10.0, 300.0, "poison"), sample(10.5, 30.0), sample(11.0, 32.0)});
-  const auto p = base_.recall(sample(10.0).asked);
-  ASSERT_TRUE(p.has_value());
-  EXPECT_EQ(p->vc_m_min, 30.0);
-  EXPECT_EQ(p->neighbours, 2);
 }
 
 TEST_F(Recall, FindsWhatLookingAtEveryCaseFinds) {
@@ -182,7 +176,7 @@ TEST_F(Recall, RefusesAQuestionThatCannotBe) {
   Question q = sample().asked;
   q.depth_mm = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(base_.nearest(q, 1).error().code, "CASE-INVALID");
-  EXPECT_FALSE(base_.recall(q).has_value());
+  EXPECT_FALSE(advised(q).any());
   q.depth_mm = -1.0;
   EXPECT_EQ(base_.nearest(q, 1).error().code, "CASE-INVALID");
 }
@@ -261,7 +255,7 @@ TEST(Retain, MakesASimulatedCaseThatTheSameQuestionFinds) {
   Job job;
   auto base = CaseBase::open_or_create(folder.file(), job).value();
   ASSERT_TRUE(base.add(*c).has_value());
-  EXPECT_EQ(base.recall(c->asked)->case_id, c->id);
+  EXPECT_EQ(evidence_near(base, c->asked).front().id, c->id);
 }
 
 TEST(Retain, RefusesAStepWithoutACutter) {

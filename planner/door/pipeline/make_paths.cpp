@@ -22,6 +22,7 @@
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/progress.h"
 #include "planner/making/step/path/stocks.h"
+#include "planner/making/step/record/from_cases.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/making/step/record/grouped_reasons.h"
 #include "planner/making/step/record/record.h"
@@ -81,6 +82,7 @@ class PathMaker {
     auto cells = stocks_.other_cells();
     learned_.again = learned_.again || cells.again;
     learned_.smallest = std::move(cells.cutters);
+    if (!learned_.again) step::tell_all_cases(told_, job_);
     return std::move(learned_);
   }
 
@@ -408,7 +410,7 @@ class PathMaker {
     step::let_go(plan_.model, step, made.let_go, job_);
     step::turn_with_the_cutter(plan_, step, job_);
     if (tried.strategy) step::record_strategy(plan_, step, *tried.strategy);
-    step::record_cut(plan_, steps_, step, made.answer, made.depth_open, made.width_open, made.precedent);
+    step::record_cut(plan_, steps_, step, made.answer, made.depth_open, made.width_open, made.cases);
     tell_thicker(step, made);
     progress_.done(step);
     const auto& feeds = tried.feeds;
@@ -424,6 +426,7 @@ class PathMaker {
     r.path_deviation_mm = r.contour_tolerance_mm = deviation.mm;
     step::record_path(plan_, steps_, step, tried.path, deviation.why);
     step::keep(plan_, p_.recorded, step, std::move(r), tried.asked, job_);
+    step::tell_cases(plan_, p_, step, made, cuts_, told_, job_);
     return {};
   }
 
@@ -467,6 +470,7 @@ class PathMaker {
   step::Cuts cuts_;
   step::Means means_;
   Learned learned_;
+  step::CasesTold told_;
   std::set<AnyRef> failed_;   ///< features with a step that failed in this try
   std::set<AnyRef> resting_;  ///< features that rest on those
   std::map<Member, std::string>

@@ -66,7 +66,8 @@ std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, con
   const optimise::Options options = options_of(asked.inputs);
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
   const propose::Choice choice{
-      piece, cutters, asked.bans, options, asked.margin.deviations, required.demands.batch};
+      piece, cutters, asked.bans, options, asked.margin.deviations, required.demands.batch,
+      asked.inputs.cases.get()};
   const propose::Sources sources{asked.inputs.rules, required.demands, asked.unreadable, choice,
                                  asked.policy.reopen >= Reopen::kOperations};
   auto made = propose::propose_missing(plan, std::move(drafts), sources, job);
@@ -88,7 +89,8 @@ Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& requi
                              piece,
                              required.demands,
                              asked.recorded.cutters,
-                             asked.inputs.tool_materials};
+                             asked.inputs.tool_materials,
+                             asked.inputs.cases.get()};
   given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);
   const bool magazine_known =
       std::any_of(library.begin(), library.end(), [](const model::Cutter& c) { return c.loaded; });

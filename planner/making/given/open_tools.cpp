@@ -10,6 +10,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/given/magazine.h"
 #include "planner/making/piece/surroundings.h"
+#include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/preferences.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -163,6 +164,8 @@ bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& us
   }
   wanted.used = used;
   auto s = tooling::select(*requirement, choice.usable, plan.material, plan.machine, wanted);
+  if (!step.shapes.empty())
+    step::weigh_by_cases(choice.cases, plan, step.operation.type, step.shapes.front(), s);
   if (s.ranked.empty()) {
     if (auto lacks = tooling::needed_cutter(*requirement, plan.material, plan.machine, wanted))
       needed.push_back({step.feature, draft::name_of(plan.model, step), std::move(lacks->cutter),

@@ -14,6 +14,10 @@
 
 // Cutters for the operations of a file: the given ones as they are, the open ones chosen.
 
+namespace capstan::casebase {
+class CaseBase;
+}
+
 namespace capstan::given {
 
 /// The cutters to choose from, and the criteria.
@@ -25,6 +29,7 @@ struct Choice {
   const piece::Demands& demands;
   const std::vector<model::Cutter>& recorded;  ///< what the plan said of its cutters when it was read
   const ToolMaterialWish& materials;           ///< of tools whose file does not state it
+  const casebase::CaseBase* cases = nullptr;   ///< null: no precedents
 };
 
 /// Gives each step of the file its cutter. Writes the chosen tools into `plan`, and reports the steps without

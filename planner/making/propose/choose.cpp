@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/making/propose/members.h"
+#include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/preferences.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -140,6 +141,7 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
     wanted.used = used;
     if (i > 0) take_what_is_left(chain[i - 1], step, wanted);
     auto s = tooling::select(step.tool, choice.usable, plan.material, plan.machine, wanted);
+    step::weigh_by_cases(choice.cases, plan, step.operation, shape, s);
     if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
       tools.push_back(std::move(s));
       continue;
@@ -163,6 +165,10 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
   return out;
 }
 
+bool failed_before(const model::Proposal& p, const Equipped& e) {
+  return static_cast<std::size_t>(e.chosen.chain - p.chains.data()) >= p.chains.size() - p.failed_before;
+}
+
 std::string about(const Equipped& e) { return "about " + trimmed(e.seconds, 1) + " s"; }
 
 }  // namespace
@@ -181,8 +187,11 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
       (fit.empty() ? rejected : after).push_back({chain_text(chain, shape), e.why_not});
   }
   if (fit.empty()) return {};
-  const auto quickest = std::min_element(
-      fit.begin(), fit.end(), [](const Equipped& a, const Equipped& b) { return a.seconds < b.seconds; });
+  // A chain that failed before is no quicker way.
+  const auto quickest = std::min_element(fit.begin(), fit.end(), [&](const Equipped& a, const Equipped& b) {
+    const bool failed_a = failed_before(p, a), failed_b = failed_before(p, b);
+    return failed_a != failed_b ? failed_b : a.seconds < b.seconds;
+  });
   const Equipped& first = fit.front();
   const bool decisive = judged_by_time(shape) && kDecisive * quickest->seconds <= first.seconds &&
                         quickest->seconds + kWorthwhileS <= first.seconds;

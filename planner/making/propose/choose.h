@@ -13,6 +13,10 @@
 // Which chain of a proposal is taken: the rules' order says what is good practice, the estimates of time what
 // would be absurd.
 
+namespace capstan::casebase {
+class CaseBase;
+}
+
 namespace capstan::propose {
 
 /// Criteria for chains and their cutters.
@@ -21,8 +25,9 @@ struct Choice {
   const std::vector<model::Cutter>& usable;  ///< cutters that may be used
   const draft::Bans& bans;
   const optimise::Options& options;
-  double margin_deviations = 0.0;  ///< of loads against their limits
-  int batch = 1;                   ///< pieces
+  double margin_deviations = 0.0;             ///< of loads against their limits
+  int batch = 1;                              ///< pieces
+  const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
 };
 
 struct Chosen {

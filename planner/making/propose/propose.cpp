@@ -13,6 +13,7 @@
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
+#include "planner/making/propose/by_cases.h"
 #include "planner/making/propose/members.h"
 #include "planner/making/propose/needed.h"
 #include "planner/making/propose/operation_nouns.h"
@@ -354,7 +355,8 @@ class Proposer {
       fail_member(f, given, why.empty() ? proposed.cannot : why);
       return {};
     }
-    const model::Proposal p = piece::without_drills_at_edges(choice_.piece, given, proposed);
+    const model::Proposal p =
+        by_cases(choice_, piece::without_drills_at_edges(choice_.piece, given, proposed), given);
     if (p.chains.empty() && !proposed.chains.empty()) {
       fail_member(f, given, p.rejected.back().why);
       return {};

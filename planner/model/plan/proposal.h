@@ -50,6 +50,7 @@ struct ProposedStep {
 struct Proposal {
   AnyRef feature;
   std::vector<std::vector<ProposedStep>> chains;
+  std::size_t failed_before = 0;  ///< of these, at the end: those that went badly when they were cut before
   std::vector<Rejected> rejected;
   std::string cannot;  ///< set when no chain is proposed: the reason, for people
 };
@@ -67,15 +68,6 @@ struct Selection {
   std::vector<Candidate> ranked;
   std::vector<Rejected> rejected;
   std::string would_fit;  ///< when nothing fits: what would
-};
-
-/// A case as planning uses it: a cut of the past, near to the one that is planned.
-struct Precedent {
-  std::string case_id;
-  double distance = 0.0;
-  int neighbours = 0;
-  std::string provenance;  ///< "measured", "simulated", "entered"
-  double vc_m_min = 0.0, fz_mm = 0.0, ap_mm = 0.0, ae_mm = 0.0;
 };
 
 }  // namespace capstan::model

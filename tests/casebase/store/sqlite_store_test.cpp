@@ -1,3 +1,4 @@
+#include "casebase/recall/recall.h"
 #include "casebase/store/log.h"
 
 #include <sys/resource.h>
@@ -156,7 +157,7 @@ TEST(CaseStore, LeavesOutAndNamesARowWhoseBodyWasAlteredWhenItIsUsed) {
     Job job;
     auto base = CaseBase::open(folder.file(), job);
     ASSERT_TRUE(base.has_value()) << to_text(base.error());
-    EXPECT_FALSE(base->recall(sample(10.0).asked).has_value());
+    EXPECT_TRUE(evidence_near(*base, sample(10.0).asked).empty());
     const auto faults = base->take_faults();
     ASSERT_EQ(faults.size(), 1u);
     EXPECT_EQ(faults[0].code, "CASE-ROW");
@@ -342,7 +343,7 @@ TEST(CaseStore, IsReadWhereItMayNotBeWritten) {
   const auto made = CaseBase::open_or_create(folder.file("new.db"), job);
   ASSERT_EQ(seteuid(root ? 0 : geteuid()), 0);
   ASSERT_TRUE(base.has_value()) << to_text(base.error());
-  EXPECT_TRUE(base->recall(sample().asked).has_value());
+  EXPECT_EQ(base->nearest(sample().asked, 1)->size(), 1u);
   EXPECT_EQ(added, "CASE-READ-ONLY");
   ASSERT_FALSE(made.has_value());
   EXPECT_EQ(made.error().code, "CASE-OPEN");

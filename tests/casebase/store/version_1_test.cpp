@@ -1,4 +1,5 @@
 #include "casebase/store/version_1.h"
+#include "casebase/recall/recall.h"
 
 #include "casebase/casebase.h"
 #include "tests/casebase/sample.h"
@@ -44,7 +45,7 @@ TEST(CaseStoreVersion1, IsReadWithoutBeingAltered) {
     EXPECT_EQ(c.from.source, "part 1");
   }
   Question q = sample().asked;
-  EXPECT_EQ(base->recall(q)->vc_m_min, 30.0);
+  EXPECT_EQ(advise(evidence_near(*base, q), {}).start.vc_m_min, 30.0);
   tamper(path, "UPDATE capstan_total SET count = count");  // still a table of version 1
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "casebase/casebase.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/ground/vocabulary/thread_mill.h"
@@ -407,27 +406,6 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     }
   }
   return q;
-}
-
-std::optional<model::Reason> start_from_case(const PlanSoFar& p, const StepDraft& step,
-                                             const model::FeatureShape& shape, optimise::CutQuestion& q) {
-  // How far above the table's values a case may start; below there is no such limit. Default, unsourced.
-  constexpr double kCaseReach = 1.25;
-  if (!p.wishes.cases) return std::nullopt;
-  const auto asked = casebase::question_of(step.operation.type, p.plan.material, step.cutter, p.plan.machine,
-                                           casebase::sizes_of(shape));
-  const auto found = p.wishes.cases->recall(asked);
-  if (!found) return std::nullopt;
-  q.vc_start_m_min = std::min(found->vc_m_min, kCaseReach * q.vc_start_m_min);
-  q.fz_start_mm = std::min(found->fz_mm, kCaseReach * q.fz_start_mm);
-  if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)
-    q.fz_start_mm = std::min(q.fz_start_mm, borne);
-  return model::Reason{"case." + found->case_id,
-                       "starts from a " + found->provenance + " case at distance " +
-                           trimmed(found->distance, 3) + " (" + std::to_string(found->neighbours) +
-                           " near): " + trimmed(found->vc_m_min, 2) + " m/min, " + trimmed(found->fz_mm, 4) +
-                           " mm per tooth",
-                       "case base, " + found->provenance};
 }
 
 }  // namespace capstan::step

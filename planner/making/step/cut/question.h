@@ -21,12 +21,6 @@ namespace capstan::step {
                                                   const model::ProposedStep& step,
                                                   const model::Candidate& candidate);
 
-/// Lets the nearest case in the base, if there is one, say where speed and feed start from; never above
-/// kCaseReach times the table's values. Gives the reason, or nothing.
-[[nodiscard]] std::optional<model::Reason> start_from_case(const PlanSoFar& p, const draft::StepDraft& step,
-                                                           const model::FeatureShape& shape,
-                                                           optimise::CutQuestion& q);
-
 /// Whether the step mills: then feeds follow the sections.
 [[nodiscard]] inline bool mills(const optimise::CutQuestion& q) {
   return q.kind == optimise::CutKind::kRough || q.kind == optimise::CutKind::kFinish;

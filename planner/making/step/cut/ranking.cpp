@@ -9,6 +9,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/step/cut/drilled_hole.h"
+#include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/strategy_choice.h"
@@ -87,6 +88,8 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
     auto job = job_of(p, trial, step.shapes.front());
     progress.prepare(trial, stocks.of(trial.setup), job);
     auto q = question_of(p, trial, &step.candidates[i], job);
+    const auto cases =
+        step.open_technology ? start_from_cases(p, trial, step.shapes.front(), q) : std::nullopt;
     double t = kNever * static_cast<double>(i + 1);
     const double volume = geometry::area(job.shape.area) * q.depth_mm;
     const auto take = [&](double factor) {
@@ -102,6 +105,9 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
       q.constant_engagement = true;
       take(kReturns);
     }
+    // Cuts that are made in vain take their time, too.
+    if (t < kNever && cases && cases->advice.good + cases->advice.bad > 0)
+      t *= casebase::kTrustInTable / cases->advice.success;
     if (t < kNever && !is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
     times.emplace_back(t, i);
   }

@@ -163,7 +163,7 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
         if (!path) return tl::unexpected(path.error());
         over_surface = *std::move(path);
       }
-      if (step.open_technology) out.precedent = start_from_case(p, step, shape, out.question);
+      if (step.open_technology) out.cases = start_from_cases(p, step, shape, out.question);
       auto answer = means.cuts.answer(step, out.question, out.let_go);
       if (!answer) return tl::unexpected(answer.error());
       out.answer = *std::move(answer);
@@ -219,7 +219,7 @@ std::optional<ConstantCut> constant_cut(const PlanSoFar& p, StepDraft step, cons
   const bool walled = model::has(job.shape.kind, model::ShapeTrait::kWalled);
   if (!may_engage_constantly(p, step, job) || !q.constant_engagement || q.slot || q.ap_mm || q.ae_mm)
     return std::nullopt;
-  (void)start_from_case(p, step, step.shapes.front(), q);
+  (void)start_from_cases(p, step, step.shapes.front(), q);
   auto answer = means.cuts.answer(q);
   if (!answer || !answer->feasible) return std::nullopt;
   return ConstantCut{std::move(q), *std::move(answer), walled};

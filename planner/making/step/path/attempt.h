@@ -10,6 +10,7 @@
 #include "planner/ground/memo/memo.h"
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/step/cut/cuts.h"
+#include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/path/progress.h"
 #include "planner/making/step/path/stocks.h"
 #include "planner/making/step/path/strategy_choice.h"
@@ -26,7 +27,7 @@ struct PathWithCut {
   optimise::CutQuestion question;
   optimise::CutAnswer answer;
   bool depth_open = false, width_open = false;
-  std::optional<model::Reason> precedent;  ///< the case that speed and feed started from
+  std::optional<FromCases> cases;          ///< what near cases said of it; unset: there is no case base
   std::string let_go;                      ///< of stated speed and feed, and why; empty: nothing
   std::optional<model::StepLoads> under;   ///< of the middle pass under an overhang, which is not measured
   std::vector<model::Rejected> thicker;    ///< depths or widths that exceeded a limit along the path

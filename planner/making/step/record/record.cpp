@@ -163,7 +163,7 @@ void turn_with_the_cutter(model::Plan& plan, const StepDraft& step, Job& job) {
 
 void record_cut(model::Plan& plan, const std::vector<StepDraft>& steps, const StepDraft& step,
                 const optimise::CutAnswer& a, bool depth_open, bool width_open,
-                const std::optional<model::Reason>& precedent) {
+                const std::optional<FromCases>& cases) {
   Model& m = plan.model;
   model::Ledger& ledger = plan.ledger;
   const std::vector<DecisionKey> before = decided_before(plan, steps, step);
@@ -237,15 +237,19 @@ void record_cut(model::Plan& plan, const std::vector<StepDraft>& steps, const St
     on.push_back({made, "spindle"});
     bind(made, "feedrate", std::move(on));
   }
-  if (!precedent) return;
-  for (const char* attribute : {"spindle", "feedrate"}) {
-    if (attribute[0] == 's' ? step.keep_speed : step.keep_feed) continue;
-    model::Reason from = *precedent;
+  if (!cases || !cases->bind()) return;
+  const auto from_cases = [&](AnyRef object, const char* attribute) {
+    model::Reason from = reason_of(*cases);
     from.text += "; " + why.text;
-    auto* d = ledger.find(made, attribute);
+    auto* d = ledger.find(object, attribute);
+    if (d == nullptr) return;
     d->binder = Binder::kCase;
     d->reason = ledger.reason(std::move(from));
-  }
+  };
+  if (!step.keep_speed) from_cases(made, "spindle");
+  if (!step.keep_feed) from_cases(made, "feedrate");
+  if (depth_open && cases->advice.lowered && cases->advice.start.ap_mm > 0.0)
+    from_cases(step.operation, depth.attribute.c_str());
 }
 
 void state_path(Model& m, const StepDraft& step, const std::shared_ptr<const model::CutterPath>& path) {

@@ -8,6 +8,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/making/draft/draft.h"
 #include "planner/making/optimise/cut.h"
+#include "planner/making/step/cut/precedents.h"
 #include "planner/model/plan/cutter_path.h"
 #include "planner/model/plan/plan.h"
 
@@ -30,10 +31,11 @@ void turn_with_the_cutter(model::Plan& plan, const draft::StepDraft& step, Job& 
 /// Drops stated values that could not be kept and reports `word`; does nothing if `word` is empty.
 void let_go(const model::Model& m, draft::StepDraft& step, const std::string& word, Job& job);
 
-/// Writes what was chosen into the nouns, and why into the ledger. `steps` are those of the plan.
+/// Writes what was chosen into the nouns, and why into the ledger. `steps` are those of the plan; `cases` is
+/// why speed, feed and depth start from cases, where they do.
 void record_cut(model::Plan& plan, const std::vector<draft::StepDraft>& steps, const draft::StepDraft& step,
                 const optimise::CutAnswer& answer, bool depth_open, bool width_open,
-                const std::optional<model::Reason>& precedent);
+                const std::optional<FromCases>& cases);
 /// Puts the computed path at the operation's its_toolpath, as derived.
 void record_path(model::Plan& plan, const std::vector<draft::StepDraft>& steps, const draft::StepDraft& step,
                  const std::shared_ptr<const model::CutterPath>& path, const std::string& deviation);

@@ -1,3 +1,4 @@
+#include "casebase/recall/recall.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
@@ -42,14 +43,12 @@ int run_cases_nearest(Session& s) {
                     std::string(to_text(c.observed.verdict)), std::string(to_text(c.origin)), c.from.source});
   }
   std::string out = near->empty() ? "no case shares these categories\n" : table(rows, "");
-  const auto answer = base->ask(question);
-  if (answer.precedent) {
-    const auto& p = *answer.precedent;
-    out += "precedent: case " + p.case_id.substr(0, 12) + ", " + p.provenance + ", one of " +
-           std::to_string(p.neighbours) + "; vc " + number_text(p.vc_m_min) + " m/min, fz " +
-           number_text(p.fz_mm) + " mm\n";
+  const auto advice = casebase::advise(casebase::evidence_near(*base, question), {});
+  if (advice.leads) {
+    out += "precedent (" + std::string(to_text(advice.origin)) + "): " + words_of(advice.start) + ", " +
+           trimmed(100.0 * advice.success, 0) + " % likely to go well; " + advice.why + "\n";
   } else {
-    out += "no precedent: " + answer.why + "\n";
+    out += "no precedent: " + advice.why + "\n";
   }
   report_faults(s, *base);
   return print(out) ? kDone : kImpossible;

@@ -1,0 +1,64 @@
+#include "casebase/recall/evidence.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::casebase {
+namespace {
+
+/// Flank wear that ends a tool's life, mm: ISO 8688-2:1989, 4.1 (uniform wear of end mills).
+constexpr double kWornMm = 0.3;
+constexpr double kHeavyChatter = 0.5;  // of 0 none, 1 heavy. Default, unsourced
+constexpr double kBroken = 0.5;        // between 0 and 1
+
+double value_of(const std::optional<Figure>& f) { return f ? f->value : 0.0; }
+
+Blame blame_of(const Case& c) {
+  Blame out;
+  if (value_of(c.observed.wear_mm) >= kWornMm) out.speed = true;
+  if (value_of(c.observed.breakage) > kBroken) out.feed = out.depth = true;
+  if (value_of(c.observed.chatter) >= kHeavyChatter) out.depth = true;
+  if (out == Blame{}) out.speed = out.feed = true;
+  return out;
+}
+
+/// Empty where nothing was observed: two cuts by the same values are two cuts then.
+std::string told_of(const Case& c) {
+  const Observed& o = c.observed;
+  std::string out;
+  bool any = false;
+  for (const auto* f :
+       {&o.time_s, &o.spindle_load_percent, &o.peak_force_n, &o.torque_nm, &o.power_w, &o.size_deviation_mm,
+        &o.position_deviation_mm, &o.lag_mm, &o.surface_ra_um, &o.wear_mm}) {
+    out += '/';
+    if (!*f) continue;
+    any = true;
+    out += shortest((*f)->value);
+  }
+  if (!any) return {};
+  for (const double v : {c.bound.vc_m_min, c.bound.fz_mm, c.bound.ap_mm, c.bound.ae_mm, c.asked.diameter_mm,
+                         c.asked.depth_mm, c.asked.width_mm, c.asked.cutter_diameter_mm})
+    out += '/' + shortest(v);
+  return out + '/' + std::string(to_text(o.verdict)) + '/' + std::string(to_text(c.origin));
+}
+
+}  // namespace
+
+Evidence evidence_of(const Case& c, double distance, double cutter_diameter_mm) {
+  Evidence out;
+  out.id = c.id;
+  out.run = c.from.source + '\n' + c.from.part + '\n' + c.from.workingstep + '\n' + c.from.time_utc;
+  out.told = told_of(c);
+  out.origin = c.origin;
+  out.verdict = c.observed.verdict;
+  out.blame = blame_of(c);
+  out.distance = distance;
+  out.cut = {c.bound.vc_m_min, c.bound.fz_mm, c.bound.ap_mm, c.bound.ae_mm};
+  const double theirs = c.asked.cutter_diameter_mm;
+  if (theirs > 0.0 && cutter_diameter_mm > 0.0) out.cut.fz_mm *= std::min(1.0, cutter_diameter_mm / theirs);
+  return out;
+}
+
+}  // namespace capstan::casebase

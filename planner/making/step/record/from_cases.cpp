@@ -1,0 +1,136 @@
+#include "planner/making/step/record/from_cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "casebase/casebase.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/all.h"
+#include "planner/physics/motion/time.h"
+
+namespace capstan::step {
+namespace {
+
+using casebase::words_of;
+using draft::StepDraft;
+
+constexpr std::size_t kNamed = 5;  // cases in one line
+
+std::string percent(double p) { return trimmed(100.0 * p, 0) + " %"; }
+
+/// What a cut takes away in a minute, but for factors that two answers to one question share.
+double rate(const optimise::CutAnswer& a) {
+  return a.feed_mm_min * (a.ap_mm > 0.0 ? a.ap_mm : 1.0) * (a.ae_mm > 0.0 ? a.ae_mm : 1.0);
+}
+
+/// Where the decision on the speed stands, or on the feed where the speed is given.
+model::Decision* decision_of(model::Plan& plan, const StepDraft& step) {
+  const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
+  if (op == nullptr || !op->its_technology.set()) return nullptr;
+  return plan.ledger.find(op->its_technology, step.keep_speed ? "feedrate" : "spindle");
+}
+
+/// The cut by the table, and about how long it would take.
+void tell_without(model::Plan& plan, const StepDraft& step, const PathWithCut& made, Cuts& cuts,
+                  CasesTold& told) {
+  const FromCases& from = *made.cases;
+  std::string what = "the table without cases: " +
+                     words_of({from.table_vc_m_min, from.table_fz_mm, from.table_ap_most_mm, 0.0});
+  const double now_s = plan.steps.back().cutting_s;
+  std::string why = percent(from.advice.success_asked) + " likely to go well by these cases";
+  auto other = cuts.answer(without_cases(from, made.question));
+  if (other && other->feasible && plan.model.holds<model::PlaneMilling>(step.operation))
+    other = cuts.in_one_pass(without_cases(from, made.question), *std::move(other));
+  if (other && other->feasible && rate(*other) > 0.0) {
+    const double then_s = now_s * rate(made.answer) / rate(*other);
+    why +=
+        ", about " + motion::duration_text(then_s) + " of cutting instead of " + motion::duration_text(now_s);
+    told.with_s += now_s;
+    told.without_s += then_s;
+  }
+  if (auto* d = decision_of(plan, step); d != nullptr)
+    d->rejected.push_back({std::move(what), std::move(why)});
+}
+
+std::string step_text(const model::Plan& plan, const StepDraft& step) {
+  return "step '" + draft::name_of(plan.model, step) + "': ";
+}
+
+std::string failed_text(const casebase::Advice& a) {
+  std::vector<casebase::Leaned> failed;
+  std::copy_if(a.cases.begin(), a.cases.end(), std::back_inserter(failed),
+               [](const casebase::Leaned& c) { return c.verdict == casebase::Verdict::kBad; });
+  const int all = a.good + a.bad + a.unjudged;
+  return std::to_string(a.bad) + " of " + counted(static_cast<std::size_t>(all), "near cut", "near cuts") +
+         " failed (" + casebase::words_of(failed, 3) + ")";
+}
+
+constexpr const char* kWhatToDo =
+    "look at them (capstan cases nearest); a case that is wrong can be judged anew or removed, and good "
+    "repeats at these values lift this";
+
+}  // namespace
+
+void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, const PathWithCut& made,
+                Cuts& cuts, CasesTold& told, Job& job) {
+  if (p.wishes.cases == nullptr || step.shapes.empty() || plan.steps.empty()) return;
+  if (made.cases && made.cases->bind()) {
+    ++told.leaning;
+    tell_without(plan, step, made, cuts, told);
+  } else if (made.cases && made.cases->advice.any()) {
+    ++told.weighed;
+    if (auto* d = decision_of(plan, step); d != nullptr)
+      d->rejected.push_back({"started from cases", made.cases->advice.why + ", which changes nothing: " +
+                                                       casebase::words_of(made.cases->advice.cases, kNamed)});
+  } else {
+    ++told.none;
+  }
+  if (made.cases && made.cases->advice.lowered) {
+    ++told.lowered;
+    const casebase::Advice& a = made.cases->advice;
+    job.report({.code = "CASE-BAD-NEAR",
+                .severity = Severity::kWarning,
+                .message = step_text(plan, step) + failed_text(a) + "; it starts from " + words_of(a.start) +
+                           " instead of " +
+                           words_of({made.cases->table_vc_m_min, made.cases->table_fz_mm, 0.0, 0.0}) + ", " +
+                           percent(a.success) + " likely to go well instead of " + percent(a.success_asked),
+                .file = plan.file_name,
+                .hint = kWhatToDo});
+    return;
+  }
+  // Values that the file states, in whole or in part.
+  if (step.open_technology && !step.keep_speed && !step.keep_feed) return;
+  const auto judged = judged_by_cases(p, step, step.shapes.front(), made.question, made.answer);
+  if (!judged || judged->success_asked >= casebase::kLeastSuccess) return;
+  job.report({.code = "CASE-BAD-NEAR",
+              .severity = Severity::kWarning,
+              .message = step_text(plan, step) + failed_text(*judged) +
+                         "; speed and feed stay as the file states "
+                         "them, " +
+                         percent(judged->success_asked) + " likely to go well",
+              .file = plan.file_name,
+              .hint = std::string("re-open the technology (--reopen), or ") + kWhatToDo});
+}
+
+void tell_all_cases(const CasesTold& told, Job& job) {
+  const int all = told.leaning + told.weighed + told.none;
+  if (all == 0) return;
+  std::string text = std::to_string(told.leaning) + " of " +
+                     counted(static_cast<std::size_t>(all), "step starts", "steps start") +
+                     " from near cases";
+  if (told.lowered > 0) text += ", " + std::to_string(told.lowered) + " of them below failed ones";
+  if (told.with_s > 0.0)
+    text += ": about " + motion::duration_text(told.with_s) + " of cutting, by the table without cases " +
+            motion::duration_text(told.without_s);
+  if (told.weighed > 0)
+    text += "; near " + std::to_string(told.weighed) + " there are cases that change nothing";
+  if (told.none > 0)
+    text += "; " + std::to_string(told.none) + " without a case within a distance of " +
+            trimmed(casebase::kPrecedentDistance, 2) + ": there the table holds";
+  job.note("CASE-USED", std::move(text));
+}
+
+}  // namespace capstan::step

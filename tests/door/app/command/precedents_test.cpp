@@ -1,0 +1,148 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "casebase/casebase.h"
+#include "planner/door/service/reading.h"
+#include "tests/door/app/command/command.h"
+#include "tests/door/app/plans.h"
+#include "tests/support/corpus.h"
+
+// What was cut before, right or wrong, in the next plan: through the whole command.
+
+namespace capstan::app {
+namespace {
+
+using casebase::Case;
+using casebase::Origin;
+using casebase::Verdict;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Precedents : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    put("plate.p21", testing::drilled_plate());
+    const Ran r = run("plan plate.p21 --material C45 --reopen all -o plain.json -o plain.ngc");
+    ASSERT_LE(r.code, 1) << r.err;
+    Job job;
+    const auto plan = service::read_plan(slurp(folder_ / "plain.json"), "plain.json", job);
+    ASSERT_TRUE(plan) << to_text(plan.error());
+    planned_ = casebase::cases_of(*plan, job);
+    ASSERT_FALSE(planned_.empty());
+  }
+
+  /// Every step of the plan as measured cuts of `parts` parts, each changed by `change`.
+  std::vector<Case> cut(int parts, Verdict verdict, const std::function<void(Case&)>& change = {}) {
+    std::vector<Case> out;
+    for (int part = 0; part < parts; ++part) {
+      const std::string name = std::string(to_text(verdict)) + " part " + std::to_string(++parts_);
+      for (Case c : planned_) {
+        c.origin = Origin::kMeasured;
+        c.observed = {};
+        c.observed.verdict = verdict;
+        c.from.part = name;
+        if (change) change(c);
+        out.push_back(std::move(c));
+      }
+    }
+    return out;
+  }
+
+  void add(const std::string& base, const std::vector<Case>& cases) {
+    Job job;
+    auto db = casebase::CaseBase::open_or_create((folder_ / base).string(), job);
+    ASSERT_TRUE(db) << to_text(db.error());
+    const Status added = db->add(cases);
+    ASSERT_TRUE(added) << to_text(added.error());
+  }
+
+  /// Plans with that base; the program.
+  std::string program(const std::string& base) {
+    last_ = run("plan plate.p21 --material C45 --reopen all --cases " + base + " -o out.json -o out.ngc");
+    EXPECT_LE(last_.code, 1) << last_.err;
+    const Ran checked = run("check out.json");
+    EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+    return slurp(folder_ / "out.ngc");
+  }
+  std::string plain() { return slurp(folder_ / "plain.ngc"); }
+
+  std::vector<Case> planned_;
+  Ran last_;
+  int parts_ = 0;
+};
+
+TEST_F(Precedents, ACutAtTenTimesTheFeedThatWentWellChangesNoProgram) {
+  add("poison.db", cut(1, Verdict::kGood, [](Case& c) { c.bound.fz_mm *= 10.0; }));
+  EXPECT_EQ(program("poison.db"), plain());
+  EXPECT_THAT(last_.err, HasSubstr("CASE-USED"));
+  std::string explained;
+  for (const Case& c : planned_) explained += run("explain out.json '" + c.from.workingstep + "'").out;
+  EXPECT_THAT(explained, HasSubstr("not believed"));
+}
+
+TEST_F(Precedents, PoisonThatIsRepeatedStaysBelowTheBoundAndTheCheck) {
+  add("poison.db", cut(20, Verdict::kGood, [](Case& c) {
+        c.bound.fz_mm *= 2.5;
+        c.bound.vc_m_min *= 2.5;
+      }));
+  EXPECT_FALSE(program("poison.db").empty());  // and its check is clean
+}
+
+TEST_F(Precedents, ACaseOfAnotherMachineCountsNothing) {
+  add("other.db", cut(13, Verdict::kBad, [](Case& c) { c.asked.machine_class = "another_machine"; }));
+  EXPECT_EQ(program("other.db"), plain());
+  EXPECT_THAT(last_.err, HasSubstr("without a case within a distance of 0.5: there the table holds"));
+  EXPECT_THAT(last_.err, Not(HasSubstr("CASE-BAD-NEAR")));
+}
+
+TEST_F(Precedents, AThousandCopiesOfOneFailureAreOne) {
+  int n = 0;
+  const auto copy = [&](Case& c) {
+    c.observed.time_s = casebase::Figure{12.5};
+    c.from.part = "part 1";
+    c.from.source = "copy " + std::to_string(n++);
+  };
+  const auto copies = cut(1000, Verdict::kBad, copy);
+  add("one.db",
+      std::vector<Case>(copies.begin(), copies.begin() + static_cast<std::ptrdiff_t>(planned_.size())));
+  add("copies.db", copies);
+  const std::string of_one = program("one.db");
+  EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
+  EXPECT_EQ(program("copies.db"), of_one);
+}
+
+TEST_F(Precedents, TimesInTheFutureDecideNothing) {
+  auto cases = cut(5, Verdict::kBad);
+  for (Case& c : cases) c.from.time_utc = "2016-06-28T17:32:31Z";
+  add("now.db", cases);
+  for (Case& c : cases) c.from.time_utc = "2199-06-28T17:32:31Z";
+  add("skewed.db", cases);
+  EXPECT_EQ(program("skewed.db"), program("now.db"));
+}
+
+TEST_F(Precedents, ThirteenFailuresLowerTheCutAndLaterGoodRepeatsLiftIt) {
+  add("shop.db", cut(13, Verdict::kBad));
+  const std::string lowered = program("shop.db");
+  EXPECT_NE(lowered, plain());
+  EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
+  EXPECT_THAT(last_.err, HasSubstr("13 of 13 near cuts failed"));
+  std::string explained;
+  for (const Case& c : planned_) explained += run("explain out.json '" + c.from.workingstep + "'").out;
+  EXPECT_THAT(explained, HasSubstr("below cuts that failed"));
+  EXPECT_THAT(explained, HasSubstr("the table without cases"));
+  EXPECT_THAT(explained, HasSubstr("(measured, bad, 0 away)"));
+  add("shop.db", cut(60, Verdict::kGood));
+  EXPECT_NE(program("shop.db"), lowered);
+  EXPECT_THAT(last_.err, Not(HasSubstr("CASE-BAD-NEAR")));
+}
+
+TEST_F(Precedents, ThePlansOwnSimulationProvesNothing) {
+  ASSERT_EQ(run("cases add own.db plain.json").code, 0);
+  EXPECT_EQ(program("own.db"), plain());
+}
+
+}  // namespace
+}  // namespace capstan::app
