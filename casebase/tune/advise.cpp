@@ -12,8 +12,8 @@
 ///
 /// Each load is a process of its own over where the case lies, ln vc, ln fz and wear: what the planner's
 /// models expect, with the handbook's spread, is its linear prior. A setting is safe when the probability
-/// that the next part on a new, worn edge exceeds a limit is at most the one allowed, shared equally among
-/// the limits (Boole's inequality); among the safe settings of the trust region the fastest is tried. That
+/// that the next part on a new, worn edge exceeds any limit, the sum over the limits, is at most the one
+/// allowed; among the safe settings of the trust region the fastest is tried. That
 /// is the idea of SafeOpt (Sui, Gotovos, Burdick, Krause, "Safe exploration for optimization with Gaussian
 /// processes", ICML 2015) with several constraints (Berkenkamp, Krause, Schoellig, "Bayesian optimization
 /// with safety constraints", Machine Learning 112, 2023), without its search for expanders: time falls
@@ -23,14 +23,17 @@ namespace capstan::casebase::tune {
 namespace {
 
 // Lengths and sizes of what departs from the lines. Default, unsourced; learnt where there are enough cases.
-constexpr double kQuestionLength = 1.0, kSettingLength = 0.3, kWearLength = 1.0;
-constexpr double kLoadField = 0.08;
-constexpr double kTimeField = 0.03, kTimeNoise = 0.03, kTimeEdges = 0.01, kTimeSlope = 0.3;
+constexpr double kQuestionLength = 1.0, kSettingLength = 0.4, kWearLength = 1.0;
+constexpr double kLoadField = 0.05;
+constexpr double kTimeField = 0.02, kTimeNoise = 0.03, kTimeEdges = 0.01, kTimeSlope = 0.3;
 // A question at a distance of 1 (a size twice as large) has ln loads this different, its limits known.
 constexpr double kQuestionSlope = 0.3;
 // Failures come in bands of speed (lobes), and more of them at a harder cut.
-constexpr double kLobeLength = 0.15, kFailureField = 0.7;
-constexpr double kFailureSlope = 2.0, kFailureSlopeSpread = 2.0;
+constexpr double kLobeLength = 0.15, kFailureField = 0.5;
+constexpr double kZ95 = 1.6449;  // of the normal distribution
+// A gentler setting that would fail as often as not mends nothing: another depth or tool is needed.
+constexpr double kWorthLowering = 0.5;
+constexpr double kFailureSlope = 1.0, kFailureSlopeSpread = 1.0;
 
 std::vector<double> place(const std::vector<double>& question, const Setting& at, double worn) {
   std::vector<double> x = question;
@@ -50,7 +53,6 @@ class Learnt {
     for (std::size_t i = 0; i < kWatchedCount; ++i) {
       if (handbook.loads[i].watched) loads_[i].emplace(load_of(i, options));
     }
-    for (std::size_t i = 0; i < kWatchedCount; ++i) limits_ += handbook.loads[i].watched ? 1.0 : 0.0;
   }
 
   [[nodiscard]] SettingView at(const Setting& s) const {
@@ -58,16 +60,16 @@ class Learnt {
     const Predicted t = time_.at(place(here_, s, 0.5));
     v.time = std::exp(t.mean);
     v.time_std_dev = t.std_dev;
+    const double worn = worn_at(s);
     for (std::size_t i = 0; i < kWatchedCount; ++i) {
       if (!loads_[i]) continue;
       const bool wear = static_cast<Watched>(i) == Watched::kWear;
-      const Predicted p = loads_[i]->at(place(here_, s, wear ? 0.0 : 1.0));
-      const double z95 = 1.6449;  // of the normal distribution
+      const Predicted p = loads_[i]->at(place(here_, s, wear ? 0.0 : worn));
       v.limits.push_back({std::string(kWatchedNames[i]), std::exp(p.mean),
-                          std::exp(p.mean + z95 * p.next_std_dev),
+                          std::exp(p.mean + kZ95 * p.next_std_dev),
                           normal_probability(p.mean / p.next_std_dev)});
     }
-    const double failing = failure_.at(place(here_, s, 1.0));
+    const double failing = failure_.at(place(here_, s, worn));
     v.limits.push_back({"chatter or breakage", 0.0, 0.0, failing});
     for (const LimitView& l : v.limits) v.probability += l.probability;
     if (handbook_.hard) v.hard = handbook_.hard(s);
@@ -75,12 +77,16 @@ class Learnt {
     return v;
   }
 
-  /// The probability that each of the limits may have.
-  [[nodiscard]] double share(double all) const { return all / limits_; }
-
   [[nodiscard]] const std::optional<Process>& load(std::size_t i) const { return loads_[i]; }
 
  private:
+  /// How worn an edge is expected to be when it is changed; fully where nothing tells.
+  [[nodiscard]] double worn_at(const Setting& s) const {
+    const auto& wear = loads_[static_cast<std::size_t>(Watched::kWear)];
+    if (!wear) return 1.0;
+    return std::min(1.0, std::exp(wear->at(place(here_, s, 0.0)).mean));
+  }
+
   [[nodiscard]] std::vector<Row> rows(const std::function<std::optional<double>(const Evidence&)>& of,
                                       bool of_wear) const {
     std::map<std::string, std::size_t> edges;
@@ -140,14 +146,13 @@ class Learnt {
   Process time_;
   FailureProcess failure_;
   std::array<std::optional<Process>, kWatchedCount> loads_;
-  double limits_ = 1.0;  ///< chatter or breakage is one
 };
 
 /// Which settings may be cut.
 class Gate {
  public:
-  Gate(const Learnt& learnt, const Learnt& unlearnt, const Handbook& handbook, const TuneOptions& options)
-      : handbook_(handbook), share_(learnt.share(options.probability)), before_(unlearnt.at({})) {}
+  Gate(const Learnt& unlearnt, const Handbook& handbook, const TuneOptions& options)
+      : handbook_(handbook), allowed_(options.probability), before_(unlearnt.at({})) {}
 
   [[nodiscard]] bool hard(const SettingView& v) const {
     const double slack = 1e-9;
@@ -158,22 +163,18 @@ class Gate {
     return v.hard <= 1.0;
   }
 
+  /// Boole's inequality: a part exceeds some limit at most as often as the sum over the limits says.
   [[nodiscard]] bool soft(const SettingView& v) const {
-    for (std::size_t i = 0; i < v.limits.size(); ++i) {
-      // The handbook's own setting is not given up before evidence makes it worse than it was thought to be.
-      const double allowed =
-          v.at == Setting{} ? std::max(share_, before_.limits[i].probability + 1e-12) : share_;
-      if (v.limits[i].probability > allowed) return false;
-    }
-    return true;
+    // The handbook's own setting is not given up before evidence makes it worse than it was thought to be.
+    const double allowed = v.at == Setting{} ? std::max(allowed_, before_.probability + 1e-12) : allowed_;
+    return v.probability <= allowed;
   }
 
   [[nodiscard]] bool open(const SettingView& v) const { return hard(v) && soft(v); }
-  [[nodiscard]] double share() const { return share_; }
 
  private:
   const Handbook& handbook_;
-  double share_;
+  double allowed_;
   SettingView before_;
 };
 
@@ -214,9 +215,10 @@ void keep_nearest(std::vector<Evidence>& evidence, std::size_t most) {
   evidence = std::move(kept);
 }
 
-/// The settings of the trust region around one, with those already tried there.
+/// The settings of the trust region around one, with those already tried there. Where what is proven is too
+/// much, also all that are gentler, at a wider distance.
 std::vector<Setting> region_of(const Setting& around, const std::vector<Setting>& tried,
-                               const TuneOptions& o) {
+                               const TuneOptions& o, bool lowered) {
   std::vector<Setting> out;
   for (const Setting& s : tried) {
     if (std::abs(s.ln_vc - around.ln_vc) <= o.step + 1e-9 && std::abs(s.ln_fz - around.ln_fz) <= o.step + 1e-9)
@@ -224,18 +226,17 @@ std::vector<Setting> region_of(const Setting& around, const std::vector<Setting>
   }
   const int n = static_cast<int>(std::floor(o.step / o.grid + 1e-9));
   const double bound = std::log(kMostMultiplier);
+  if (lowered) {
+    for (double vc = around.ln_vc; vc >= -bound; vc -= 0.5 * o.step) {
+      for (double fz = around.ln_fz; fz >= -bound; fz -= 0.5 * o.step) out.push_back({vc, fz});
+    }
+  }
   for (int i = -n; i <= n; ++i) {
     for (int j = -n; j <= n; ++j) {
       const Setting s{around.ln_vc + i * o.grid, around.ln_fz + j * o.grid};
       if (std::abs(s.ln_vc) <= bound && std::abs(s.ln_fz) <= bound) out.push_back(s);
     }
   }
-  return out;
-}
-
-double worst_of(const SettingView& v) {
-  double out = 0.0;
-  for (const LimitView& l : v.limits) out = std::max(out, l.probability);
   return out;
 }
 
@@ -246,6 +247,11 @@ std::string reason_of(const Advice& a, const TuneOptions& o) {
   const std::string base = fmt::format("{} on {} and {}", a.heard == 1 ? "1 case" : fmt::format("{} cases", a.heard),
                                        a.edges == 1 ? "1 edge" : fmt::format("{} edges", a.edges),
                                        a.days == 1 ? "1 day" : fmt::format("{} days", a.days));
+  if (a.lowered && a.trial.at == a.proven.at) {
+    return fmt::format("{}: the present values would exceed a limit ({}) too often, and no other speed or feed near "
+                       "mends it; take another depth, width or tool",
+                       base, a.binding);
+  }
   if (a.lowered) {
     return fmt::format("{}: the present values would exceed a limit ({}) too often; {} speed, {} feed", base,
                        a.binding, percent_of(a.trial.at.ln_vc), percent_of(a.trial.at.ln_fz));
@@ -267,7 +273,7 @@ std::string binding_of(const Learnt& learnt, const Gate& gate, const Setting& at
   const auto worst = std::max_element(
       further.limits.begin(), further.limits.end(),
       [](const LimitView& a, const LimitView& b) { return a.probability < b.probability; });
-  if (worst != further.limits.end() && worst->probability > gate.share()) return worst->name;
+  if (worst != further.limits.end() && !gate.soft(further)) return worst->name;
   return gate.hard(further) ? "" : "the planner's own limits";
 }
 
@@ -292,7 +298,7 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, cons
   const std::vector<Evidence> none;
   const Learnt learnt(said.evidence, handbook, options);
   const Learnt unlearnt(none, handbook, options);
-  const Gate gate(learnt, unlearnt, handbook, options);
+  const Gate gate(unlearnt, handbook, options);
   for (std::size_t i = 0; i < kWatchedCount; ++i) {
     if (learnt.load(i)) out.spreads[i] = learnt.load(i)->spreads();
   }
@@ -313,10 +319,10 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, cons
 
   // A setting under trial is cut again until it is proven, or no longer safe or faster.
   std::optional<SettingView> best, repeated, gentlest;
-  for (const Setting& s : region_of(out.proven.at, tried, options)) {
+  for (const Setting& s : region_of(out.proven.at, tried, options, out.lowered)) {
     SettingView v = learnt.at(s);
     if (!gate.hard(v)) continue;
-    if (!gentlest || worst_of(v) < worst_of(*gentlest)) gentlest = v;
+    if (!gentlest || v.probability < gentlest->probability) gentlest = v;
     if (!gate.soft(v)) continue;
     const bool again = v.repeats.good > 0 && !proven_by(v.repeats, options);
     if (again && (!repeated || v.time < repeated->time)) repeated = v;
@@ -329,7 +335,7 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, cons
     out.trial = *repeated;
   } else if (gains(best)) {
     out.trial = *best;
-  } else if (out.lowered && gentlest) {
+  } else if (out.lowered && gentlest && gentlest->probability < kWorthLowering) {
     out.trial = *gentlest;
   }
   out.binding = binding_of(learnt, gate, out.trial.at, options.grid);
