@@ -35,7 +35,7 @@ struct Spread {
 struct Group {
   MatrixXd xx;
   VectorXd x, xr;
-  double w = 0.0, r = 0.0;
+  double w = 0.0, r = 0.0, given = 0.0;  ///< given: what w was before rows were doubted
 };
 
 struct Solution {
@@ -59,12 +59,13 @@ Solution solve(std::span<const Row> rows, const std::vector<std::size_t>& group,
                const std::vector<double>& weight, const VectorXd& mean, const VectorXd& precision,
                const Spread& s) {
   const auto n = mean.size();
-  std::vector<Group> sums(groups, Group{MatrixXd::Zero(n, n), VectorXd::Zero(n), VectorXd::Zero(n), 0.0, 0.0});
+  std::vector<Group> sums(groups, {MatrixXd::Zero(n, n), VectorXd::Zero(n), VectorXd::Zero(n)});
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    Group& g = sums[group[i]];
+    g.given += std::max(0.0, rows[i].weight);
     if (weight[i] <= 0.0) continue;
     const Eigen::Map<const VectorXd> x(rows[i].x.data(), n);
     const double r = rows[i].y - x.dot(mean);
-    Group& g = sums[group[i]];
     g.xx += weight[i] * x * x.transpose();
     g.x += weight[i] * x;
     g.xr += weight[i] * r * x;
@@ -75,7 +76,10 @@ Solution solve(std::span<const Row> rows, const std::vector<std::size_t>& group,
   VectorXd c = VectorXd::Zero(n);
   const double noise2 = s.noise * s.noise, between2 = s.between * s.between;
   for (const Group& g : sums) {
-    const double shared = between2 / (noise2 + between2 * g.w);
+    if (g.w <= 0.0) continue;
+    // A group that is doubted tells less: what it has in common is then less like the other groups'.
+    const double of_group = between2 * g.given / g.w;
+    const double shared = of_group / (noise2 + of_group * g.w);
     a += (g.xx - shared * g.x * g.x.transpose()) / noise2;
     c += (g.xr - shared * g.r * g.x) / noise2;
   }
@@ -92,16 +96,17 @@ double median(std::vector<double> values) {
 
 /// Residuals of the rows, and their weighted means by group.
 struct Residuals {
-  std::vector<double> of_row, of_group, weight_of_group;
+  std::vector<double> of_row, of_group, weight_of_group, given_of_group;
   std::vector<std::size_t> heard;  ///< rows of each group that weigh anything
 };
 
 Residuals residuals(std::span<const Row> rows, const std::vector<std::size_t>& group, std::size_t groups,
                     const std::vector<double>& weight, const VectorXd& b) {
-  Residuals out{std::vector<double>(rows.size()), std::vector<double>(groups, 0.0),
-                std::vector<double>(groups, 0.0), std::vector<std::size_t>(groups, 0)};
+  const std::vector<double> none(groups, 0.0);
+  Residuals out{std::vector<double>(rows.size()), none, none, none, std::vector<std::size_t>(groups, 0)};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out.of_row[i] = rows[i].y - Eigen::Map<const VectorXd>(rows[i].x.data(), b.size()).dot(b);
+    out.given_of_group[group[i]] += std::max(0.0, rows[i].weight);
     if (weight[i] <= 0.0) continue;
     out.of_group[group[i]] += weight[i] * out.of_row[i];
     out.weight_of_group[group[i]] += weight[i];
@@ -125,8 +130,9 @@ Spread spread_of(const Residuals& r, const std::vector<std::size_t>& group,
   double groups = 0.0, between = 0.0;
   for (std::size_t g = 0; g < r.of_group.size(); ++g) {
     if (r.heard[g] == 0) continue;
-    groups += 1.0;
-    between += r.of_group[g] * r.of_group[g];
+    const double believed = r.weight_of_group[g] / r.given_of_group[g];
+    groups += believed;
+    between += believed * r.of_group[g] * r.of_group[g];
   }
   const bool grouped = o.between > 0.0 || groups < rows - 0.5;
   if (!grouped) {  // each row is a group of its own: noise and groups are one
@@ -141,7 +147,7 @@ Spread spread_of(const Residuals& r, const std::vector<std::size_t>& group,
   // A group's mean scatters by between^2 + noise^2 / rows of the group, and the terms took some of it.
   double noise_share = 0.0;
   for (std::size_t g = 0; g < r.of_group.size(); ++g) {
-    if (r.weight_of_group[g] > 0.0) noise_share += s.noise * s.noise / r.weight_of_group[g];
+    if (r.weight_of_group[g] > 0.0) noise_share += s.noise * s.noise / r.given_of_group[g];
   }
   const double freedom = std::max(1.0, groups - known_terms);
   const double seen = std::max(0.0, between / freedom - (groups > 0.0 ? noise_share / groups : 0.0));

@@ -22,7 +22,7 @@ struct PriorTerm {
 };
 
 struct RegressionOptions {
-  std::vector<PriorTerm> prior;  ///< one per term; missing ones say nothing
+  std::vector<PriorTerm> prior = {};  ///< one per term; missing ones say nothing
   double noise = 0.1;            ///< std dev of one row that is expected beforehand
   double noise_rows = 2.0;       ///< how many rows that expectation is worth
   double between = 0.0;          ///< std dev between groups that is expected beforehand
