@@ -322,9 +322,10 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, cons
   for (const Setting& s : region_of(out.proven.at, tried, options, out.lowered)) {
     SettingView v = learnt.at(s);
     if (!gate.hard(v)) continue;
+    const bool was_tried = std::find(tried.begin(), tried.end(), s) != tried.end();
     if (!gentlest || v.probability < gentlest->probability) gentlest = v;
     if (!gate.soft(v)) continue;
-    const bool again = v.repeats.good > 0 && !proven_by(v.repeats, options);
+    const bool again = was_tried && v.repeats.good > 0 && !proven_by(v.repeats, options);
     if (again && (!repeated || v.time < repeated->time)) repeated = v;
     if (!best || v.time < best->time - 1e-12) best = std::move(v);
   }

