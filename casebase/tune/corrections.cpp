@@ -24,6 +24,10 @@ constexpr double kLifeSpread = 0.5;    // ln T0 of a table. Default, unsourced
 constexpr double kLifeScatter = 0.3;   // as mechanics/life
 constexpr double kForceNoise = 0.08;   // std dev of ln kc between cuts of one edge. Default, unsourced
 constexpr double kForceEdges = 0.08;   // and between edges. Default, unsourced
+// Wear runs in fast and goes on slower: an exponent below 1. Default, unsourced.
+constexpr double kWearByTime = 0.7, kWearByTimeSpread = 0.3;
+constexpr double kWearNoise = 0.1;      // std dev of ln VB of a reading. Default, unsourced
+constexpr double kLeastReadingMm = 0.05;  // less is the scatter of the reading
 constexpr double kBlock0S = 0.1, kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
 constexpr double kFeed0Mm = 0.05, kStickOut0 = 4.0;
 constexpr double kBoreSpreadMm = 0.1, kBoreNoiseMm = 0.02;
@@ -78,6 +82,21 @@ std::optional<ForceCorrection> correct_force(std::span<const ForceSample> sample
                  {term(at.c_str(), "ln N/mm2", options.prior[0], fit, 0), term("mc", "", options.prior[1], fit, 1)},
                  rows, fit);
   return out;
+}
+
+std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm) {
+  std::vector<Row> rows;
+  double most = 0.0;
+  for (const WearReading& r : readings) {
+    if (!usable({r.time_min, r.wear_mm}) || r.wear_mm < kLeastReadingMm) continue;
+    rows.push_back({{1.0, std::log(r.time_min)}, std::log(r.wear_mm), 1.0, rows.size()});
+    most = std::max(most, r.wear_mm);
+  }
+  if (rows.size() < 2 || most < allowed_mm || !usable({allowed_mm})) return std::nullopt;
+  const Regression fit =
+      regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kWearNoise});
+  if (fit.coefficient[1] <= 0.0) return std::nullopt;
+  return std::exp((std::log(allowed_mm) - fit.coefficient[0]) / fit.coefficient[1]);
 }
 
 std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,

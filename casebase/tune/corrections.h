@@ -48,6 +48,15 @@ struct ForceCorrection {
 [[nodiscard]] std::optional<ForceCorrection> correct_force(std::span<const ForceSample> samples,
                                                            const ForceHandbook& handbook);
 
+/// Wear of one edge after a time in the cut.
+struct WearReading {
+  double time_min = 0.0, wear_mm = 0.0;
+};
+/// The time after which the edge is as worn as allowed, by a curve VB = c t^b through all its readings of at
+/// least 0.05 mm: a reading scatters, so that the two around the limit tell less than all. Nothing where
+/// fewer than two can be used or none is as worn as that: no life is told beyond what was seen.
+[[nodiscard]] std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm);
+
 /// One edge's life to the wear that is allowed.
 struct LifeSample {
   double vc_m_min = 0.0, feed_mm = 0.0, depth_mm = 0.0, life_min = 0.0;

@@ -80,6 +80,20 @@ TEST(CorrectLife, FindsTaylorsExponentAndKeepsWhatDoesNotVary) {
   EXPECT_LT(c->law.scatter, 0.3);
 }
 
+TEST(LifeOf, IsReadOffACurveThroughAllReadings) {
+  std::vector<WearReading> readings;
+  for (double t = 2.0; t <= 30.0; t += 2.0) readings.push_back({t, 0.3 * std::pow(t / 20.0, 0.6)});
+  ASSERT_TRUE(life_of(readings, 0.3));
+  EXPECT_NEAR(*life_of(readings, 0.3), 20.0, 0.5);
+  readings[9].wear_mm = 3.0;  // a wrong reading just where the limit is
+  EXPECT_NEAR(*life_of(readings, 0.3), 20.0, 1.0);
+}
+
+TEST(LifeOf, IsNotToldOfAnEdgeThatWasNotWornOut) {
+  EXPECT_FALSE(life_of(std::vector<WearReading>{{2.0, 0.1}, {4.0, 0.15}, {6.0, 0.2}}, 0.3));
+  EXPECT_FALSE(life_of({}, 0.3));
+}
+
 TEST(CorrectTime, ShortBlocksTakeLonger) {
   std::vector<TimeSample> samples;
   for (std::size_t i = 0; i < 20; ++i) {
