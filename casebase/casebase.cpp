@@ -2,63 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "casebase/index/index.h"
 #include "casebase/recall.h"
-#include "casebase/store.h"
+#include "casebase/search.h"
+#include "casebase/store/log.h"
 
 namespace capstan::casebase {
 namespace {
 
-/// The cases of one combination of categories.
-struct Bucket {
-  std::vector<std::size_t> rows;  // into the cases, rising: so by id
-  std::unique_ptr<Index> index;
-};
+Diagnostic unknown(std::string_view id, std::string why) {
+  return {.code = "CASE-UNKNOWN", .message = "'" + std::string(id.substr(0, 40)) + "' " + std::move(why)};
+}
 
 }  // namespace
 
 struct CaseBase::Impl {
-  explicit Impl(Store s) : store(std::move(s)) {}
+  explicit Impl(Log l) : log(std::move(l)), search(log) {}
 
-  Store store;
-  std::vector<Case> cases;
-  std::map<std::string, Bucket> buckets;
+  Log log;
+  Search search;
 
-  void build() {
-    buckets.clear();
-    for (std::size_t row = 0; row < cases.size(); ++row)
-      buckets[bucket_of(cases[row].asked)].rows.push_back(row);
-    for (auto& [key, bucket] : buckets) {
-      std::vector<Point> points;
-      points.reserve(bucket.rows.size());
-      for (const std::size_t row : bucket.rows) points.push_back(point_of(cases[row].asked));
-      bucket.index = make_index(std::move(points));
-    }
+  Result<std::uint32_t> entry(std::string_view id) const {
+    const auto digits = id_of_digits(id);
+    const auto found = digits ? log.find(*digits) : std::nullopt;
+    if (!found) return fail(unknown(id, "is no case of this base"));
+    return *found;
   }
 
-  const Bucket* bucket(const Question& q) const {
-    const auto found = buckets.find(bucket_of(q));
-    return found == buckets.end() ? nullptr : &found->second;
+  Status note(RowKind kind, std::span<const std::string> ids, Verdict verdict, const Remark& remark) {
+    if (const auto wrong = fault_of(remark)) return fail("CASE-INVALID", *wrong);
+    std::vector<std::uint32_t> entries;
+    for (const std::string& id : ids) {
+      const Result<std::uint32_t> e = entry(id);
+      if (!e) return fail(e.error());
+      entries.push_back(*e);
+    }
+    if (Status s = log.note(kind, entries, verdict, remark); !s) return s;
+    search.update();
+    return {};
+  }
+
+  /// Places become cases; those that are not what was stored are left out.
+  std::vector<Neighbour> loaded(const std::vector<Found>& found) const {
+    std::vector<std::uint32_t> entries;
+    entries.reserve(found.size());
+    for (const Found& f : found) entries.push_back(f.entry);
+    std::vector<std::optional<Case>> cases = log.load(entries);
+    std::vector<Neighbour> out;
+    out.reserve(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (cases[i]) out.push_back({*std::move(cases[i]), std::sqrt(found[i].distance2)});
+    }
+    return out;
   }
 };
-
-namespace {
-
-Result<std::string> path_of(const std::string& uri) {
-  constexpr std::string_view kPrefix = "sqlite:";
-  const std::string path = uri.starts_with(kPrefix) ? uri.substr(kPrefix.size()) : uri;
-  const bool other = path.find("://") != std::string::npos;
-  if (path.empty() || other || path.find('\0') != std::string::npos) {
-    return fail(Diagnostic{.code = "CASE-URI",
-                           .message = "'" + uri.substr(0, 200) + "' names no case base",
-                           .expected = "a path, or sqlite: and a path"});
-  }
-  return path;
-}
-
-}  // namespace
 
 CaseBase::CaseBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 CaseBase::CaseBase(CaseBase&&) noexcept = default;
@@ -67,30 +64,24 @@ CaseBase::~CaseBase() = default;
 
 namespace {
 
-Result<Store> open_store(const std::string& uri, Store::Missing missing, Job& job) {
-  const Result<std::string> path = path_of(uri);
-  if (!path) return fail(path.error());
-  return Store::open(*path, missing, job);
+Result<Log> open_log(const std::string& uri, Missing missing, Job& job) {
+  Result<std::unique_ptr<Store>> store = open_store(uri, missing, job);
+  if (!store) return fail(store.error());
+  return Log::open(*std::move(store), job);
 }
 
 }  // namespace
 
 Result<CaseBase> CaseBase::open(const std::string& uri, Job& job) {
-  Result<Store> store = open_store(uri, Store::Missing::kRefuse, job);
-  if (!store) return fail(store.error());
-  auto impl = std::make_unique<Impl>(std::move(*store));
-  impl->cases = impl->store.take_cases();
-  impl->build();
-  return CaseBase(std::move(impl));
+  Result<Log> log = open_log(uri, Missing::kRefuse, job);
+  if (!log) return fail(log.error());
+  return CaseBase(std::make_unique<Impl>(*std::move(log)));
 }
 
 Result<CaseBase> CaseBase::open_or_create(const std::string& uri, Job& job) {
-  Result<Store> store = open_store(uri, Store::Missing::kCreate, job);
-  if (!store) return fail(store.error());
-  auto impl = std::make_unique<Impl>(std::move(*store));
-  impl->cases = impl->store.take_cases();
-  impl->build();
-  return CaseBase(std::move(impl));
+  Result<Log> log = open_log(uri, Missing::kCreate, job);
+  if (!log) return fail(log.error());
+  return CaseBase(std::make_unique<Impl>(*std::move(log)));
 }
 
 Status CaseBase::add(const Case& c) { return add(std::span(&c, 1)); }
@@ -106,45 +97,97 @@ Status CaseBase::add(std::span<const Case> added) {
     checked[i].id = id_of(checked[i]);
   }
   if (checked.empty()) return {};
-  if (Status s = impl_->store.add(checked); !s) return s;
-
-  const auto by_id = [](const Case& a, const Case& b) { return a.id < b.id; };
-  const auto same_id = [](const Case& a, const Case& b) { return a.id == b.id; };
-  std::vector<Case>& all = impl_->cases;
-  all.insert(all.end(), std::make_move_iterator(checked.begin()), std::make_move_iterator(checked.end()));
-  std::sort(all.begin(), all.end(), by_id);
-  all.erase(std::unique(all.begin(), all.end(), same_id), all.end());
-  impl_->build();
+  if (Status s = impl_->log.add(checked); !s) return s;
+  impl_->search.update();
   return {};
+}
+
+Status CaseBase::judge(std::span<const std::string> ids, Verdict verdict, const Remark& remark) {
+  return impl_->note(RowKind::kJudgement, ids, verdict, remark);
+}
+
+Status CaseBase::remove(std::span<const std::string> ids, const Remark& remark) {
+  return impl_->note(RowKind::kRemoval, ids, Verdict::kUnknown, remark);
+}
+
+Result<std::string> CaseBase::find(std::string_view digits) const {
+  std::string found;
+  for (const Entry& e : impl_->log.entries()) {
+    std::string id = digits_of(e.id);
+    if (!id.starts_with(digits)) continue;
+    if (!found.empty()) return fail(unknown(digits, "begins more than one id"));
+    found = std::move(id);
+  }
+  if (found.empty()) return fail(unknown(digits, "begins no id of this base"));
+  return found;
+}
+
+Result<Case> CaseBase::get(std::string_view id) const {
+  const Result<std::uint32_t> entry = impl_->entry(id);
+  if (!entry) return fail(entry.error());
+  std::vector<std::optional<Case>> c = impl_->log.load(std::span(&*entry, 1));
+  if (!c.front()) {
+    std::vector<Diagnostic> faults = impl_->log.take_faults();
+    return fail(faults.empty() ? unknown(id, "cannot be read") : faults.back());
+  }
+  return *std::move(c.front());
+}
+
+std::vector<CaseBase::Said> CaseBase::said_of(std::string_view id) const {
+  std::vector<Said> out;
+  const Result<std::uint32_t> entry = impl_->entry(id);
+  if (!entry) return out;
+  for (const Note& note : impl_->log.notes()) {
+    if (note.entry != *entry) continue;
+    const Remark remark = impl_->log.remark(note).value_or(Remark{"", "", "(altered: not shown)"});
+    Said said{std::nullopt, remark.by, remark.time_utc, remark.reason};
+    if (note.kind == RowKind::kJudgement) said.verdict = note.verdict;
+    out.push_back(std::move(said));
+  }
+  return out;
 }
 
 Result<std::vector<Neighbour>> CaseBase::nearest(const Question& q, std::size_t k) const {
   if (const auto wrong = fault_of(q)) return fail("CASE-INVALID", "the question cannot be: " + *wrong);
-  std::vector<Neighbour> found;
-  if (const Bucket* bucket = impl_->bucket(q)) {
-    for (const Hit& hit : bucket->index->nearest(point_of(q), k)) {
-      found.push_back({impl_->cases[bucket->rows[hit.row]], std::sqrt(hit.distance2)});
-    }
-  }
-  return found;
+  return impl_->loaded(impl_->search.nearest(q, k));
+}
+
+Result<std::vector<Neighbour>> CaseBase::within(const Question& q, double distance) const {
+  if (const auto wrong = fault_of(q)) return fail("CASE-INVALID", "the question cannot be: " + *wrong);
+  return impl_->loaded(impl_->search.within(q, distance * distance));
 }
 
 Answer CaseBase::ask(const Question& q) const {
   if (const auto wrong = fault_of(q)) return {std::nullopt, "the question cannot be: " + *wrong};
-  const Bucket* bucket = impl_->bucket(q);
-  if (bucket == nullptr) {
+  if (!impl_->search.any(q)) {
     return {std::nullopt, "no case of this operation, material, tool class and machine with these sizes"};
   }
+  const Result<std::vector<Neighbour>> found = within(q, kPrecedentDistance);
+  if (!found) return {std::nullopt, found.error().message};
   std::vector<Near> near;
-  for (const Hit& hit : bucket->index->within(point_of(q), kPrecedentDistance * kPrecedentDistance)) {
-    near.push_back({&impl_->cases[bucket->rows[hit.row]], std::sqrt(hit.distance2)});
-  }
+  near.reserve(found->size());
+  for (const Neighbour& n : *found) near.push_back({&n.found, n.distance});
   return choose(near);
 }
 
 std::optional<model::Precedent> CaseBase::recall(const Question& q) const { return ask(q).precedent; }
 
-std::size_t CaseBase::size() const { return impl_->cases.size(); }
-const std::vector<Case>& CaseBase::cases() const { return impl_->cases; }
+std::size_t CaseBase::size() const { return impl_->log.live(); }
+
+std::vector<Case> CaseBase::cases() const {
+  const std::vector<Entry>& entries = impl_->log.entries();
+  std::vector<std::uint32_t> live;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (!entries[i].removed) live.push_back(static_cast<std::uint32_t>(i));
+  }
+  std::vector<Case> out;
+  for (std::optional<Case>& c : impl_->log.load(live)) {
+    if (c) out.push_back(*std::move(c));
+  }
+  std::sort(out.begin(), out.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
+  return out;
+}
+
+std::vector<Diagnostic> CaseBase::take_faults() const { return impl_->log.take_faults(); }
 
 }  // namespace capstan::casebase

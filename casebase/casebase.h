@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "casebase/record/case.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/features/shape.h"
@@ -20,55 +21,9 @@
 /// Case base: finds earlier cuts near a question.
 namespace capstan::casebase {
 
-/// The key of a search: four categories, which a case must share exactly, and sizes, which it must be near
-/// to.
-///
-/// Units   mm. Zero: the size does not apply (a face has no diameter; no tolerance is stated). If one
-///         question has a diameter, a depth or a width and the other has none, they never match; no tolerance
-///         counts as one of 1 mm.
-/// Shape   categories are keywords: 1 to 80 of letters, digits and `_ . / + -`.
-struct Question {
-  std::string operation;       ///< keyword of the operation, e.g. "DRILLING"
-  std::string material_group;  ///< as `material_group_of` gives it, e.g. "P/mild_steel"
-  std::string tool_class;      ///< as `tool_class_of` gives it, e.g. "carbide/endmill"
-  std::string machine_class;   ///< the machine's id
-  double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0;
-  double tolerance_mm = 0.0;  ///< width of the tolerance zone
-  bool operator==(const Question&) const = default;
-};
-
-/// One executed or simulated workingstep: its question, the bound values, the results, and the origin of the
-/// numbers.
-///
-/// Units   as the names say; zero among the results: not known.
-struct Case {
-  std::string id;  ///< given by `id_of`; a value set before `add` is ignored
-  Question asked;
-
-  double cutting_diameter_mm = 0.0;
-  int teeth = 0;
-  double vc_m_min = 0.0, fz_mm = 0.0;
-  double ap_mm = 0.0, ae_mm = 0.0;  ///< as cut; zero: not known
-  bool coolant = false;
-
-  double cycle_s = 0.0, peak_force_n = 0.0, surface_ra_um = 0.0, deviation_mm = 0.0, wear_mm = 0.0;
-  std::string verdict = "unknown";  ///< "good", "bad", "unknown"
-  std::string provenance;           ///< "measured", "simulated", "entered"
-  std::string source;  ///< who, which file, which part: repeats of a run differ here, or count once
-  bool operator==(const Case&) const = default;
-};
-
-/// 32 hexadecimal digits of the SHA-256 (FIPS 180-4) of everything but the id: equal cases, equal ids.
-[[nodiscard]] std::string id_of(const Case& c);
-
-/// Why a case cannot be one (a number that is not finite, beyond what any machine does, an unknown
-/// provenance); nothing when it can. Asked before writing and again after reading.
-[[nodiscard]] std::optional<std::string> fault_of(const Case& c);
-[[nodiscard]] std::optional<std::string> fault_of(const Question& q);
-
 struct Neighbour {
   Case found;
-  double distance = 0.0;  ///< by the fixed scales of normalisation.h
+  double distance = 0.0;  ///< by the scales of key/normalisation.h
   friend bool operator==(const Neighbour&, const Neighbour&) = default;
 };
 
@@ -82,42 +37,64 @@ struct Answer {
   std::string why;
 };
 
-/// Cases in one SQLite file, with an exact nearest-neighbour index per combination of categories that is
-/// rebuilt from the store, never loaded.
+/// Cases in a store, with an exact nearest-neighbour index per combination of categories that is rebuilt from
+/// the store, never loaded. Nothing that is stored is ever altered: a verdict or a removal is a new row.
 ///
-/// Sees     the content of the file when it was opened, and what it added itself since.
-/// Threads  the const members may be called from many threads; `add` from one, without readers at the same
+/// Sees     the content of the store when it was opened, and what it added itself since, with what others
+///          added before that.
+/// Threads  the const members may be called from many threads; the others from one, without readers at the
+/// same
 ///          time.
 class CaseBase {
  public:
-  /// Opens an existing file: "path" or "sqlite:path". Rows whose hash or limits do not hold are reported
-  /// to `job` (CASE-ROW) and left out; then `add` refuses (CASE-DAMAGED).
+  /// Opens an existing store: a file of SQLite ("path", "sqlite:path"), or another that store/open.cpp names.
+  /// Rows that were altered or are gone are reported to `job` (CASE-ROW) and left out; then `add` refuses
+  /// (CASE-DAMAGED). When it is opened, the heads of all rows are verified; the rest of a case is when it is
+  /// used: what is found then is told by `take_faults`.
   ///
-  /// Fails   CASE-URI other stores; CASE-OPEN missing or unreadable; CASE-SCHEMA not a case base, or of a
+  /// Fails   CASE-URI no such store; CASE-OPEN missing or unreadable; CASE-SCHEMA not a case base, or of a
   ///         newer version, or with a table, index, trigger or view that is not ours; CASE-BUSY;
-  ///         CASE-DAMAGED SQLite cannot read it; CASE-LIMIT more than a million cases.
+  ///         CASE-DAMAGED it cannot be read.
   [[nodiscard]] static Result<CaseBase> open(const std::string& uri, Job& job);
-  /// The same; makes an empty base where there is no file.
+  /// The same; makes an empty base where there is none.
   [[nodiscard]] static Result<CaseBase> open_or_create(const std::string& uri, Job& job);
 
   CaseBase(CaseBase&&) noexcept;
   CaseBase& operator=(CaseBase&&) noexcept;
   ~CaseBase();
 
-  /// Retain. All cases are stored and synchronised to disk, or none. Cases that are stored already are
-  /// skipped, so an `add` whose outcome is unknown may be repeated.
+  /// Retain. All cases are stored for good (synchronised to disk), or none. Cases that are stored already, or
+  /// were and are removed, are skipped, so an `add` whose outcome is unknown may be repeated.
   ///
-  /// Fails   CASE-INVALID a case that cannot be; CASE-READ-ONLY; CASE-BUSY another writer held the file for
-  ///         5 s; CASE-DAMAGED; CASE-STORE no space, or another fault of the store.
+  /// Fails   CASE-INVALID a case that cannot be; CASE-READ-ONLY; CASE-BUSY another writer held the store for
+  ///         5 s; CASE-DAMAGED; CASE-LIMIT too many; CASE-STORE no space, or another fault of the store.
   [[nodiscard]] Status add(const Case& c);
   [[nodiscard]] Status add(std::span<const Case> cases);
+  /// Gives cases a verdict that supersedes the one before. `ids` as `find` gives them. Fails as `add` does,
+  /// and CASE-UNKNOWN for an id that is not there.
+  [[nodiscard]] Status judge(std::span<const std::string> ids, Verdict verdict, const Remark& remark);
+  /// The cases count no more, and adding them again changes nothing. Fails as `judge` does.
+  [[nodiscard]] Status remove(std::span<const std::string> ids, const Remark& remark);
+
+  /// The id that begins with these digits. Fails CASE-UNKNOWN: none, or several.
+  [[nodiscard]] Result<std::string> find(std::string_view digits) const;
+  /// The case of an id. Fails CASE-UNKNOWN, and CASE-ROW if it is not what was stored.
+  [[nodiscard]] Result<Case> get(std::string_view id) const;
+  /// What was said of a case, in order: its verdicts after the recorded one, and its removal (no verdict).
+  struct Said {
+    std::optional<Verdict> verdict;
+    std::string by, time_utc, reason;
+  };
+  [[nodiscard]] std::vector<Said> said_of(std::string_view id) const;
 
   /// The k nearest cases of the question's categories, nearest first, equal distances by id. Whatever
-  /// their verdict and provenance: the caller sees both. Fails CASE-INVALID on a question that cannot be.
+  /// their verdict and origin: the caller sees both. Fails CASE-INVALID on a question that cannot be.
   [[nodiscard]] Result<std::vector<Neighbour>> nearest(const Question& q, std::size_t k) const;
+  /// All cases of the question's categories within a distance, in the same order.
+  [[nodiscard]] Result<std::vector<Neighbour>> within(const Question& q, double distance) const;
 
   /// The case to start from, or why there is none. Only good cases within `kPrecedentDistance` count
-  /// (simulated ones also without a verdict). Provenances are not mixed: measured cases if there are any,
+  /// (simulated ones also without a verdict). Origins are not mixed: measured cases if there are any,
   /// else entered ones, else simulated ones, and `neighbours` counts those of that kind alone. Skipped are: a
   /// case next to a bad one that was cut no harder and is at least as trustworthy; a case whose vc or fz is
   /// more than twice or less than half the median, if three or more are near.
@@ -125,9 +102,13 @@ class CaseBase {
   /// Recall: the precedent of `ask`.
   [[nodiscard]] std::optional<model::Precedent> recall(const Question& q) const;
 
+  /// How many cases there are, without those that are removed.
   [[nodiscard]] std::size_t size() const;
-  /// All cases by id.
-  [[nodiscard]] const std::vector<Case>& cases() const;
+  /// All of them by id, read and verified now; one that is not what was stored is left out, and `take_faults`
+  /// tells.
+  [[nodiscard]] std::vector<Case> cases() const;
+  /// What was found altered or gone since this was asked last, as warnings (CASE-ROW).
+  [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 
  private:
   struct Impl;
@@ -155,14 +136,21 @@ struct Sizes {
                                    const model::Cutter& cutter, const model::Machine& machine,
                                    const Sizes& sizes);
 
-/// A planned step as a simulated case, verdict "unknown"; `source` names the plan's file and the step.
-/// Without `asked` the sizes are those of the workingstep's feature.
+/// What a plan decided, as 32 hexadecimal digits: the same whether it was read from JSON, ISO 14649 or AP238.
+[[nodiscard]] std::string plan_hash_of(const model::Plan& plan);
+
+/// A planned step as a simulated case, verdict unknown; `from` names the plan's file, its hash and the step.
+/// Without `asked` the sizes are those of the workingstep's feature; of a feature with parts of several sizes
+/// (a compound, a counterbored hole), those of the part that the step cuts.
 ///
-/// Fails   CASE-STEP when the step is no machining step with a cutter, when its feature has no shape or
-///         several of different sizes (a compound: say which was asked), or its numbers cannot be a case.
+/// Fails   CASE-STEP when the step is no machining step with a cutter, when its feature has no shape, or its
+///         numbers cannot be a case.
 [[nodiscard]] Result<Case> case_of(const model::Plan& plan, const model::StepResult& step);
 [[nodiscard]] Result<Case> case_of(const model::Plan& plan, const model::StepResult& step,
                                    const Sizes& asked);
+
+/// The cases of all steps of a plan. A step that makes none is reported as a note (CASE-STEP).
+[[nodiscard]] std::vector<Case> cases_of(const model::Plan& plan, Job& job);
 
 /// Comma-separated values (RFC 4180), one case per row, the column names in the first; numbers read back to
 /// the same bits.

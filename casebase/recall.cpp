@@ -13,22 +13,25 @@ namespace {
 constexpr double kOutlierFactor = 2.0;   // from the median. Default, unsourced
 constexpr std::size_t kMedianNeeds = 3;  // below, nobody can tell which one is off
 
-constexpr std::array<std::string_view, 3> kByTrust = {"measured", "entered", "simulated"};
+constexpr std::array kByTrust = {Origin::kMeasured, Origin::kEntered, Origin::kSimulated};
 
 std::ptrdiff_t rank(const Case& c) {
-  return std::find(kByTrust.begin(), kByTrust.end(), c.provenance) - kByTrust.begin();
+  return std::find(kByTrust.begin(), kByTrust.end(), c.origin) - kByTrust.begin();
 }
 
 bool may_lead(const Case& c) {
-  return c.verdict == "good" || (c.verdict == "unknown" && c.provenance == "simulated");
+  const Verdict verdict = c.observed.verdict;
+  return verdict == Verdict::kGood || (verdict == Verdict::kUnknown && c.origin == Origin::kSimulated);
 }
 
 /// Whether `bad` speaks against `c`: it failed although it was cut no harder. An unknown depth or width
 /// (zero) of the bad one counts as no harder: it cannot clear `c`.
-bool speaks_against(const Case& bad, const Case& c) {
+bool speaks_against(const Case& bad_case, const Case& found) {
+  const Bound &bad = bad_case.bound, &c = found.bound;
   const auto no_harder = [](double theirs, double ours) { return ours == 0.0 || theirs <= ours; };
-  return bad.verdict == "bad" && rank(bad) <= rank(c) && bad.vc_m_min <= c.vc_m_min && bad.fz_mm <= c.fz_mm &&
-         no_harder(bad.ap_mm, c.ap_mm) && no_harder(bad.ae_mm, c.ae_mm);
+  return bad_case.observed.verdict == Verdict::kBad && rank(bad_case) <= rank(found) &&
+         bad.vc_m_min <= c.vc_m_min && bad.fz_mm <= c.fz_mm && no_harder(bad.ap_mm, c.ap_mm) &&
+         no_harder(bad.ae_mm, c.ae_mm);
 }
 
 /// The lower of the two in the middle where their number is even: the gentler one.
@@ -41,12 +44,12 @@ double median(std::vector<double> values) {
 /// Leaves out cases whose speed or feed is far from what the others around did.
 void leave_out_outliers(std::vector<Near>& group) {
   if (group.size() < kMedianNeeds) return;
-  for (double Case::*const field : {&Case::vc_m_min, &Case::fz_mm}) {
+  for (double Bound::*const field : {&Bound::vc_m_min, &Bound::fz_mm}) {
     std::vector<double> values;
-    for (const Near& n : group) values.push_back(n.found->*field);
+    for (const Near& n : group) values.push_back(n.found->bound.*field);
     const double m = median(values);
     std::erase_if(group, [&](const Near& n) {
-      const double v = n.found->*field;
+      const double v = n.found->bound.*field;
       return v > kOutlierFactor * m || v * kOutlierFactor < m;
     });
   }
@@ -57,11 +60,11 @@ model::Precedent precedent_of(const Near& n, std::size_t neighbours) {
   return {.case_id = c.id,
           .distance = n.distance,
           .neighbours = static_cast<int>(neighbours),
-          .provenance = c.provenance,
-          .vc_m_min = c.vc_m_min,
-          .fz_mm = c.fz_mm,
-          .ap_mm = c.ap_mm,
-          .ae_mm = c.ae_mm};
+          .provenance = std::string(to_text(c.origin)),
+          .vc_m_min = c.bound.vc_m_min,
+          .fz_mm = c.bound.fz_mm,
+          .ap_mm = c.bound.ap_mm,
+          .ae_mm = c.bound.ae_mm};
 }
 
 }  // namespace
@@ -72,12 +75,12 @@ Answer choose(const std::vector<Near>& near) {
   }
   std::vector<const Case*> bad;
   for (const Near& n : near) {
-    if (n.found->verdict == "bad") bad.push_back(n.found);
+    if (n.found->observed.verdict == Verdict::kBad) bad.push_back(n.found);
   }
-  for (const std::string_view provenance : kByTrust) {
+  for (const Origin origin : kByTrust) {
     std::vector<Near> group;
     for (const Near& n : near) {
-      if (n.found->provenance == provenance && may_lead(*n.found)) group.push_back(n);
+      if (n.found->origin == origin && may_lead(*n.found)) group.push_back(n);
     }
     leave_out_outliers(group);
     const std::size_t neighbours = group.size();
@@ -87,7 +90,7 @@ Answer choose(const std::vector<Near>& near) {
     if (group.empty()) continue;
     const Near& lead = group.front();
     return {precedent_of(lead, neighbours),
-            fmt::format("case {} ({}), {} away, one of {} {} near", lead.found->id, provenance,
+            fmt::format("case {} ({}), {} away, one of {} {} near", lead.found->id, to_text(origin),
                         trimmed(lead.distance, 3), neighbours, neighbours == 1 ? "case" : "cases")};
   }
   return {std::nullopt,

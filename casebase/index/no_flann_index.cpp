@@ -2,6 +2,6 @@
 
 namespace capstan::casebase {
 
-std::unique_ptr<Index> make_index(std::vector<Point> points) { return make_tree_index(std::move(points)); }
+std::unique_ptr<Index> make_index(Points points) { return make_tree_index(std::move(points)); }
 
 }  // namespace capstan::casebase

@@ -9,8 +9,8 @@
 // the half that is nearer to the question first and leaves out a half whose box is farther than the limit.
 //
 // It is exact to the bit, without an allowance for rounding. A box is as far as its nearest point, and that
-// is measured by the formula that measures the points. Each step of the formula (difference, square, sum of
-// squares in one order) rounds monotonically, so no point of a box comes out nearer than its box.
+// is measured by the formula that measures the points. Each step of the formula (difference, weight, square,
+// sums in one order) rounds monotonically, so no point of a box comes out nearer than its box.
 
 namespace capstan::casebase {
 namespace {
@@ -19,30 +19,36 @@ constexpr std::size_t kLeafPoints = 8;  // default, unsourced; no result depends
 
 class TreeIndex final : public Index {
  public:
-  explicit TreeIndex(std::vector<Point> points) : points_(std::move(points)), rows_(points_.size()) {
-    for (const Point& p : points_) expect_finite(p);
+  explicit TreeIndex(Points points) : dimensions_(points.dimensions) {
+    expect_finite(points);
+    rows_.resize(points.size());
     std::iota(rows_.begin(), rows_.end(), std::size_t{0});
-    if (!points_.empty()) grow(0, points_.size());
+    if (!rows_.empty()) grow(points, 0, rows_.size());
+    // Leaves are read one after the other: the points in their order.
+    points_.dimensions = dimensions_;
+    points_.values.reserve(points.values.size());
+    for (const std::size_t row : rows_)
+      points_.values.insert(points_.values.end(), points.row(row), points.row(row) + dimensions_);
   }
 
-  std::vector<Hit> nearest(const Point& q, std::size_t k) const override {
-    return search(q, std::numeric_limits<double>::infinity(), std::min(k, points_.size()));
+  std::vector<Hit> nearest(const Place& q, std::size_t k) const override {
+    return search(q, std::numeric_limits<double>::infinity(), std::min(k, rows_.size()));
   }
-  std::vector<Hit> within(const Point& q, double limit2) const override {
-    return search(q, limit2, points_.size());
+  std::vector<Hit> within(const Place& q, double limit2) const override {
+    return search(q, limit2, rows_.size());
   }
 
  private:
-  /// The rows `rows_[first, last)` and their box. A leaf has no halves; the first half follows its node.
+  /// The rows `rows_[first, last)`. Its box is `box(node)`. A leaf has no halves; the first half follows its
+  /// node.
   struct Node {
-    Point least, most;
     std::size_t first, last;
     std::size_t second_half = 0;  // 0: a leaf
   };
 
   /// What a search has found: the `most` best hits, the worst of them on top of the heap.
   struct Search {
-    const Point& q;
+    const Place& q;
     double limit2;
     std::size_t most;
     std::vector<Hit> hits = {};
@@ -63,48 +69,73 @@ class TreeIndex final : public Index {
     }
   };
 
-  std::size_t grow(std::size_t first, std::size_t last) {
-    Node node{points_[rows_[first]], points_[rows_[first]], first, last};
+  /// Lower corner, then upper corner, of a node's box.
+  [[nodiscard]] const double* box(std::size_t node) const { return boxes_.data() + 2 * dimensions_ * node; }
+
+  std::size_t grow(const Points& points, std::size_t first, std::size_t last) {
+    const std::size_t at = nodes_.size();
+    nodes_.push_back({first, last});
+    boxes_.insert(boxes_.end(), points.row(rows_[first]), points.row(rows_[first]) + dimensions_);
+    boxes_.insert(boxes_.end(), points.row(rows_[first]), points.row(rows_[first]) + dimensions_);
+    double* least = boxes_.data() + 2 * dimensions_ * at;
+    double* most = least + dimensions_;
     for (std::size_t i = first; i < last; ++i) {
-      for (std::size_t a = 0; a < node.least.size(); ++a) {
-        node.least[a] = std::min(node.least[a], points_[rows_[i]][a]);
-        node.most[a] = std::max(node.most[a], points_[rows_[i]][a]);
+      const double* p = points.row(rows_[i]);
+      for (std::size_t a = 0; a < dimensions_; ++a) {
+        least[a] = std::min(least[a], p[a]);
+        most[a] = std::max(most[a], p[a]);
       }
     }
-    const std::size_t at = nodes_.size();
-    nodes_.push_back(node);
     if (last - first <= kLeafPoints) return at;
     std::size_t widest = 0;
-    for (std::size_t a = 1; a < node.least.size(); ++a) {
-      if (node.most[a] - node.least[a] > node.most[widest] - node.least[widest]) widest = a;
+    for (std::size_t a = 1; a < dimensions_; ++a) {
+      if (most[a] - least[a] > most[widest] - least[widest]) widest = a;
     }
     const std::size_t middle = first + (last - first) / 2;
     const auto row = [&](std::size_t i) { return rows_.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(row(first), row(middle), row(last), [&](std::size_t a, std::size_t b) {
-      const double x = points_[a][widest], y = points_[b][widest];
+      const double x = points.row(a)[widest], y = points.row(b)[widest];
       return x != y ? x < y : a < b;
     });
-    grow(first, middle);
-    const std::size_t second = grow(middle, last);
+    grow(points, first, middle);
+    const std::size_t second = grow(points, middle, last);
     nodes_[at].second_half = second;
     return at;
   }
 
-  [[nodiscard]] double box_distance2(const Point& q, const Node& node) const {
-    Point nearest = q;
-    for (std::size_t a = 0; a < q.size(); ++a) nearest[a] = std::clamp(q[a], node.least[a], node.most[a]);
-    return distance2(q, nearest);
+  /// Distance of a node's box: the formula of `distance2` to its nearest point.
+  [[nodiscard]] double box_distance2(const Place& q, std::size_t node) const {
+    const double *least = box(node), *most = least + dimensions_;
+    const auto term = [&](std::size_t i) {
+      const double x = q.at[i];
+      const double near = x < least[i] ? least[i] : x > most[i] ? most[i] : x;
+      const double d = q.weight[i] * (x - near);
+      return d * d;
+    };
+    double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
+    std::size_t i = 0;
+    for (; i + 4 <= dimensions_; i += 4) {
+      s0 += term(i);
+      s1 += term(i + 1);
+      s2 += term(i + 2);
+      s3 += term(i + 3);
+    }
+    if (i < dimensions_) s0 += term(i);
+    if (i + 1 < dimensions_) s1 += term(i + 1);
+    if (i + 2 < dimensions_) s2 += term(i + 2);
+    return (s0 + s1) + (s2 + s3);
   }
 
   void walk(Search& search, std::size_t at) const {
     const Node& node = nodes_[at];
     if (node.second_half == 0) {
       for (std::size_t i = node.first; i < node.last; ++i)
-        search.meet({rows_[i], distance2(search.q, points_[rows_[i]])});
+        search.meet(
+            {rows_[i], distance2(search.q.at.data(), points_.row(i), search.q.weight.data(), dimensions_)});
       return;
     }
     std::size_t near = at + 1, far = node.second_half;
-    double near2 = box_distance2(search.q, nodes_[near]), far2 = box_distance2(search.q, nodes_[far]);
+    double near2 = box_distance2(search.q, near), far2 = box_distance2(search.q, far);
     if (far2 < near2) {
       std::swap(near, far);
       std::swap(near2, far2);
@@ -113,8 +144,8 @@ class TreeIndex final : public Index {
     if (search.may_hold(far2)) walk(search, far);
   }
 
-  std::vector<Hit> search(const Point& q, double limit2, std::size_t most) const {
-    expect_finite(q);
+  std::vector<Hit> search(const Place& q, double limit2, std::size_t most) const {
+    expect_place(q, points_);
     if (most == 0) return {};
     Search search{q, limit2, most};
     walk(search, 0);
@@ -122,14 +153,16 @@ class TreeIndex final : public Index {
     return std::move(search.hits);
   }
 
-  std::vector<Point> points_;
+  std::size_t dimensions_;
+  Points points_;  // in the order of rows_
   std::vector<std::size_t> rows_;
   std::vector<Node> nodes_;
+  std::vector<double> boxes_;
 };
 
 }  // namespace
 
-std::unique_ptr<Index> make_tree_index(std::vector<Point> points) {
+std::unique_ptr<Index> make_tree_index(Points points) {
   return std::make_unique<TreeIndex>(std::move(points));
 }
 

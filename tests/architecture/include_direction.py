@@ -108,7 +108,7 @@ FENCES = {
     "nlohmann-json": (r"nlohmann/", None),
     "yaml-cpp": (r"yaml-cpp/", None),
     "valijson": (r"valijson/", None),
-    "xxHash": (r"xxhash\.h$", 2),
+    "xxHash": (r"xxhash\.h$", 3),
     "Eigen": (r"(unsupported/)?Eigen/", None),
 }
 FENCES = {name: (re.compile(pattern), limit) for name, (pattern, limit) in FENCES.items()}

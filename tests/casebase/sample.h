@@ -21,16 +21,16 @@ inline Case sample(double diameter_mm = 10.0, double vc_m_min = 30.0, const std:
              .tool_class = "hss/twist_drill",
              .machine_class = "generic_vmc",
              .diameter_mm = diameter_mm,
-             .depth_mm = 20.0};
-  c.cutting_diameter_mm = diameter_mm;
-  c.teeth = 2;
-  c.vc_m_min = vc_m_min;
-  c.fz_mm = 0.1;
-  c.coolant = true;
-  c.cycle_s = 6.5;
-  c.verdict = "good";
-  c.provenance = "measured";
-  c.source = source;
+             .depth_mm = 20.0,
+             .cutter_diameter_mm = diameter_mm,
+             .teeth = 2,
+             .coolant = Coolant::kFlood};
+  c.origin = Origin::kMeasured;
+  c.bound.vc_m_min = vc_m_min;
+  c.bound.fz_mm = 0.1;
+  c.observed.time_s = Figure{6.5};
+  c.observed.verdict = Verdict::kGood;
+  c.from.source = source;
   c.id = id_of(c);
   return c;
 }

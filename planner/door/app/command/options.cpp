@@ -261,6 +261,36 @@ class CommandLine {
     }
   }
 
+  CLI::App* on_base(CLI::App& cases, const std::string& name, const std::string& help, Command c) {
+    auto* sub = command(cases, name, help, c);
+    sub->add_option("base", raw_.of[kCases], "case base")->required();
+    return sub;
+  }
+
+  void case_verbs(CLI::App& cases) {
+    auto* list =
+        on_base(cases, "list", "the cases, or those that hold all of some words", Command::kCasesList);
+    list->add_option("words", out_.words, "an origin, a verdict, a part of a category or of a source");
+    auto* show = on_base(cases, "show", "all that is known of a case", Command::kCasesShow);
+    auto* judge =
+        on_base(cases, "judge", "give cases a verdict, which supersedes the last", Command::kCasesJudge);
+    auto* remove = on_base(cases, "remove", "let cases count no more; adding them again changes nothing",
+                           Command::kCasesRemove);
+    auto* out = on_base(cases, "export", "all cases as CSV on standard output", Command::kCasesExport);
+    auto& j = out_.judgement;
+    for (CLI::App* sub : {show, judge, remove})
+      sub->add_option("ids", out_.words, "first digits of the cases' ids")->required();
+    judge->add_option("--verdict", j.verdict, "good, bad or unknown")
+        ->required()
+        ->check(CLI::IsMember(std::vector<std::string>{"good", "bad", "unknown"}));
+    for (CLI::App* sub : {judge, remove}) {
+      sub->add_option("--by", j.by, "who says so")->required();
+      sub->add_option("--reason", j.reason, "why")->required();
+      sub->add_option("--time", j.time_utc, "when, e.g. 2016-06-28T17:32:31Z");
+    }
+    for (CLI::App* sub : {list, show, out}) sub->add_flag("--json", out_.json, "JSON on standard output");
+  }
+
   void cases() {
     auto* cases = app_.add_subcommand("cases", "what was cut once");
     cases->require_subcommand(1);
@@ -268,6 +298,7 @@ class CommandLine {
         command(*cases, "add", "keep cases: of a CSV file, or the steps of a plan", Command::kCasesAdd);
     add->add_option("base", raw_.of[kCases], "case base; made where there is none")->required();
     files(add, "files", "CSV files or plans", 1, 1000);
+    case_verbs(*cases);
     auto* near =
         command(*cases, "nearest", "the nearest cases, and the precedent they make", Command::kCasesNearest);
     near->add_option("base", raw_.of[kCases], "case base")->required();
@@ -280,6 +311,12 @@ class CommandLine {
     near->add_option("--depth", q.depth_mm, "mm");
     near->add_option("--width", q.width_mm, "mm");
     near->add_option("--tolerance", q.tolerance_mm, "width of the tolerance zone, mm");
+    near->add_option("--cutter-diameter", q.cutter_diameter_mm, "mm");
+    near->add_option("--teeth", q.teeth, "of the cutter")->check(CLI::Range(0U, 200U));
+    near->add_option("--stick-out", q.stick_out_mm, "of the cutter from its holder, mm");
+    near->add_option("--hardness", q.hardness_hb, "of the work, HB");
+    near->add_option("--coolant", q.coolant, "dry, mist, flood or through")
+        ->check(CLI::IsMember(std::vector<std::string>{"dry", "mist", "flood", "through"}));
     near->add_option("-k", q.count, "how many")->check(CLI::Range(1U, 1000U));
   }
 

@@ -31,6 +31,11 @@ enum class Command : std::uint8_t {
   kRulesCheck,
   kRulesList,
   kCasesAdd,
+  kCasesList,
+  kCasesShow,
+  kCasesJudge,
+  kCasesRemove,
+  kCasesExport,
   kCasesNearest,
 };
 
@@ -38,7 +43,15 @@ enum class Command : std::uint8_t {
 struct CaseQuestion {
   std::string operation, material, tool_class;
   double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
+  double cutter_diameter_mm = 0.0, stick_out_mm = 0.0, hardness_hb = 0.0;
+  unsigned teeth = 0;
+  std::string coolant;  ///< a word, or empty
   unsigned count = 5;
+};
+
+/// What `cases judge` and `cases remove` say of cases.
+struct CaseJudgement {
+  std::string verdict, by, time_utc, reason;
 };
 
 /// How tool libraries are read and written.
@@ -59,9 +72,10 @@ struct Options {
   bool force = false;                ///< an output may be an input, too
   bool json = false;                 ///< check: findings as JSON on standard output
   bool json_diagnostics = false;     ///< one JSON object per line on standard error
-  std::vector<std::string> words;    ///< tools: a filter, an id
+  std::vector<std::string> words;    ///< tools: a filter, an id; cases: ids, a filter
   ToolsOptions tools;
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
+  CaseJudgement judgement;
 };
 
 /// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).

@@ -50,6 +50,16 @@ int dispatch(Session& s) {
       return run_rules(s);
     case Command::kCasesAdd:
       return run_cases_add(s);
+    case Command::kCasesList:
+      return run_cases_list(s);
+    case Command::kCasesShow:
+      return run_cases_show(s);
+    case Command::kCasesJudge:
+      return run_cases_judge(s);
+    case Command::kCasesRemove:
+      return run_cases_remove(s);
+    case Command::kCasesExport:
+      return run_cases_export(s);
     case Command::kCasesNearest:
       return run_cases_nearest(s);
   }

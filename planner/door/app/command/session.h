@@ -62,6 +62,11 @@ int run_materials(Session& s);
 int run_material(Session& s);
 int run_rules(Session& s);
 int run_cases_add(Session& s);
+int run_cases_list(Session& s);
+int run_cases_show(Session& s);
+int run_cases_judge(Session& s);
+int run_cases_remove(Session& s);
+int run_cases_export(Session& s);
 int run_cases_nearest(Session& s);
 
 }  // namespace capstan::app

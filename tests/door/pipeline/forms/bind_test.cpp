@@ -149,10 +149,10 @@ TEST(Bind, StartsFromTheNearestCaseWithinLimits) {
   for (const auto& s : plain.steps) {
     auto c = casebase::case_of(plain, s);
     if (!c || c->asked.operation != "DRILLING") continue;
-    c->vc_m_min *= 0.9;
-    c->verdict = "good";
-    c->provenance = "measured";
-    c->source = "test";
+    c->bound.vc_m_min *= 0.9;
+    c->observed.verdict = casebase::Verdict::kGood;
+    c->origin = casebase::Origin::kMeasured;
+    c->from.source = "test";
     cases.push_back(*std::move(c));
   }
   ASSERT_FALSE(cases.empty());

@@ -1,4 +1,4 @@
-#include "casebase/sha256.h"
+#include "casebase/record/sha256.h"
 
 #include <array>
 #include <bit>

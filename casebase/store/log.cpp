@@ -1,0 +1,278 @@
+#include "casebase/store/log.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "casebase/record/encoding.h"
+
+namespace capstan::casebase {
+namespace {
+
+constexpr std::size_t kReportedRows = 20;
+
+Head head_of_case(const Case& c, const std::string& categories, const std::string& body) {
+  Head head;
+  head.kind = RowKind::kCase;
+  head.id = *id_of_digits(c.id);
+  head.body = sum_of(body);
+  head.verdict = c.observed.verdict;
+  head.origin = c.origin;
+  head.categories = categories;
+  head.key = key_of(c.asked);
+  return head;
+}
+
+}  // namespace
+
+Result<Log> Log::open(std::unique_ptr<Store> store, Job& job) {
+  Log log(std::move(store));
+  const auto take = [&](std::int64_t number, std::string_view head) { return log.take(number, head, &job); };
+  const Result<std::string> stated = log.store_->read(0, take);
+  if (!stated) return fail(stated.error());
+  const auto totals = totals_of(*stated);
+  Diagnostic d{.code = "CASE-ROW",
+               .severity = Severity::kWarning,
+               .message = {},
+               .file = log.name(),
+               .hint = "restore it from a copy; nothing is added to this one"};
+  if (!totals) {
+    d.message = "its totals are gone: nobody can tell whether rows are missing";
+  } else if (totals->rows != log.totals_.rows) {
+    d.message = fmt::format("it should hold {} rows, and {} of them are there", totals->rows,
+                            log.totals_.rows - static_cast<std::int64_t>(log.refused_));
+  } else if (totals->chain != log.totals_.chain) {
+    d.message = "its rows are not those that its totals speak of";
+  }
+  log.shared_->damaged = log.refused_ != 0 || !d.message.empty();
+  if (!d.message.empty()) job.report(std::move(d));
+  return log;
+}
+
+/// Takes a row; one that is not what was stored is reported to `job`, or is a fault where there is no job.
+Status Log::take(std::int64_t number, std::string_view bytes, Job* job) {
+  std::optional<std::string> wrong;
+  if (number != totals_.rows + 1) {
+    wrong = "it is not in order, or rows before it are gone";
+    totals_.rows = number - 1;
+  }
+  totals_.count(bytes);
+  if (const auto head = head_of(bytes, number); !head) {
+    wrong = "its hash does not fit what it holds: it was altered";
+  } else if (!wrong) {
+    wrong = take_in(number, *head);
+  }
+  if (!wrong) return {};
+  ++refused_;
+  Diagnostic d{
+      .code = "CASE-ROW", .message = fmt::format("row {} is left out: {}", number, *wrong), .file = name()};
+  if (job == nullptr) {
+    shared_->damaged = true;
+    d.code = "CASE-DAMAGED";
+    return fail(std::move(d));
+  }
+  d.severity = Severity::kWarning;
+  if (refused_ <= kReportedRows) job->report(std::move(d));
+  return {};
+}
+
+std::optional<std::string> Log::take_in(std::int64_t number, const Head& head) {
+  if (head.kind != RowKind::kCase) {
+    const auto entry = find(head.id);
+    if (!entry) return "it speaks of a case that is not there";
+    notes_.push_back({head.kind, *entry, head.verdict, number, head.body});
+    Entry& e = entries_[*entry];
+    if (head.kind == RowKind::kJudgement) {
+      e.verdict = head.verdict;
+    } else if (!e.removed) {
+      e.removed = true;
+      ++removed_;
+    }
+    return std::nullopt;
+  }
+  if (entries_.size() >= kMaxCases) return fmt::format("a case base holds at most {} cases", kMaxCases);
+  auto known = category(head.categories);
+  if (!known) {
+    known = static_cast<std::uint32_t>(categories_.size());
+    category_numbers_.emplace(head.categories, *known);
+    categories_.emplace_back(head.categories);
+  }
+  entries_.push_back({.id = head.id,
+                      .number = number,
+                      .body = head.body,
+                      .categories = *known,
+                      .origin = head.origin,
+                      .verdict = head.verdict,
+                      .removed = false,
+                      .key = head.key});
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> Log::category(std::string_view categories) const {
+  const auto found = category_numbers_.find(categories);
+  if (found == category_numbers_.end()) return std::nullopt;
+  return found->second;
+}
+
+void Log::index() const {
+  by_id_.reserve(entries_.size());
+  for (; indexed_ < entries_.size(); ++indexed_)
+    by_id_.emplace(entries_[indexed_].id, static_cast<std::uint32_t>(indexed_));
+}
+
+std::optional<std::uint32_t> Log::find(const Id& id) const {
+  const std::lock_guard lock(shared_->indexing);
+  index();
+  const auto found = by_id_.find(id);
+  if (found == by_id_.end()) return std::nullopt;
+  return found->second;
+}
+
+void Log::put(Store::Appended& to, Head head, std::string body) const {
+  head.body = sum_of(body);
+  NewRow row;
+  row.number = totals_.rows + static_cast<std::int64_t>(to.rows.size()) + 1;
+  row.head = bytes_of(head, row.number);
+  row.body = std::move(body);
+  to.rows.push_back(std::move(row));
+}
+
+/// Appends what `make` gives once the rows of others are taken in, and takes it in.
+Status Log::append(const std::function<Status(Store::Appended&)>& make) {
+  const std::lock_guard lock(shared_->mutex);
+  const auto refuse = [&] {
+    return fail(Diagnostic{.code = "CASE-DAMAGED",
+                           .message = "cases of it were altered or are gone, so nothing is added",
+                           .file = name(),
+                           .hint = "restore it from a copy, or export its cases into a new one"});
+  };
+  if (shared_->damaged) return refuse();
+  std::vector<NewRow> mine;
+  const auto take_row = [&](std::int64_t number, std::string_view head) {
+    return take(number, head, nullptr);
+  };
+  const Status done =
+      store_->append(totals_.rows, take_row, [&](const std::string& stated) -> Result<Store::Appended> {
+        if (totals_of(stated) != std::optional(totals_)) {
+          shared_->damaged = true;
+          return refuse();
+        }
+        Store::Appended out;
+        if (Status made = make(out); !made) return fail(made.error());
+        Totals after = totals_;
+        for (const NewRow& row : out.rows) after.count(row.head);
+        out.totals = bytes_of(after);
+        mine = out.rows;
+        return out;
+      });
+  if (!done) return done;
+  for (const NewRow& row : mine) {
+    if (Status taken = take(row.number, row.head, nullptr); !taken) return taken;
+  }
+  return {};
+}
+
+Status Log::add(std::span<const Case> cases) {
+  return append([&](Store::Appended& out) -> Status {
+    index();
+    std::unordered_map<Id, bool, HashId> mine;
+    for (const Case& c : cases) {
+      const Id id = *id_of_digits(c.id);
+      if (by_id_.contains(id) || !mine.emplace(id, true).second) continue;
+      std::string body = encoded(c);
+      const std::string categories = categories_of(c.asked);
+      put(out, head_of_case(c, categories, body), std::move(body));
+    }
+    if (entries_.size() + out.rows.size() > kMaxCases) {
+      return fail(Diagnostic{.code = "CASE-LIMIT",
+                             .message = fmt::format("it would hold more than {} cases", kMaxCases),
+                             .file = name()});
+    }
+    return {};
+  });
+}
+
+Status Log::note(RowKind kind, std::span<const std::uint32_t> entries, Verdict verdict,
+                 const Remark& remark) {
+  return append([&](Store::Appended& out) -> Status {
+    for (const std::uint32_t entry : entries) {
+      const Entry& e = entries_.at(entry);
+      // What holds already is said once: a call whose outcome is unknown may be repeated.
+      if (kind == RowKind::kRemoval ? e.removed : e.verdict == verdict) continue;
+      Head head;
+      head.kind = kind;
+      head.id = e.id;
+      head.verdict = verdict;
+      put(out, head, bytes_of(remark));
+    }
+    return {};
+  });
+}
+
+/// The case of a body if it is what was stored; `why` says why not.
+std::optional<Case> Log::verified(const Entry& entry, std::string_view body, std::string& why) const {
+  why = "its hash does not fit what it holds: it was altered";
+  if (sum_of(body) != entry.body) return std::nullopt;
+  std::optional<Case> c = decoded(body);
+  if (!c) {
+    why = "nobody can read it";
+    return std::nullopt;
+  }
+  if (const auto fault = fault_of(*c)) {
+    why = *fault;
+    return std::nullopt;
+  }
+  c->id = id_of(*c);
+  const bool fits = id_of_digits(c->id) == std::optional(entry.id) && c->origin == entry.origin &&
+                    key_of(c->asked) == entry.key && categories_of(c->asked) == categories_[entry.categories];
+  if (!fits) {
+    why = "its head is not that of its body";
+    return std::nullopt;
+  }
+  c->observed.verdict = entry.verdict;
+  return c;
+}
+
+std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted) const {
+  std::vector<std::optional<Case>> out(wanted.size());
+  std::vector<std::int64_t> numbers;
+  numbers.reserve(wanted.size());
+  for (const std::uint32_t entry : wanted) numbers.push_back(entries_.at(entry).number);
+  std::vector<std::string> why(wanted.size(), "its row is gone");
+  const std::lock_guard lock(shared_->mutex);
+  const Status read = store_->bodies(numbers, [&](std::size_t i, std::string_view body) {
+    out[i] = verified(entries_[wanted[i]], body, why[i]);
+  });
+  if (!read) {
+    shared_->faults.push_back(read.error());
+    return out;
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out[i]) continue;
+    shared_->damaged = true;
+    shared_->faults.push_back(
+        {.code = "CASE-ROW",
+         .severity = Severity::kWarning,
+         .message =
+             fmt::format("case {} is left out: {}", digits_of(entries_[wanted[i]].id).substr(0, 12), why[i]),
+         .file = name()});
+  }
+  return out;
+}
+
+std::optional<Remark> Log::remark(const Note& note) const {
+  std::optional<Remark> out;
+  const std::array<std::int64_t, 1> number = {note.number};
+  const std::lock_guard lock(shared_->mutex);
+  const Status read = store_->bodies(number, [&](std::size_t, std::string_view body) {
+    if (sum_of(body) == note.body) out = remark_of(body);
+  });
+  return read ? out : std::nullopt;
+}
+
+std::vector<Diagnostic> Log::take_faults() const {
+  const std::lock_guard lock(shared_->mutex);
+  return std::exchange(shared_->faults, {});
+}
+
+}  // namespace capstan::casebase

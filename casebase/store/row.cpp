@@ -1,0 +1,145 @@
+#include "casebase/store/row.h"
+
+#include <charconv>
+
+#include "casebase/record/bytes.h"
+#include "planner/ground/base/file.h"
+
+namespace capstan::casebase {
+namespace {
+
+constexpr std::uint8_t kRowVersion = 2;
+constexpr std::size_t kSumBytes = 8;
+constexpr std::uint64_t kTotalsSeed = 0x746f74616c73;  // "totals"
+
+void put_sum(std::string& to, const Sum& s) {
+  put(to, s.high);
+  put(to, s.low);
+}
+Sum get_sum(Bytes& from) {
+  const auto high = from.integer<std::uint64_t>();
+  return {high, from.integer<std::uint64_t>()};
+}
+
+/// What `put_sealed` sealed; nothing when the seal does not fit.
+std::optional<std::string_view> opened(std::string_view bytes, std::uint64_t seed) {
+  if (bytes.size() < kSumBytes) return std::nullopt;
+  const std::string_view text = bytes.substr(0, bytes.size() - kSumBytes);
+  Bytes seal(bytes.substr(text.size()));
+  if (seal.integer<std::uint64_t>() != sum_of(text, seed).low) return std::nullopt;
+  return text;
+}
+std::string sealed(std::string text, std::uint64_t seed) {
+  put(text, sum_of(text, seed).low);
+  return text;
+}
+
+}  // namespace
+
+std::optional<Id> id_of_digits(std::string_view digits) {
+  if (digits.size() != 32) return std::nullopt;
+  Id id;
+  for (auto [half, to] : {std::pair{digits.substr(0, 16), &id.high}, {digits.substr(16), &id.low}}) {
+    const auto [end, error] = std::from_chars(half.data(), half.data() + half.size(), *to, 16);
+    if (error != std::errc() || end != half.data() + half.size()) return std::nullopt;
+  }
+  return id;
+}
+
+std::string digits_of(const Id& id) { return hex64(id.high) + hex64(id.low); }
+
+std::string bytes_of(const Head& head, std::int64_t number) {
+  std::string out;
+  put(out, kRowVersion);
+  put(out, static_cast<std::uint8_t>(head.kind));
+  put_sum(out, head.id);
+  put_sum(out, head.body);
+  put(out, static_cast<std::uint8_t>(head.verdict));
+  if (head.kind == RowKind::kCase) {
+    put(out, static_cast<std::uint8_t>(head.origin));
+    put(out, head.categories);
+    put(out, head.key.known);
+    for (std::size_t i = 0; i < kDimensions; ++i) {
+      if ((head.key.known >> i & 1U) != 0) put(out, head.key.raw[i]);
+    }
+  }
+  return sealed(std::move(out), static_cast<std::uint64_t>(number));
+}
+
+std::optional<Head> head_of(std::string_view bytes, std::int64_t number) {
+  const auto text = opened(bytes, static_cast<std::uint64_t>(number));
+  if (!text) return std::nullopt;
+  Bytes from(*text);
+  Head head;
+  if (from.integer<std::uint8_t>() != kRowVersion) return std::nullopt;
+  const auto kind = from.integer<std::uint8_t>();
+  head.id = get_sum(from);
+  head.body = get_sum(from);
+  const auto verdict = from.integer<std::uint8_t>();
+  if (kind > static_cast<std::uint8_t>(RowKind::kRemoval) ||
+      verdict > static_cast<std::uint8_t>(Verdict::kBad))
+    return std::nullopt;
+  head.kind = static_cast<RowKind>(kind);
+  head.verdict = static_cast<Verdict>(verdict);
+  if (head.kind == RowKind::kCase) {
+    const auto origin = from.integer<std::uint8_t>();
+    if (origin > static_cast<std::uint8_t>(Origin::kSimulated)) return std::nullopt;
+    head.origin = static_cast<Origin>(origin);
+    head.categories = from.text();
+    head.key.known = from.integer<std::uint16_t>();
+    if (head.key.known >> kDimensions != 0) return std::nullopt;
+    for (std::size_t i = 0; i < kDimensions; ++i) {
+      if ((head.key.known >> i & 1U) != 0) head.key.raw[i] = from.number();
+    }
+  }
+  if (!from.good() || !from.at_end()) return std::nullopt;
+  return head;
+}
+
+std::string bytes_of(const Remark& remark) {
+  std::string out;
+  put(out, kRowVersion);
+  for (const std::string* text : {&remark.by, &remark.time_utc, &remark.reason})
+    put(out, std::string_view(*text));
+  return out;
+}
+
+std::optional<Remark> remark_of(std::string_view bytes) {
+  Bytes from(bytes);
+  Remark r;
+  if (from.integer<std::uint8_t>() != kRowVersion) return std::nullopt;
+  for (std::string* text : {&r.by, &r.time_utc, &r.reason}) *text = from.text();
+  if (!from.good() || !from.at_end()) return std::nullopt;
+  return r;
+}
+
+void Totals::count(std::string_view head) {
+  ++rows;
+  // The head's own seal stands for its bytes: it was looked at before.
+  std::string link;
+  put_sum(link, chain);
+  link += head.substr(head.size() - std::min(head.size(), kSumBytes));
+  chain = sum_of(link);
+}
+
+std::string bytes_of(const Totals& totals) {
+  std::string out;
+  put(out, kRowVersion);
+  put(out, static_cast<std::uint64_t>(totals.rows));
+  put_sum(out, totals.chain);
+  return sealed(std::move(out), kTotalsSeed);
+}
+
+std::optional<Totals> totals_of(std::string_view bytes) {
+  const auto text = opened(bytes, kTotalsSeed);
+  if (!text) return std::nullopt;
+  Bytes from(*text);
+  if (from.integer<std::uint8_t>() != kRowVersion) return std::nullopt;
+  Totals t;
+  t.rows = static_cast<std::int64_t>(from.integer<std::uint64_t>());
+  t.chain = get_sum(from);
+  if (!from.good() || !from.at_end()) return std::nullopt;
+  return t;
+}
+
+}  // namespace capstan::casebase

@@ -1,0 +1,507 @@
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+
+#include "casebase/store/row.h"
+#include "casebase/store/store.h"
+#include "casebase/store/version_1.h"
+#include "planner/ground/base/file.h"
+
+// One file of SQLite: a table of heads, a table of bodies, a row of totals. It is opened defensively: the
+// schema has to be ours to the letter, with no other table, index, trigger or view.
+//
+// Rows are only appended, so that writing touches the right edge of two trees and the row of totals. Before
+// writing, that edge is read and held against what it should be, and the file must have the size and no free
+// page, as a file has that only grew: then nothing that is stored can be overwritten, however damaged the
+// rest of the file is. Where it is not so, the whole structure is checked first (PRAGMA integrity_check).
+
+namespace capstan::casebase {
+namespace {
+
+constexpr int kApplicationId = 0x43415053;  // "CAPS"
+constexpr int kSchemaVersion = 2;
+constexpr int kMaxValueBytes = 1 << 20;      // above what a body may hold: 2 series of 4096 samples, texts
+constexpr std::int64_t kLeastRowBytes = 64;  // a head takes more than this
+
+struct CloseDatabase {
+  void operator()(sqlite3* db) const { sqlite3_close_v2(db); }
+};
+struct Finalize {
+  void operator()(sqlite3_stmt* s) const { sqlite3_finalize(s); }
+};
+using Database = std::unique_ptr<sqlite3, CloseDatabase>;
+using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
+
+constexpr const char* kHeadTable =
+    "CREATE TABLE capstan_head(number INTEGER PRIMARY KEY, head BLOB NOT NULL) STRICT";
+constexpr const char* kBodyTable =
+    "CREATE TABLE capstan_body(number INTEGER PRIMARY KEY, body BLOB NOT NULL) STRICT";
+constexpr const char* kTotalTable =
+    "CREATE TABLE capstan_total(one INTEGER PRIMARY KEY CHECK(one = 1), totals BLOB NOT NULL) STRICT";
+
+std::string_view bytes_at(sqlite3_stmt* s, int column) {
+  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(s, column));
+  const int size = sqlite3_column_bytes(s, column);
+  return bytes == nullptr ? std::string_view() : std::string_view(bytes, static_cast<std::size_t>(size));
+}
+
+class SqliteStore final : public Store {
+ public:
+  explicit SqliteStore(std::string path) : path_(std::move(path)) {}
+
+  Status connect(Missing missing, int busy_ms, Job& job);
+
+  std::string name() const override { return path_; }
+  Result<std::string> read(std::int64_t after, const TakeHead& take) override;
+  Status bodies(std::span<const std::int64_t> numbers, const TakeBody& take) override;
+  Status append(std::int64_t after, const TakeHead& take, const Decide& decide) override;
+
+ private:
+  std::string path_;
+  Database db_;
+  /// The rows of a file of version 1, until something is added to it.
+  std::optional<OldRows> old_;
+  bool checked_ = false;  // the structure, since the file was opened
+
+  Diagnostic fault(std::string code, std::string message, std::string hint = {}) const {
+    return {.code = std::move(code), .message = std::move(message), .file = path_, .hint = std::move(hint)};
+  }
+  Diagnostic sqlite_fault(std::string_view doing) const;
+  Status run(const std::string& sql, std::string_view doing);
+  Result<Statement> prepare(const std::string& sql, std::string_view doing);
+  Result<std::int64_t> integer(const std::string& sql);
+  void roll_back() { sqlite3_exec(db_.get(), "ROLLBACK", nullptr, nullptr, nullptr); }
+
+  Status harden(int busy_ms);
+  Status make_tables();
+  Status make_where_empty();
+  Result<std::int64_t> version();
+  Status check_schema(std::span<const std::pair<std::string_view, std::string>> tables);
+  Status check_schema();
+  Result<OldTotals> old_totals();
+  Result<OldRows> read_version_1(Job& job);
+  Status check_structure();
+  Status check_edge(const Totals& totals);
+  Result<std::string> totals();
+  Status heads(std::int64_t after, const TakeHead& take);
+  Status insert(const Appended& appended);
+  Status migrate();
+  Status append_within(std::int64_t after, const TakeHead& take, const Decide& decide, bool& changed);
+};
+
+/// What SQLite reports, in our codes.
+Diagnostic SqliteStore::sqlite_fault(std::string_view doing) const {
+  const int code = sqlite3_errcode(db_.get());
+  const std::string why = fmt::format("cannot {}: {}", doing, sqlite3_errmsg(db_.get()));
+  switch (code & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return fault("CASE-BUSY", why, "another program is writing to it; try again");
+    case SQLITE_NOTADB:
+      return fault("CASE-SCHEMA", "this is not a case base: " + why);
+    case SQLITE_CORRUPT:
+    case SQLITE_TOOBIG:
+    case SQLITE_CONSTRAINT:
+    case SQLITE_ERROR:
+      return fault("CASE-DAMAGED", why, "restore the file from a copy");
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return fault("CASE-READ-ONLY", why);
+    case SQLITE_CANTOPEN:
+      return fault("CASE-OPEN", why);
+    default:
+      return fault("CASE-STORE", why);
+  }
+}
+
+Status SqliteStore::run(const std::string& sql, std::string_view doing) {
+  if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    return fail(sqlite_fault(doing));
+  return {};
+}
+
+Result<Statement> SqliteStore::prepare(const std::string& sql, std::string_view doing) {
+  sqlite3_stmt* s = nullptr;
+  if (sqlite3_prepare_v2(db_.get(), sql.c_str(), -1, &s, nullptr) != SQLITE_OK)
+    return fail(sqlite_fault(doing));
+  return Statement(s);
+}
+
+/// The one row and column of a query, as an integer.
+Result<std::int64_t> SqliteStore::integer(const std::string& sql) {
+  Result<Statement> s = prepare(sql, "read it");
+  if (!s) return fail(s.error());
+  if (sqlite3_step(s->get()) != SQLITE_ROW) return fail(sqlite_fault("read it"));
+  return sqlite3_column_int64(s->get(), 0);
+}
+
+Status SqliteStore::harden(int busy_ms) {
+  sqlite3_extended_result_codes(db_.get(), 1);
+  for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                                   {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                   {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                   {SQLITE_DBCONFIG_ENABLE_VIEW, 0},
+                                   {SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0}}) {
+    if (sqlite3_db_config(db_.get(), option, on, nullptr) != SQLITE_OK)
+      return fail(sqlite_fault("protect it"));
+  }
+  sqlite3_limit(db_.get(), SQLITE_LIMIT_LENGTH, kMaxValueBytes);
+  sqlite3_limit(db_.get(), SQLITE_LIMIT_ATTACHED, 0);
+  sqlite3_busy_timeout(db_.get(), busy_ms);
+  return run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA synchronous = FULL", "set it up");
+}
+
+Status SqliteStore::make_tables() {
+  if (Status made = run(fmt::format("{}; {}; {}", kHeadTable, kBodyTable, kTotalTable), "make the case base");
+      !made)
+    return made;
+  Result<Statement> s = prepare("INSERT INTO capstan_total VALUES(1, ?)", "make the case base");
+  if (!s) return fail(s.error());
+  const std::string none = bytes_of(Totals{});
+  sqlite3_bind_blob(s->get(), 1, none.data(), static_cast<int>(none.size()), SQLITE_STATIC);
+  if (sqlite3_step(s->get()) != SQLITE_DONE) return fail(sqlite_fault("make the case base"));
+  return run(
+      fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kSchemaVersion),
+      "make the case base");
+}
+
+/// In a file without any table, which is what SQLite opens where there was none.
+Status SqliteStore::make_where_empty() {
+  if (Status s = run("BEGIN IMMEDIATE", "make the case base"); !s) return s;
+  const Result<std::int64_t> tables = integer("SELECT count(*) FROM sqlite_schema");
+  const Result<std::int64_t> application = integer("PRAGMA application_id");
+  Status made;
+  if (!tables || !application) {
+    made = fail(!tables ? tables.error() : application.error());
+  } else if (*tables == 0 && *application == 0) {
+    made = make_tables();
+  }
+  if (made) made = run("COMMIT", "make the case base");
+  if (!made) roll_back();
+  return made;
+}
+
+Status SqliteStore::connect(Missing missing, int busy_ms, Job& job) {
+  std::error_code ignored;
+  const std::filesystem::path absolute =
+      std::filesystem::absolute(path_, ignored);  // never a URI, ":memory:"
+  const bool there = std::filesystem::exists(absolute, ignored);
+  if (!there && missing == Missing::kRefuse)
+    return fail(fault("CASE-OPEN", "there is no such case base", "`cases add` makes one"));
+  if (there && !std::filesystem::is_regular_file(absolute, ignored))
+    return fail(fault("CASE-OPEN", "this is not a file"));
+  const int flags =
+      SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX | (missing == Missing::kCreate ? SQLITE_OPEN_CREATE : 0);
+  sqlite3* raw = nullptr;
+  const int code =
+      sqlite3_open_v2(absolute.c_str(), &raw, flags, nullptr);  // falls back to reading by itself
+  db_.reset(raw);
+  if (code != SQLITE_OK)
+    return fail(fault("CASE-OPEN", fmt::format("cannot open it: {}", sqlite3_errstr(code))));
+  if (Status s = harden(busy_ms); !s) return s;
+  if (missing == Missing::kCreate && sqlite3_db_readonly(db_.get(), "main") == 0) {
+    const Result<std::int64_t> tables = integer("SELECT count(*) FROM sqlite_schema");
+    if (!tables) return fail(tables.error());
+    if (*tables == 0) {
+      if (Status s = make_where_empty(); !s) return s;
+    }
+  }
+  const Result<std::int64_t> of = version();
+  if (!of) return fail(of.error());
+  if (*of != 1) return {};
+  if (Status s = run("BEGIN", "read it"); !s) return s;
+  Result<OldRows> old = read_version_1(job);
+  roll_back();  // nothing was written
+  if (!old) return fail(old.error());
+  old_ = *std::move(old);
+  return {};
+}
+
+Result<std::int64_t> SqliteStore::version() {
+  const Result<std::int64_t> application = integer("PRAGMA application_id");
+  if (!application) return fail(application.error());
+  if (*application != kApplicationId) return fail(fault("CASE-SCHEMA", "this is not a case base"));
+  const Result<std::int64_t> of = integer("PRAGMA user_version");
+  if (!of) return fail(of.error());
+  if (*of > kSchemaVersion || *of < 1) {
+    return fail(
+        fault("CASE-SCHEMA",
+              fmt::format("the case base is of version {}, this program knows {}", *of, kSchemaVersion),
+              "use the newer program that made it"));
+  }
+  return of;
+}
+
+/// Whether the schema is these tables, by name, to the letter and nothing else.
+Status SqliteStore::check_schema(std::span<const std::pair<std::string_view, std::string>> tables) {
+  Result<Statement> s = prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY name", "read its schema");
+  if (!s) return fail(s.error());
+  std::size_t found = 0;
+  int code = SQLITE_ROW;
+  while ((code = sqlite3_step(s->get())) == SQLITE_ROW) {
+    const std::string name(bytes_at(s->get(), 1));
+    const auto ours =
+        std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
+    if (bytes_at(s->get(), 0) != "table" || ours == tables.end() || bytes_at(s->get(), 2) != ours->second) {
+      return fail(fault("CASE-SCHEMA", fmt::format("the {} '{}' is not one of a case base",
+                                                   bytes_at(s->get(), 0).substr(0, 20), name.substr(0, 60))));
+    }
+    ++found;
+  }
+  if (code != SQLITE_DONE) return fail(sqlite_fault("read its schema"));
+  if (found != tables.size()) return fail(fault("CASE-SCHEMA", "a table of the case base is missing"));
+  return {};
+}
+
+Status SqliteStore::check_schema() {
+  const Result<std::int64_t> of = version();
+  if (!of) return fail(of.error());
+  if (*of != kSchemaVersion)
+    return fail(fault("CASE-SCHEMA", "it changed its version meanwhile", "open it again"));
+  const std::array<std::pair<std::string_view, std::string>, 3> ours = {
+      {{"capstan_head", kHeadTable}, {"capstan_body", kBodyTable}, {"capstan_total", kTotalTable}}};
+  return check_schema(ours);
+}
+
+Result<OldTotals> SqliteStore::old_totals() {
+  Result<Statement> s = prepare("SELECT count, ids FROM capstan_total WHERE one = 1", "read its totals");
+  if (!s) return fail(s.error());
+  const int code = sqlite3_step(s->get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) return fail(sqlite_fault("read its totals"));
+  OldTotals t;
+  if (code == SQLITE_ROW) t = {sqlite3_column_int64(s->get(), 0), std::string(bytes_at(s->get(), 1))};
+  if (t.ids.size() != 32)
+    return fail(fault("CASE-DAMAGED", "its totals are gone", "restore the file from a copy"));
+  return t;
+}
+
+Result<OldRows> SqliteStore::read_version_1(Job& job) {
+  const std::array<std::pair<std::string_view, std::string>, 2> ours = {
+      {{"capstan_case", old_case_table()}, {"capstan_total", old_total_table()}}};
+  if (Status s = check_schema(ours); !s) return fail(s.error());
+  Result<OldTotals> stated = old_totals();
+  const Result<std::int64_t> pages = integer("PRAGMA page_count"), page = integer("PRAGMA page_size");
+  if (!stated || !pages || !page)
+    return fail(!stated ? stated.error() : !pages ? pages.error() : page.error());
+  const auto room = static_cast<std::size_t>(*pages * *page / kLeastRowBytes);
+  OldReader reader(path_, *std::move(stated));
+  Result<Statement> s = prepare(old_select(), "read its cases");
+  if (!s) return fail(s.error());
+  std::vector<OldCell> cells(static_cast<std::size_t>(sqlite3_column_count(s->get())));
+  int code = SQLITE_ROW;
+  while ((code = sqlite3_step(s->get())) == SQLITE_ROW) {
+    if (reader.count() >= room)
+      return fail(fault("CASE-DAMAGED", "it gives more cases than it has room for"));
+    for (int i = 0; i < static_cast<int>(cells.size()); ++i) {
+      const int type = sqlite3_column_type(s->get(), i);
+      OldCell& cell = cells[static_cast<std::size_t>(i)];
+      cell.type = type == SQLITE_TEXT      ? OldCell::Type::kText
+                  : type == SQLITE_FLOAT   ? OldCell::Type::kReal
+                  : type == SQLITE_INTEGER ? OldCell::Type::kInteger
+                                           : OldCell::Type::kOther;
+      if (type == SQLITE_TEXT) cell.text = bytes_at(s->get(), i);
+      cell.real = sqlite3_column_double(s->get(), i);
+      cell.integer = sqlite3_column_int64(s->get(), i);
+    }
+    reader.row(cells, job);
+  }
+  if (code != SQLITE_DONE) return fail(sqlite_fault("read its cases"));
+  return reader.end(job);
+}
+
+Result<std::string> SqliteStore::totals() {
+  Result<Statement> s = prepare("SELECT totals FROM capstan_total WHERE one = 1", "read its totals");
+  if (!s) return fail(s.error());
+  const int code = sqlite3_step(s->get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) return fail(sqlite_fault("read its totals"));
+  return code == SQLITE_ROW ? std::string(bytes_at(s->get(), 0)) : std::string();
+}
+
+Status SqliteStore::heads(std::int64_t after, const TakeHead& take) {
+  const Result<std::int64_t> pages = integer("PRAGMA page_count"), page = integer("PRAGMA page_size");
+  if (!pages || !page) return fail(!pages ? pages.error() : page.error());
+  // A tree whose branches were made to cross would give more rows than the file has room for.
+  const std::int64_t room = *pages * *page / kLeastRowBytes;
+  Result<Statement> s =
+      prepare("SELECT number, head FROM capstan_head WHERE number > ? ORDER BY number", "read its cases");
+  if (!s) return fail(s.error());
+  sqlite3_bind_int64(s->get(), 1, after);
+  int code = SQLITE_ROW;
+  for (std::int64_t row = 1; (code = sqlite3_step(s->get())) == SQLITE_ROW; ++row) {
+    if (row > room) return fail(fault("CASE-DAMAGED", "it gives more cases than it has room for"));
+    if (Status taken = take(sqlite3_column_int64(s->get(), 0), bytes_at(s->get(), 1)); !taken) return taken;
+  }
+  if (code != SQLITE_DONE) return fail(sqlite_fault("read its cases"));
+  return {};
+}
+
+Result<std::string> SqliteStore::read(std::int64_t after, const TakeHead& take) {
+  if (old_) {
+    for (const NewRow& row : old_->rows) {
+      if (row.number <= after) continue;
+      if (Status taken = take(row.number, row.head); !taken) return fail(taken.error());
+    }
+    return bytes_of(old_->totals);
+  }
+  if (Status s = run("BEGIN", "read it"); !s) return fail(s.error());
+  Status done = check_schema();
+  Result<std::string> stated = done ? totals() : Result<std::string>(fail(done.error()));
+  if (stated) done = heads(after, take);
+  roll_back();  // nothing was written
+  if (!done) return fail(done.error());
+  return stated;
+}
+
+Status SqliteStore::bodies(std::span<const std::int64_t> numbers, const TakeBody& take) {
+  if (old_) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const auto at = static_cast<std::size_t>(numbers[i] - 1);
+      if (numbers[i] >= 1 && at < old_->rows.size()) take(i, old_->rows[at].body);
+    }
+    return {};
+  }
+  Result<Statement> s = prepare("SELECT body FROM capstan_body WHERE number = ?", "read a case");
+  if (!s) return fail(s.error());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    sqlite3_bind_int64(s->get(), 1, numbers[i]);
+    const int code = sqlite3_step(s->get());
+    // A row in a broken page is as good as gone; only what is nobody's fault may be tried again.
+    if ((code & 0xff) == SQLITE_BUSY || (code & 0xff) == SQLITE_IOERR)
+      return fail(sqlite_fault("read a case"));
+    if (code == SQLITE_ROW) take(i, bytes_at(s->get(), 0));
+    sqlite3_reset(s->get());
+  }
+  return {};
+}
+
+Status SqliteStore::check_structure() {
+  if (checked_) return {};
+  Result<Statement> s = prepare("PRAGMA integrity_check(1)", "check it");
+  if (!s) return fail(s.error());
+  if (sqlite3_step(s->get()) != SQLITE_ROW) return fail(sqlite_fault("check it"));
+  if (const std::string says(bytes_at(s->get(), 0)); says != "ok") {
+    return fail(fault("CASE-DAMAGED", "nothing is added, for its structure is broken: " + says.substr(0, 200),
+                      "restore it from a copy, or export its cases into a new one"));
+  }
+  checked_ = true;
+  return {};
+}
+
+/// Whether the edge at which rows are appended is what it should be; else the whole structure is checked.
+Status SqliteStore::check_edge(const Totals& totals) {
+  const Result<std::int64_t> free = integer("PRAGMA freelist_count"), pages = integer("PRAGMA page_count"),
+                             size = integer("PRAGMA page_size");
+  if (!free || !pages || !size) return fail(sqlite_fault("check it"));
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(std::filesystem::absolute(path_), unknown);
+  if (*free != 0 || unknown || bytes != static_cast<std::uintmax_t>(*pages * *size)) {
+    if (Status s = check_structure(); !s) return s;
+  }
+  Result<Statement> s = prepare(
+      "SELECT (SELECT max(number) FROM capstan_body), number, head, body FROM capstan_head JOIN capstan_body "
+      "USING(number) WHERE number = (SELECT max(number) FROM capstan_head)",
+      "check it");
+  if (!s) return fail(s.error());
+  const int code = sqlite3_step(s->get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) return fail(sqlite_fault("check it"));
+  if (code == SQLITE_DONE && totals.rows == 0) return {};
+  const auto head = code == SQLITE_ROW ? head_of(bytes_at(s->get(), 2), totals.rows) : std::nullopt;
+  const bool right = head && sqlite3_column_int64(s->get(), 0) == totals.rows &&
+                     sqlite3_column_int64(s->get(), 1) == totals.rows &&
+                     sum_of(bytes_at(s->get(), 3)) == head->body;
+  if (right) return {};
+  return fail(fault("CASE-DAMAGED", "nothing is added, for its last row is not what its totals speak of",
+                    "restore it from a copy, or export its cases into a new one"));
+}
+
+Status SqliteStore::insert(const Appended& appended) {
+  Result<Statement> head = prepare("INSERT INTO capstan_head VALUES(?, ?)", "add a case");
+  Result<Statement> body = prepare("INSERT INTO capstan_body VALUES(?, ?)", "add a case");
+  Result<Statement> total = prepare("UPDATE capstan_total SET totals = ? WHERE one = 1", "add a case");
+  if (!head || !body || !total) return fail(sqlite_fault("add a case"));
+  const auto put = [&](const Statement& s, int at, const std::string& bytes) {
+    sqlite3_bind_blob(s.get(), at, bytes.data(), static_cast<int>(bytes.size()), SQLITE_STATIC);
+    const bool done = sqlite3_step(s.get()) == SQLITE_DONE;
+    sqlite3_reset(s.get());
+    return done;
+  };
+  for (const NewRow& row : appended.rows) {
+    for (const auto& [s, bytes] : {std::pair{&*head, &row.head}, {&*body, &row.body}}) {
+      sqlite3_bind_int64(s->get(), 1, row.number);
+      if (!put(*s, 2, *bytes)) return fail(sqlite_fault("add a case"));
+    }
+  }
+  if (!put(*total, 1, appended.totals) || sqlite3_changes(db_.get()) != 1)
+    return fail(sqlite_fault("add a case"));
+  return {};
+}
+
+/// Turns a file of version 1 into one of version 2: its rows as they were read, in the same order. Another
+/// program may have done the same meanwhile, with the same rows.
+Status SqliteStore::migrate() {
+  const Result<std::int64_t> of = version();
+  if (!of) return fail(of.error());
+  if (*of != 1) return {};
+  if (old_->damaged) {
+    return fail(fault("CASE-DAMAGED", "cases of it were altered or are gone, so nothing is added",
+                      "restore it from a copy, or export its cases into a new one"));
+  }
+  if (Status s = check_structure(); !s) return s;
+  const Result<OldTotals> stated = old_totals();
+  if (!stated) return fail(stated.error());
+  if (*stated != old_->stated)
+    return fail(
+        fault("CASE-BUSY", "another program of an older version added to it meanwhile", "open it again"));
+  if (Status s = run("DROP TABLE capstan_case; DROP TABLE capstan_total", "turn it into version 2"); !s)
+    return s;
+  if (Status s = make_tables(); !s) return s;
+  return insert({old_->rows, bytes_of(old_->totals)});
+}
+
+Status SqliteStore::append_within(std::int64_t after, const TakeHead& take, const Decide& decide,
+                                  bool& changed) {
+  if (old_) {
+    if (Status s = migrate(); !s) return s;
+    changed = true;
+  }
+  if (Status s = check_schema(); !s) return s;
+  const Result<std::string> stated = totals();
+  if (!stated) return fail(stated.error());
+  if (Status s = heads(after, take); !s) return s;
+  const Result<Appended> appended = decide(*stated);
+  if (!appended) return fail(appended.error());
+  if (appended->rows.empty()) return {};
+  changed = true;
+  if (Status s = check_edge(totals_of(*stated).value_or(Totals{-1, {}})); !s) return s;
+  return insert(*appended);
+}
+
+Status SqliteStore::append(std::int64_t after, const TakeHead& take, const Decide& decide) {
+  if (sqlite3_db_readonly(db_.get(), "main") != 0)
+    return fail(fault("CASE-READ-ONLY", "the case base may only be read"));
+  if (Status s = run("BEGIN IMMEDIATE", "add a case"); !s) return s;
+  bool changed = false;
+  Status added = append_within(after, take, decide, changed);
+  if (added && changed) added = run("COMMIT", "store what was added");
+  if (!added || !changed) roll_back();
+  if (added && old_) {
+    old_.reset();
+    // The room of the old tables; where this fails the file is merely larger.
+    (void)run("VACUUM", "make it smaller");
+  }
+  return added;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Store>> open_sqlite(const std::string& path, Missing missing, Job& job, int busy_ms) {
+  auto store = std::make_unique<SqliteStore>(path);
+  if (Status s = store->connect(missing, busy_ms, job); !s) return fail(s.error());
+  return store;
+}
+
+}  // namespace capstan::casebase

@@ -1,0 +1,68 @@
+#include "planner/door/app/command/cases/shared.h"
+
+#include "casebase/record/fields.h"
+#include "planner/ground/base/number.h"
+
+namespace capstan::app {
+
+using casebase::Field;
+
+void report_faults(Session& s, const casebase::CaseBase& base) {
+  for (Diagnostic& d : base.take_faults()) s.job.report(std::move(d));
+}
+
+std::string number_text(double v) { return v != 0.0 ? trimmed(v, 4) : std::string("-"); }
+
+std::string figure_text(const std::optional<casebase::Figure>& f) {
+  if (!f) return "-";
+  return trimmed(f->value, 4) + (f->std_dev > 0.0 ? " +- " + trimmed(f->std_dev, 4) : std::string());
+}
+
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;  // a case holds no control character
+  }
+  return out + '"';
+}
+
+std::string json_of(const Field& f, const casebase::Case& c) {
+  using casebase::value;
+  if (const auto* t = std::get_if<casebase::TextAt>(&f.at)) return quoted(value(*t, c));
+  if (const auto* n = std::get_if<casebase::NumberAt>(&f.at)) return shortest(value(*n, c));
+  if (const auto* i = std::get_if<casebase::CountAt>(&f.at)) return std::to_string(value(*i, c));
+  if (const auto* w = std::get_if<casebase::WordAt>(&f.at)) return quoted(w->get(c));
+  if (const auto* s = std::get_if<casebase::SeriesAt>(&f.at)) {
+    const casebase::Series& series = value(*s, c);
+    std::string out = "{\"origin\": " + quoted(to_text(series.origin)) + ", \"samples\": [";
+    for (const casebase::Sample& sample : series.samples) {
+      out += (&sample == series.samples.data() ? "[" : ", [") + shortest(sample.t_s) + ", " +
+             shortest(sample.value) + ']';
+    }
+    return out + "]}";
+  }
+  const casebase::Figure& figure = *value(std::get<casebase::FigureAt>(f.at), c);
+  return "{\"value\": " + shortest(figure.value) + ", \"std_dev\": " + shortest(figure.std_dev) +
+         ", \"origin\": " + quoted(to_text(figure.origin)) + '}';
+}
+
+}  // namespace
+
+std::string case_json(const casebase::Case& c) {
+  std::string out = "{\"id\": " + quoted(c.id);
+  for (const Field& f : casebase::fields()) {
+    if (!is_default(f, c)) out += ", " + quoted(f.name) + ": " + json_of(f, c);
+  }
+  return out + '}';
+}
+
+std::string cases_json(const std::vector<casebase::Case>& cases) {
+  std::string out = "[";
+  for (const casebase::Case& c : cases) out += (&c == cases.data() ? "\n" : ",\n") + case_json(c);
+  return out + "\n]\n";
+}
+
+}  // namespace capstan::app

@@ -1,0 +1,101 @@
+#include "casebase/store/version_1.h"
+
+#include "casebase/casebase.h"
+#include "tests/casebase/sample.h"
+
+namespace capstan::casebase {
+namespace {
+
+// Two cases as the last program of version 1 stored them, their ids and totals included.
+constexpr const char* kOldRows =
+    "INSERT INTO capstan_case VALUES('b91149ff5f6cbe84627d125213b26e6d', 'DRILLING', 'P/mild_steel', "
+    "'hss/twist_drill', 'generic_vmc', 'good', 'measured', 'part 1', 20.0, 20.0, 0.0, 0.0, 20.0, 30.0, 0.1, "
+    "0.0, 0.0, 6.5, 0.0, 0.0, 0.0, 0.0, 2, 1); "
+    "INSERT INTO capstan_case VALUES('c5a12ec56cacf3ea2d1ecfe28f4c43b8', 'DRILLING', 'P/mild_steel', "
+    "'hss/twist_drill', 'generic_vmc', 'good', 'measured', 'part 1', 10.0, 20.0, 0.0, 0.0, 10.0, 30.0, 0.1, "
+    "0.0, 0.0, 6.5, 0.0, 0.0, 0.0, 0.0, 2, 1); "
+    "INSERT INTO capstan_total VALUES(1, 2, '7cb0673a33c04d6e4f63ddb09cfe2dd5'); ";
+
+std::string old_file(const Folder& folder, const std::string& more = "") {
+  const std::string path = folder.file("old.db");
+  tamper(path, old_case_table() + "; " + old_total_table() + "; " + kOldRows +
+                   "PRAGMA application_id = 1128353875; PRAGMA user_version = 1;" + more);
+  return path;
+}
+
+TEST(CaseStoreVersion1, IsReadWithoutBeingAltered) {
+  const Folder folder;
+  const std::string path = old_file(folder);
+  Job job;
+  const auto base = CaseBase::open(path, job);
+  ASSERT_TRUE(base.has_value()) << to_text(base.error());
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
+  const std::vector<Case> cases = base->cases();
+  ASSERT_EQ(cases.size(), 2u);
+  for (const Case& c : cases) {
+    EXPECT_EQ(c.id, id_of(c));
+    EXPECT_EQ(c.asked.operation, "DRILLING");
+    EXPECT_EQ(c.asked.cutter_diameter_mm, c.asked.diameter_mm);
+    EXPECT_EQ(c.asked.coolant, Coolant::kFlood);
+    EXPECT_EQ(c.bound.vc_m_min, 30.0);
+    EXPECT_EQ(c.observed.time_s, (Figure{6.5, 0.0, Origin::kMeasured}));
+    EXPECT_FALSE(c.observed.peak_force_n.has_value());  // zero was not known
+    EXPECT_EQ(c.observed.verdict, Verdict::kGood);
+    EXPECT_EQ(c.from.source, "part 1");
+  }
+  Question q = sample().asked;
+  EXPECT_EQ(base->recall(q)->vc_m_min, 30.0);
+  tamper(path, "UPDATE capstan_total SET count = count");  // still a table of version 1
+}
+
+TEST(CaseStoreVersion1, BecomesVersion2WhenSomethingIsAdded) {
+  const Folder folder;
+  const std::string path = old_file(folder);
+  Job job;
+  std::vector<Case> before;
+  {
+    auto base = CaseBase::open(path, job).value();
+    before = base.cases();
+    ASSERT_TRUE(base.add(sample(30.0)).has_value());
+    ASSERT_TRUE(base.add(sample(31.0)).has_value());
+  }
+  const auto base = CaseBase::open(path, job);
+  ASSERT_TRUE(base.has_value()) << to_text(base.error());
+  EXPECT_EQ(base->size(), 4u);
+  for (const Case& c : before) EXPECT_EQ(base->get(c.id).value(), c);
+  EXPECT_EQ(job.count(Severity::kWarning), 0u);
+}
+
+TEST(CaseStoreVersion1, LeavesOutAnAlteredRowAndIsNotTurnedIntoVersion2) {
+  for (const std::string change : {"vc_m_min = 31.0", "teeth = 4", "source = 'x'", "verdict = 'bad'"}) {
+    const Folder folder;
+    const std::string path =
+        old_file(folder, "UPDATE capstan_case SET " + change + " WHERE diameter_mm = 10.0;");
+    Job job;
+    auto base = CaseBase::open(path, job).value();
+    EXPECT_EQ(base.size(), 1u) << change;
+    EXPECT_NE(job.count(Severity::kWarning), 0u);
+    EXPECT_EQ(base.add(sample(30.0)).error().code, "CASE-DAMAGED");
+  }
+}
+
+TEST(CaseStoreVersion1, IsTurnedIntoVersion2ByTwoProgramsOnce) {
+  const Folder folder;
+  const std::string path = old_file(folder);
+  Job job;
+  auto one = CaseBase::open(path, job).value(), other = CaseBase::open(path, job).value();
+  ASSERT_TRUE(one.add(sample(30.0)).has_value());
+  const Status second = other.add(sample(31.0));
+  ASSERT_TRUE(second.has_value()) << to_text(second.error());
+  EXPECT_EQ(other.size(), 4u);
+  EXPECT_EQ(CaseBase::open(path, job)->size(), 4u);
+}
+
+TEST(CaseStoreVersion1, RefusesATableThatIsNotItsOwn) {
+  const Folder folder;
+  Job job;
+  EXPECT_EQ(CaseBase::open(old_file(folder, "CREATE TABLE more(x);"), job).error().code, "CASE-SCHEMA");
+}
+
+}  // namespace
+}  // namespace capstan::casebase

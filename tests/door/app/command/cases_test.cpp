@@ -1,0 +1,71 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/door/app/command/command.h"
+#include "tests/support/corpus.h"
+
+// The verbs of `capstan cases`, run as a user runs them.
+
+namespace capstan::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Cases : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    const Ran planned = run("plan '" + capstan::testing::source_dir() +
+                            "/examples/bracket.p21' -o plan.json -o plan.p21 -o plan.stpnc");
+    ASSERT_EQ(planned.code, 0) << planned.err;
+    const Ran added = run("cases add base.db plan.json");
+    ASSERT_EQ(added.code, 0) << added.err;
+    // Its counterbored hole makes cases, too: one of each part of it.
+    ASSERT_THAT(added.err, HasSubstr("read 20 cases, 20 of them new"));
+  }
+  /// The id of the first case of the list, or what the list says.
+  std::string first() {
+    const std::string list = run("cases list base.db --json").out;
+    const auto at = list.find("\"id\": \"");
+    return at == std::string::npos ? list : list.substr(at + 7, 32);
+  }
+};
+
+TEST_F(Cases, OfOnePlanCountOnceWhateverFileTheyComeFrom) {
+  for (const std::string file : {"plan.json", "plan.p21", "plan.stpnc"})
+    EXPECT_THAT(run("cases add base.db " + file).err, HasSubstr(", 0 of them new")) << file;
+}
+
+TEST_F(Cases, AreJudgedAndShownWithWhoSaidSo) {
+  const std::string id = first();
+  EXPECT_EQ(
+      run("cases judge base.db " + id.substr(0, 12) + " --verdict bad --by Smith --reason chatter").code, 0);
+  const Ran shown = run("cases show base.db " + id);
+  EXPECT_THAT(shown.out, HasSubstr("by Smith: chatter"));
+  EXPECT_THAT(run("cases list base.db bad").out, HasSubstr(id.substr(0, 12)));
+  EXPECT_THAT(run("cases list base.db good").out, HasSubstr("no case"));
+}
+
+TEST_F(Cases, ThatAreRemovedStayAway) {
+  const std::string id = first();
+  EXPECT_EQ(run("cases remove base.db " + id + " --by Smith --reason 'wrong machine'").code, 0);
+  EXPECT_THAT(run("cases add base.db plan.json").err, HasSubstr(", 0 of them new"));
+  EXPECT_THAT(run("cases list base.db").out, Not(HasSubstr(id.substr(0, 12))));
+}
+
+TEST_F(Cases, AreTheSameAfterAnExport) {
+  put("cases.csv", run("cases export base.db").out);
+  ASSERT_EQ(run("cases add other.db cases.csv").code, 0);
+  EXPECT_EQ(run("cases list other.db").out, run("cases list base.db").out);
+}
+
+TEST_F(Cases, ThatAreNotThereAreWrongUsage) {
+  EXPECT_EQ(run("cases show base.db zzz").code, 2);
+  EXPECT_EQ(run("cases judge base.db zzz --verdict bad --by Smith --reason x").code, 2);
+  EXPECT_EQ(run("cases judge base.db " + first() + " --verdict fine --by Smith --reason x").code, 2);
+  EXPECT_EQ(run("cases list none.db").code, 3);
+}
+
+}  // namespace
+}  // namespace capstan::app
