@@ -57,14 +57,14 @@ class Learnt {
 
   [[nodiscard]] SettingView at(const Setting& s) const {
     SettingView v{.at = s};
-    const Predicted t = time_.at(place(here_, s, 0.5));
+    const Belief t = time_.at(place(here_, s, 0.5));
     v.time = std::exp(t.mean);
     v.time_std_dev = t.std_dev;
     const double worn = worn_at(s);
     for (std::size_t i = 0; i < kWatchedCount; ++i) {
       if (!loads_[i]) continue;
       const bool wear = static_cast<Watched>(i) == Watched::kWear;
-      const Predicted p = loads_[i]->at(place(here_, s, wear ? 0.0 : worn));
+      const Belief p = loads_[i]->at(place(here_, s, wear ? 0.0 : worn));
       v.limits.push_back({std::string(kWatchedNames[i]), std::exp(p.mean),
                           std::exp(p.mean + kZ95 * p.next_std_dev),
                           normal_probability(p.mean / p.next_std_dev)});

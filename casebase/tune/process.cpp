@@ -112,10 +112,10 @@ Process::Process(Process&&) noexcept = default;
 Process& Process::operator=(Process&&) noexcept = default;
 Process::~Process() = default;
 
-Predicted Process::at(std::span<const double> x) const {
+Belief Process::at(std::span<const double> x) const {
   const Impl& m = *impl_;
   double variance = covariance(x, x, m.prior, m.spreads);
-  Predicted out{.mean = prior_mean(x, m.prior)};
+  Belief out{.mean = prior_mean(x, m.prior)};
   if (!m.rows.empty()) {
     const VectorXd k = covariances_with(m.rows, x, m.prior, m.spreads);
     out.mean += k.dot(m.alpha);

@@ -22,7 +22,7 @@ struct ProcessSpreads {
 };
 
 /// A value, and how sure it is.
-struct Predicted {
+struct Belief {
   double mean = 0.0;
   double std_dev = 0.0;       ///< of the mean over all groups
   double next_std_dev = 0.0;  ///< of what the next row of a new group shows: group and noise included
@@ -42,7 +42,7 @@ class Process {
   Process& operator=(Process&&) noexcept;
   ~Process();
 
-  [[nodiscard]] Predicted at(std::span<const double> x) const;
+  [[nodiscard]] Belief at(std::span<const double> x) const;
   /// Log of the marginal likelihood.
   [[nodiscard]] double log_likelihood() const;
   [[nodiscard]] const ProcessSpreads& spreads() const;
