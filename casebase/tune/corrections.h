@@ -27,8 +27,7 @@ struct Corrected {
   Regression fit;
 };
 
-/// The specific force of one cut: kc = force / area of the chip, at the mean thickness of the chip, on a sharp
-/// edge, as Kienzle's tables count it (rake 0).
+/// The specific force of one cut: kc, force over area of the chip, at the mean thickness of the chip.
 struct ForceSample {
   double chip_mm = 0.0, kc_n_mm2 = 0.0;
   std::size_t group = 0;  ///< the edge

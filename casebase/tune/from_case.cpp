@@ -176,8 +176,10 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
     const std::size_t edge = edges.of(c);
     const Observed& o = c.observed;
     const Bound& b = c.bound;
-    if (evidence(o.peak_force_n) && positive(b.peak_area_mm2) && positive(b.mean_chip_mm)) {
-      forces.push_back({b.mean_chip_mm, o.peak_force_n->value / b.peak_area_mm2 / handbook.rake_share, edge});
+    if (evidence(o.peak_force_n) && positive(c.predicted.peak_force_n) && positive(b.mean_chip_mm)) {
+      const double expected = c.predicted.peak_force_n / handbook.force_margin;
+      const double kc = handbook.force.kc11_n_mm2 * std::pow(b.mean_chip_mm, -handbook.force.mc);
+      forces.push_back({b.mean_chip_mm, kc * o.peak_force_n->value / expected, edge});
     }
     if (evidence(o.time_s) && positive(c.predicted.time_s) && b.path_blocks > 0) {
       times.push_back({c.predicted.time_s, o.time_s->value, c.predicted.time_s / b.path_blocks, edge});

@@ -44,10 +44,14 @@ struct PlannedStep {
 /// What the handbook says where cases correct it.
 struct CorrectionHandbook {
   ForceHandbook force;
-  double rake_share = 1.0;  ///< the force of this cutter over the one of rake 0 (mechanics::milled_with)
+  /// Factor in the forces that planning predicted for the cases, on those of a sharp edge and mean
+  /// coefficients: a case keeps what was predicted, not its margin.
+  double force_margin = 1.0;
   model::ToolLifeLaw life;  ///< n and life 0: not known, no correction
 };
-/// The corrections that measured cases of one material and tool class make.
+/// The corrections that measured cases of one material and tool class make. A specific force is the handbook's
+/// at the mean chip of the case, times the observed peak force over the predicted one without its margin: which
+/// teeth are in the cut, and where, is then the model's in both.
 [[nodiscard]] Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook);
 
 }  // namespace capstan::casebase::tune

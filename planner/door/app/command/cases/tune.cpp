@@ -212,6 +212,10 @@ Result<std::vector<StepAdvice>> advise_steps(const model::Plan& plan, const case
   return out;
 }
 
+// What a predicted force holds beside the sharp one, where the plan's own margin is not kept: the usual margin on a
+// machine whose feed can be turned up by a fifth (tooling/data/machines/generic_vmc.yaml).
+constexpr double kUsualOverride = 1.2;
+
 /// Corrections by material and tool class, in the order of their names.
 Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase& base) {
   const auto materials = tooling::shipped_materials();
@@ -230,9 +234,8 @@ Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase
       for (const model::ToolLifeLaw& law : material.life) {
         if (m.tool.starts_with(law.substrate)) m.handbook.life = law;
       }
-      const model::Cutter mill;  // an end mill of carbide
-      if (m.tool.ends_with("/endmill"))
-        m.handbook.rake_share = mechanics::milled_with(material, mill).kc11_n_mm2 / material.kc11_n_mm2;
+      m.handbook.force_margin =
+          mechanics::kienzle_margin(material, {.feed_up = kUsualOverride}).factor();
     }
     m.corrections = tune::corrections_of(cases, m.handbook);
     if (!models_of(m.corrections).empty()) out.push_back(std::move(m));
