@@ -160,7 +160,7 @@ class Gate {
     if (v.at.ln_vc > std::log(handbook_.most_vc) + slack) return false;
     if (v.at.ln_fz > std::log(handbook_.most_fz) + slack) return false;
     if (!handbook_.hard) return v.at.ln_vc <= slack && v.at.ln_fz <= slack;
-    return v.hard <= 1.0;
+    return v.hard <= 1.0 + slack;
   }
 
   /// Boole's inequality: a part exceeds some limit at most as often as the sum over the limits says.

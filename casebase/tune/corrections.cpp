@@ -28,6 +28,8 @@ constexpr double kForceEdges = 0.08;   // and between edges. Default, unsourced
 constexpr double kWearByTime = 0.7, kWearByTimeSpread = 0.3;
 constexpr double kWearNoise = 0.1;      // std dev of ln VB of a reading. Default, unsourced
 constexpr double kLeastReadingMm = 0.05;  // less is the scatter of the reading
+constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;  // edges or parts
+constexpr double kZ90 = 1.6449;  // of the normal distribution, both sides
 constexpr double kBlock0S = 0.1, kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
 constexpr double kFeed0Mm = 0.05, kStickOut0 = 4.0;
 constexpr double kBoreSpreadMm = 0.1, kBoreNoiseMm = 0.02;
@@ -36,9 +38,17 @@ bool usable(std::initializer_list<double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0.0; });
 }
 
-Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<const Row> rows, Regression fit) {
-  Corrected out{.model = std::move(model), .terms = std::move(terms), .cases = rows.size(),
-                .groups = fit.groups, .doubted = 0, .fit = {}};
+Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<const Row> rows,
+               const RegressionOptions& options, Regression fit) {
+  Corrected out;
+  out.model = std::move(model);
+  out.terms = std::move(terms);
+  out.cases = rows.size();
+  out.groups = fit.groups;
+  if (fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
+    const std::vector<LeftOut> left_out = leave_groups_out(rows, fit.coefficient.size(), options);
+    out.left_out = {rms(left_out), coverage(left_out, kZ90)};
+  }
   out.doubted = static_cast<std::size_t>(
       std::count_if(fit.weight.begin(), fit.weight.end(), [](double w) { return w < 0.5; }));
   out.fit = std::move(fit);
@@ -80,7 +90,7 @@ std::optional<ForceCorrection> correct_force(std::span<const ForceSample> sample
   const std::string at = fmt::format("ln kc at h = {:.3g} mm", std::exp(ln_h));
   out.how = told("cutting force",
                  {term(at.c_str(), "ln N/mm2", options.prior[0], fit, 0), term("mc", "", options.prior[1], fit, 1)},
-                 rows, fit);
+                 rows, options, fit);
   return out;
 }
 
@@ -138,7 +148,7 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
   std::vector<CorrectedTerm> terms;
   const char* names[] = {"ln life", "exponent of speed", "exponent of feed", "exponent of depth"};
   for (std::size_t i = 0; i < 4; ++i) terms.push_back(term(names[i], i == 0 ? "ln min" : "", options.prior[i], fit, i));
-  return LifeCorrection{std::move(law), told("tool life", std::move(terms), rows, fit)};
+  return LifeCorrection{std::move(law), told("tool life", std::move(terms), rows, options, fit)};
 }
 
 namespace {
@@ -169,7 +179,7 @@ std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples) 
   return TimeCorrection{told("time",
                              {term("ln(observed / planned) at blocks of 0.1 s", "", options.prior[0], fit, 0),
                               term("per ln of the block's time", "", options.prior[1], fit, 1)},
-                             rows, fit)};
+                             rows, options, fit)};
 }
 
 double BoreCorrection::deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const {
@@ -194,7 +204,7 @@ std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples)
                              {term("deviation at 0.05 mm per turn and 4 D", "mm", any, fit, 0),
                               term("per ln of the feed", "mm", any, fit, 1),
                               term("per ln of the stick-out", "mm", any, fit, 2)},
-                             rows, fit)};
+                             rows, options, fit)};
 }
 
 model::WorkMaterial corrected(model::WorkMaterial material, const Corrections& corrections) {

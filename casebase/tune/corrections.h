@@ -24,6 +24,12 @@ struct Corrected {
   std::string model;  ///< "cutting force", "tool life", "time", "size of bores"
   std::vector<CorrectedTerm> terms;
   std::size_t cases = 0, groups = 0, doubted = 0;  ///< doubted: those that weigh less than half
+  /// Each edge or part predicted from the others: rms of the error (of the logarithm; of bores in mm), and the
+  /// share within the stated interval of 90 %. Nothing where there are fewer than three of them, or more than 300.
+  struct LeftOutFigures {
+    double rms = 0.0, within_90 = 0.0;
+  };
+  std::optional<LeftOutFigures> left_out;
   Regression fit;
 };
 

@@ -32,6 +32,9 @@ std::string edge_of(const From& f) {
 bool positive(double v) { return std::isfinite(v) && v > 0.0; }
 
 double limit_of(const PlannedStep& p, Watched w) {
+  // A rough step leaves an allowance: size and surface are asked of the step that takes it off.
+  const bool rough = p.step.asked.operation.find("ROUGH") != std::string::npos;
+  if (rough && (w == Watched::kSize || w == Watched::kFinish)) return 0.0;
   switch (w) {
     case Watched::kForce: return p.step.predicted.peak_force_n;
     case Watched::kPower: return p.power_limit_w;

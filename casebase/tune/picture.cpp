@@ -14,6 +14,7 @@ namespace {
 constexpr double kWidth = 900.0, kHeight = 470.0, kPanel = 350.0, kTop = 60.0, kTall = 300.0, kLeft = 60.0,
                  kGap = 90.0;
 constexpr double kMostY = 1.6;
+constexpr std::size_t kLine = 120;  // characters
 // Told apart by the colour-blind, as in the project's other plots.
 constexpr std::array<std::string_view, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
                                                       "#cc79a7", "#e69f00", "#56b4e9"};
@@ -105,8 +106,12 @@ std::string picture_of(const std::string& title, const Advice& advice, std::span
       "font-family=\"Helvetica,Arial,sans-serif\" font-size=\"12\">\n"
       "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#fff\"/>\n",
       kWidth, kHeight);
-  out += words(kLeft, 22.0, title, "font-size=\"14\" font-weight=\"bold\"");
-  out += words(kLeft, 42.0, advice.why);
+  out += words(kLeft, 20.0, title, "font-size=\"14\" font-weight=\"bold\"");
+  // Two lines: at the last blank before the width is used up.
+  const std::size_t cut = advice.why.size() <= kLine ? advice.why.size() : advice.why.rfind(' ', kLine);
+  out += words(kLeft, 38.0, std::string_view(advice.why).substr(0, cut), "font-size=\"11\"");
+  if (cut < advice.why.size())
+    out += words(kLeft, 52.0, std::string_view(advice.why).substr(cut + 1), "font-size=\"11\"");
   out += panel_of(kLeft, by_speed, advice, false);
   out += panel_of(kLeft + kPanel + kGap, by_feed, advice, true);
   double x = kLeft;

@@ -74,15 +74,6 @@ VectorXd covariances_with(const std::vector<Row>& rows, std::span<const double> 
 
 double normal_probability(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-double normal_quantile(double probability) {
-  double low = -40.0, high = 40.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (normal_probability(middle) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 struct Process::Impl {
   std::vector<Row> rows;
   std::vector<PriorTerm> prior;

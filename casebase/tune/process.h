@@ -88,8 +88,7 @@ class FailureProcess {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Of the normal distribution: P(Z <= z), and z of a probability between 0 and 1.
+/// P(Z <= z) of the normal distribution.
 [[nodiscard]] double normal_probability(double z);
-[[nodiscard]] double normal_quantile(double probability);
 
 }  // namespace capstan::casebase::tune

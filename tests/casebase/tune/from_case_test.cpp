@@ -7,11 +7,11 @@
 namespace capstan::casebase::tune {
 namespace {
 
-/// A pocket's rough step as planned: 120 m/min, 0.06 mm, proved with 900 N.
+/// A pocket's finish step as planned: 120 m/min, 0.06 mm, proved with 900 N.
 PlannedStep planned() {
   PlannedStep p;
   Case& c = p.step;
-  c.asked.operation = "BOTTOM_AND_SIDE_ROUGH_MILLING";
+  c.asked.operation = "BOTTOM_AND_SIDE_FINISH_MILLING";
   c.asked.material_group = "P/mild_steel";
   c.asked.tool_class = "carbide/endmill";
   c.asked.machine_class = "mill";
@@ -31,7 +31,7 @@ PlannedStep planned() {
   c.predicted.power_w = 600.0;
   c.predicted.tool_life_min = 15.0;
   c.from.plan_hash = "abc";
-  c.from.workingstep = "POCKET area_rough";
+  c.from.workingstep = "POCKET area_finish";
   p.force_margin = 1.8;
   p.power_limit_w = 3000.0;
   return p;
@@ -66,6 +66,15 @@ TEST(HandbookOf, WatchesWhatIsAskedAndKnown) {
   bare.power_limit_w = 0.0;
   EXPECT_FALSE(handbook_of(bare).loads[static_cast<std::size_t>(Watched::kFinish)].watched);
   EXPECT_FALSE(handbook_of(bare).loads[static_cast<std::size_t>(Watched::kPower)].watched);
+}
+
+TEST(HandbookOf, ARoughStepIsAskedNeitherSizeNorSurface) {
+  PlannedStep rough = planned();
+  rough.step.asked.operation = "BOTTOM_AND_SIDE_ROUGH_MILLING";
+  const Handbook h = handbook_of(rough);
+  EXPECT_FALSE(h.loads[static_cast<std::size_t>(Watched::kSize)].watched);
+  EXPECT_FALSE(h.loads[static_cast<std::size_t>(Watched::kFinish)].watched);
+  EXPECT_TRUE(h.loads[static_cast<std::size_t>(Watched::kForce)].watched);
 }
 
 TEST(EvidenceOf, HoldsFiguresAgainstTheirLimits) {

@@ -33,6 +33,7 @@ struct MaterialCorrections {
   std::string material, tool;
   tune::Corrections corrections;
   tune::CorrectionHandbook handbook;
+  model::WorkMaterial card;  ///< with the corrections in it
 };
 
 std::string signed_percent(double ln) {
@@ -97,7 +98,12 @@ std::string corrections_text(const MaterialCorrections& m) {
     if (out.empty()) out = m.material + ", " + m.tool + "\n";
     out += "  " + c->model + ": " + counted(c->cases, "case", "cases") + " on " +
            counted(c->groups, "edge or part", "edges or parts") +
-           (c->doubted > 0 ? ", " + std::to_string(c->doubted) + " of them doubted" : std::string()) + "\n";
+           (c->doubted > 0 ? ", " + std::to_string(c->doubted) + " of them doubted" : std::string());
+    if (c->left_out) {
+      out += "; each left out in turn: rms " + fixed(c->left_out->rms, 3) + ", " +
+             fixed(100.0 * c->left_out->within_90, 0) + " % within the interval of 90 %";
+    }
+    out += "\n";
     std::vector<std::vector<std::string>> rows = {{"term", "handbook", "now", "unit"}};
     for (const tune::CorrectedTerm& t : c->terms) {
       rows.push_back({t.name, trimmed(t.handbook, 3) + " +- " + trimmed(t.handbook_std_dev, 3),
@@ -108,8 +114,21 @@ std::string corrections_text(const MaterialCorrections& m) {
   if (const auto& f = m.corrections.force) {
     // What of it reaches a margin: spread in the root of the sum of squares of mechanics/loads/margin.h.
     mechanics::ForceMargin before{.spread = m.handbook.force.spread}, after{.spread = f->spread};
-    out += "  margin of forces: " + fixed(before.factor(), 2) + " with the handbook's spread, " +
+    out += "  kc1.1 " + trimmed(m.card.kc11_n_mm2, 0) + " N/mm2, mc " + trimmed(m.card.mc, 3) + " (" +
+           m.card.sources.back().second + ")\n  margin of forces: " + fixed(before.factor(), 2) + " with the handbook's spread, " +
            fixed(after.factor(), 2) + " with that of the cases\n";
+  }
+  if (const auto& t = m.corrections.time) {
+    for (const double block_s : {0.02, 0.1, 1.0}) {
+      out += "  blocks of " + trimmed(block_s, 2) + " s take " + fixed(t->factor(block_s), 2) +
+             " of the planned time, +- " + fixed(100.0 * t->ln_std_dev(block_s), 0) + " %\n";
+    }
+  }
+  if (const auto& b = m.corrections.bores) {
+    for (const double ratio : {3.0, 6.0}) {
+      out += "  bores at 0.05 mm per turn, stick-out " + trimmed(ratio, 0) + " D: " +
+             fixed(b->deviation_mm(0.05, ratio), 3) + " +- " + fixed(b->std_dev_mm(0.05, ratio), 3) + " mm\n";
+    }
   }
   return out;
 }
@@ -170,6 +189,10 @@ std::string all_json(const std::vector<StepAdvice>& steps, const std::vector<Mat
       t["cases"] = c->cases;
       t["groups"] = c->groups;
       t["doubted"] = c->doubted;
+      if (c->left_out) {
+        t["left_out_rms"] = c->left_out->rms;
+        t["left_out_within_90"] = c->left_out->within_90;
+      }
       for (const tune::CorrectedTerm& term : c->terms) {
         t["terms"].push_back({{"name", term.name},
                               {"unit", term.unit},
@@ -227,7 +250,7 @@ Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase
   }
   std::vector<MaterialCorrections> out;
   for (const auto& [names, cases] : groups) {
-    MaterialCorrections m{.material = names.first, .tool = names.second, .corrections = {}, .handbook = {}};
+    MaterialCorrections m{.material = names.first, .tool = names.second, .corrections = {}, .handbook = {}, .card = {}};
     for (const model::WorkMaterial& material : *materials) {
       if (casebase::material_group_of(material) != names.first) continue;
       m.handbook.force = {material.kc11_n_mm2, material.mc, mechanics::kienzle_margin(material).spread};
@@ -236,8 +259,10 @@ Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase
       }
       m.handbook.force_margin =
           mechanics::kienzle_margin(material, {.feed_up = kUsualOverride}).factor();
+      m.card = material;
     }
     m.corrections = tune::corrections_of(cases, m.handbook);
+    m.card = tune::corrected(std::move(m.card), m.corrections);
     if (!models_of(m.corrections).empty()) out.push_back(std::move(m));
   }
   return out;
