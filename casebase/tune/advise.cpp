@@ -182,9 +182,8 @@ std::vector<Setting> settings_of(const std::vector<Evidence>& evidence) {
   std::vector<Setting> out;
   for (const Evidence& e : evidence) {
     if (!e.measured) continue;
-    const bool known = std::any_of(out.begin(), out.end(), [&](const Setting& s) {
-      return same_setting(s, e.at);
-    });
+    const bool known =
+        std::any_of(out.begin(), out.end(), [&](const Setting& s) { return same_setting(s, e.at); });
     if (!known) out.push_back(e.at);
   }
   return out;
@@ -217,11 +216,12 @@ void keep_nearest(std::vector<Evidence>& evidence, std::size_t most) {
 
 /// The settings of the trust region around one, with those already tried there. Where what is proven is too
 /// much, also all that are gentler, at a wider distance.
-std::vector<Setting> region_of(const Setting& around, const std::vector<Setting>& tried,
-                               const TuneOptions& o, bool lowered) {
+std::vector<Setting> region_of(const Setting& around, const std::vector<Setting>& tried, const TuneOptions& o,
+                               bool lowered) {
   std::vector<Setting> out;
   for (const Setting& s : tried) {
-    if (std::abs(s.ln_vc - around.ln_vc) <= o.step + 1e-9 && std::abs(s.ln_fz - around.ln_fz) <= o.step + 1e-9)
+    if (std::abs(s.ln_vc - around.ln_vc) <= o.step + 1e-9 &&
+        std::abs(s.ln_fz - around.ln_fz) <= o.step + 1e-9)
       out.push_back(s);
   }
   const int n = static_cast<int>(std::floor(o.step / o.grid + 1e-9));
@@ -244,13 +244,15 @@ std::string percent_of(double ln) { return fmt::format("{:+.0f} %", 100.0 * (std
 
 std::string reason_of(const Advice& a, const TuneOptions& o) {
   if (a.heard == 0) return "no case is near: the handbook's values hold";
-  const std::string base = fmt::format("{} on {} and {}", a.heard == 1 ? "1 case" : fmt::format("{} cases", a.heard),
-                                       a.edges == 1 ? "1 edge" : fmt::format("{} edges", a.edges),
-                                       a.days == 1 ? "1 day" : fmt::format("{} days", a.days));
+  const std::string base =
+      fmt::format("{} on {} and {}", a.heard == 1 ? "1 case" : fmt::format("{} cases", a.heard),
+                  a.edges == 1 ? "1 edge" : fmt::format("{} edges", a.edges),
+                  a.days == 1 ? "1 day" : fmt::format("{} days", a.days));
   if (a.lowered && a.trial.at == a.proven.at) {
-    return fmt::format("{}: the present values would exceed a limit ({}) too often, and no other speed or feed near "
-                       "mends it; take another depth, width or tool",
-                       base, a.binding);
+    return fmt::format(
+        "{}: the present values would exceed a limit ({}) too often, and no other speed or feed near "
+        "mends it; take another depth, width or tool",
+        base, a.binding);
   }
   if (a.lowered) {
     return fmt::format("{}: the present values would exceed a limit ({}) too often; {} speed, {} feed", base,
@@ -261,22 +263,21 @@ std::string reason_of(const Advice& a, const TuneOptions& o) {
                        100.0 * (std::exp(o.step) - 1.0), 100.0 * (1.0 - o.probability),
                        a.binding.empty() ? "" : " (" + a.binding + ")");
   }
-  return fmt::format("{}: {} speed, {} feed is expected to take {:.3g} of the handbook's time; proven after {} "
-                     "good parts on {} edges or days",
-                     base, percent_of(a.trial.at.ln_vc), percent_of(a.trial.at.ln_fz), a.trial.time, o.repeats,
-                     o.edges);
+  return fmt::format(
+      "{}: {} speed, {} feed is expected to take {:.3g} of the handbook's time; proven after {} "
+      "good parts on {} edges or days",
+      base, percent_of(a.trial.at.ln_vc), percent_of(a.trial.at.ln_fz), a.trial.time, o.repeats, o.edges);
 }
 
 /// The limit that a step further in speed and feed would break first; empty where none would.
 std::string binding_of(const Learnt& learnt, const Gate& gate, const Setting& at, double grid) {
   const SettingView further = learnt.at({at.ln_vc + 2.0 * grid, at.ln_fz + 2.0 * grid});
-  const auto worst = std::max_element(
-      further.limits.begin(), further.limits.end(),
-      [](const LimitView& a, const LimitView& b) { return a.probability < b.probability; });
+  const auto worst =
+      std::max_element(further.limits.begin(), further.limits.end(),
+                       [](const LimitView& a, const LimitView& b) { return a.probability < b.probability; });
   if (worst != further.limits.end() && !gate.soft(further)) return worst->name;
   return gate.hard(further) ? "" : "the planner's own limits";
 }
-
 
 }  // namespace
 
@@ -354,7 +355,8 @@ std::vector<LinePoint> along(std::span<const Evidence> evidence, const Handbook&
   const int points = 45;
   for (int i = 0; i < points; ++i) {
     const double ln = low + (high - low) * i / (points - 1);
-    out.push_back({std::exp(ln), learnt.at(of_feed ? Setting{through.ln_vc, ln} : Setting{ln, through.ln_fz})});
+    out.push_back(
+        {std::exp(ln), learnt.at(of_feed ? Setting{through.ln_vc, ln} : Setting{ln, through.ln_fz})});
   }
   return out;
 }

@@ -17,8 +17,8 @@ namespace capstan::casebase::tune {
 struct LoadPrior {
   bool watched = false;  ///< there is such a limit
   PriorTerm ln_load, by_vc, by_fz, by_wear;
-  double noise = 0.1;    ///< std dev of ln load from part to part on one edge
-  double edges = 0.1;    ///< from edge to edge
+  double noise = 0.1;  ///< std dev of ln load from part to part on one edge
+  double edges = 0.1;  ///< from edge to edge
 };
 
 /// The limits that hold whatever a case says: the planner's own, margins included.
@@ -43,12 +43,12 @@ enum class Learner : unsigned char { kRegression, kProcess };
 
 struct TuneOptions {
   Learner learner = Learner::kProcess;
-  double probability = 0.05;   ///< that one part exceeds any of its limits, at most
-  double step = 0.14;          ///< trust region: ln of the largest change from what is proven (15 %)
-  double grid = 0.02;          ///< distance of the settings that are looked at, in ln
-  double least_gain = 0.005;   ///< share of the time below which nothing new is tried
-  std::size_t repeats = 3;     ///< good cuts that prove a setting,
-  std::size_t edges = 2;       ///< on so many edges or days
+  double probability = 0.05;     ///< that one part exceeds any of its limits, at most
+  double step = 0.14;            ///< trust region: ln of the largest change from what is proven (15 %)
+  double grid = 0.02;            ///< distance of the settings that are looked at, in ln
+  double least_gain = 0.005;     ///< share of the time below which nothing new is tried
+  std::size_t repeats = 3;       ///< good cuts that prove a setting,
+  std::size_t edges = 2;         ///< on so many edges or days
   std::size_t most_cases = 150;  ///< the nearest of them are heard
   std::optional<long> today;     ///< days since 1970-01-01
 };
@@ -73,9 +73,10 @@ struct SettingView {
 /// What tuning would change.
 struct Advice {
   SettingView handbook = {};  ///< what is now known of the handbook's own values
-  SettingView proven = {};  ///< the fastest that repeats have shown: planning's start value. The handbook's at first
-  SettingView trial = {};  ///< the next to be cut; the proven one where nothing better is safe
-  bool lowered = false;  ///< evidence speaks against the proven setting: `trial` is gentler, cut that
+  SettingView proven =
+      {};  ///< the fastest that repeats have shown: planning's start value. The handbook's at first
+  SettingView trial = {};    ///< the next to be cut; the proven one where nothing better is safe
+  bool lowered = false;      ///< evidence speaks against the proven setting: `trial` is gentler, cut that
   std::string binding = {};  ///< the limit that keeps the trial from more; empty: none of those watched
   std::string why = {};      ///< in a sentence
   std::size_t heard = 0, edges = 0, days = 0;

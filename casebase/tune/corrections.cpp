@@ -20,16 +20,16 @@ namespace {
 constexpr double kMcSpread = 0.06;
 // 1 / n of carbide: 2 to 5 (Kalpakjian & Schmid: n 0.2 to 0.5); of feed and depth about 1 and less.
 constexpr double kLifeBySpeedSpread = 1.0, kLifeByFeedSpread = 0.7, kLifeByDepthSpread = 0.7;
-constexpr double kLifeSpread = 0.5;    // ln T0 of a table. Default, unsourced
-constexpr double kLifeScatter = 0.3;   // as mechanics/life
-constexpr double kForceNoise = 0.08;   // std dev of ln kc between cuts of one edge. Default, unsourced
-constexpr double kForceEdges = 0.08;   // and between edges. Default, unsourced
+constexpr double kLifeSpread = 0.5;   // ln T0 of a table. Default, unsourced
+constexpr double kLifeScatter = 0.3;  // as mechanics/life
+constexpr double kForceNoise = 0.08;  // std dev of ln kc between cuts of one edge. Default, unsourced
+constexpr double kForceEdges = 0.08;  // and between edges. Default, unsourced
 // Wear runs in fast and goes on slower: an exponent below 1. Default, unsourced.
 constexpr double kWearByTime = 0.7, kWearByTimeSpread = 0.3;
-constexpr double kWearNoise = 0.1;      // std dev of ln VB of a reading. Default, unsourced
+constexpr double kWearNoise = 0.1;        // std dev of ln VB of a reading. Default, unsourced
 constexpr double kLeastReadingMm = 0.05;  // less is the scatter of the reading
 constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;  // edges or parts
-constexpr double kZ90 = 1.6449;  // of the normal distribution, both sides
+constexpr double kZ90 = 1.6449;                               // of the normal distribution, both sides
 constexpr double kBlock0S = 0.1, kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
 constexpr double kFeed0Mm = 0.05, kStickOut0 = 4.0;
 constexpr double kBoreSpreadMm = 0.1, kBoreNoiseMm = 0.02;
@@ -88,9 +88,10 @@ std::optional<ForceCorrection> correct_force(std::span<const ForceSample> sample
   const std::vector<double> here = {1.0, 0.0};
   out.spread = std::exp(fit.predictive_std_dev_at(here));
   const std::string at = fmt::format("ln kc at h = {:.3g} mm", std::exp(ln_h));
-  out.how = told("cutting force",
-                 {term(at.c_str(), "ln N/mm2", options.prior[0], fit, 0), term("mc", "", options.prior[1], fit, 1)},
-                 rows, options, fit);
+  out.how =
+      told("cutting force",
+           {term(at.c_str(), "ln N/mm2", options.prior[0], fit, 0), term("mc", "", options.prior[1], fit, 1)},
+           rows, options, fit);
   return out;
 }
 
@@ -137,7 +138,9 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
                                   .noise = scatter};
   const Regression fit = regress(rows, 4, options);
   // Life never grows with speed; what grows with feed or depth is left out of the law.
-  const auto exponent = [&](std::size_t i) { return fit.coefficient[i] < 0.0 ? -1.0 / fit.coefficient[i] : 0.0; };
+  const auto exponent = [&](std::size_t i) {
+    return fit.coefficient[i] < 0.0 ? -1.0 / fit.coefficient[i] : 0.0;
+  };
   law.life_min = std::exp(fit.coefficient[0]);
   law.n = fit.coefficient[1] < 0.0 ? exponent(1) : handbook.n;
   law.p = exponent(2);
@@ -147,7 +150,8 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
   law.source = fmt::format("{} cases on {} edges", rows.size(), fit.groups);
   std::vector<CorrectedTerm> terms;
   const char* names[] = {"ln life", "exponent of speed", "exponent of feed", "exponent of depth"};
-  for (std::size_t i = 0; i < 4; ++i) terms.push_back(term(names[i], i == 0 ? "ln min" : "", options.prior[i], fit, i));
+  for (std::size_t i = 0; i < 4; ++i)
+    terms.push_back(term(names[i], i == 0 ? "ln min" : "", options.prior[i], fit, i));
   return LifeCorrection{std::move(law), told("tool life", std::move(terms), rows, options, fit)};
 }
 
@@ -200,11 +204,11 @@ std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples)
   const RegressionOptions options{
       .prior = {any, any, any}, .noise = kBoreNoiseMm, .between = 0.5 * kBoreNoiseMm};
   const Regression fit = regress(rows, 3, options);
-  return BoreCorrection{told("size of bores",
-                             {term("deviation at 0.05 mm per turn and 4 D", "mm", any, fit, 0),
-                              term("per ln of the feed", "mm", any, fit, 1),
-                              term("per ln of the stick-out", "mm", any, fit, 2)},
-                             rows, options, fit)};
+  return BoreCorrection{told(
+      "size of bores",
+      {term("deviation at 0.05 mm per turn and 4 D", "mm", any, fit, 0),
+       term("per ln of the feed", "mm", any, fit, 1), term("per ln of the stick-out", "mm", any, fit, 2)},
+      rows, options, fit)};
 }
 
 model::WorkMaterial corrected(model::WorkMaterial material, const Corrections& corrections) {
@@ -218,7 +222,8 @@ model::WorkMaterial corrected(model::WorkMaterial material, const Corrections& c
     material.sources.emplace_back("mc", from);
   }
   if (const auto& l = corrections.life) {
-    std::erase_if(material.life, [&](const model::ToolLifeLaw& old) { return old.substrate == l->law.substrate; });
+    std::erase_if(material.life,
+                  [&](const model::ToolLifeLaw& old) { return old.substrate == l->law.substrate; });
     material.life.insert(material.life.begin(), l->law);
   }
   return material;

@@ -24,8 +24,9 @@ struct Corrected {
   std::string model;  ///< "cutting force", "tool life", "time", "size of bores"
   std::vector<CorrectedTerm> terms;
   std::size_t cases = 0, groups = 0, doubted = 0;  ///< doubted: those that weigh less than half
-  /// Each edge or part predicted from the others: rms of the error (of the logarithm; of bores in mm), and the
-  /// share within the stated interval of 90 %. Nothing where there are fewer than three of them, or more than 300.
+  /// Each edge or part predicted from the others: rms of the error (of the logarithm; of bores in mm), and
+  /// the share within the stated interval of 90 %. Nothing where there are fewer than three of them, or more
+  /// than 300.
   struct LeftOutFigures {
     double rms = 0.0, within_90 = 0.0;
   };
@@ -69,7 +70,8 @@ struct LifeSample {
 };
 /// The extended Taylor law as exponents of the life, and what the cases make of it.
 struct LifeCorrection {
-  model::ToolLifeLaw law;  ///< scatter: of a further edge, the law's own uncertainty at its reference included
+  model::ToolLifeLaw
+      law;  ///< scatter: of a further edge, the law's own uncertainty at its reference included
   Corrected how;
 };
 /// `handbook`: v0 and life at v0; n; h0, a0, p, q where they are known. Where speed, feed or depth do not

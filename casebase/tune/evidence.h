@@ -34,12 +34,12 @@ struct Evidence {
   double worn = 0.0;              ///< wear of the edge before the cut over what is allowed; not known: 0
   std::optional<double> ln_time;  ///< time over the one that is planned at the handbook's values
   std::array<std::optional<double>, kWatchedCount> ln_load = {};  ///< observed over limit
-  bool failed = false;   ///< chatter, breakage, or a bad verdict
+  bool failed = false;                                            ///< chatter, breakage, or a bad verdict
   bool judged = true;    ///< somebody or some instrument said whether it went well
   bool measured = true;  ///< neither simulated nor entered by hand
   std::string source;    ///< rows of one source are one observation
   std::string machine;
-  std::string edge;        ///< the tool instance; empty: not known, and all of those are taken as one edge
+  std::string edge;         ///< the tool instance; empty: not known, and all of those are taken as one edge
   std::optional<long> day;  ///< days since 1970-01-01; not known: no day of its own
 };
 

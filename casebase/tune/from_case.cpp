@@ -13,11 +13,12 @@
 namespace capstan::casebase::tune {
 namespace {
 
-// How loads depend on speed, feed and wear before anything was cut, beside what the models say: std devs of the
-// exponents. Default, unsourced, unless a line says more.
+// How loads depend on speed, feed and wear before anything was cut, beside what the models say: std devs of
+// the exponents. Default, unsourced, unless a line says more.
 constexpr double kForceExponentSpread = 0.15;
-constexpr double kWornForce = 1.3, kWornForceSpread = 0.15;  // Dietrich & Tschaetsch, as mechanics/constants.h
-constexpr double kUsualShare = 0.5, kUsualSpread = 0.6;      // of size and surface in what is asked
+constexpr double kWornForce = 1.3,
+                 kWornForceSpread = 0.15;                // Dietrich & Tschaetsch, as mechanics/constants.h
+constexpr double kUsualShare = 0.5, kUsualSpread = 0.6;  // of size and surface in what is asked
 // Ra of measured turning hardly follows f^2: exponents 0.18 to 0.52 against 2 by geometry.
 constexpr double kRaByFeed = 1.2, kRaByFeedSpread = 0.5;
 constexpr double kWearSpread = 0.4;
@@ -36,11 +37,16 @@ double limit_of(const PlannedStep& p, Watched w) {
   const bool rough = p.step.asked.operation.find("ROUGH") != std::string::npos;
   if (rough && (w == Watched::kSize || w == Watched::kFinish)) return 0.0;
   switch (w) {
-    case Watched::kForce: return p.step.predicted.peak_force_n;
-    case Watched::kPower: return p.power_limit_w;
-    case Watched::kSize: return 0.5 * p.step.asked.tolerance_mm;
-    case Watched::kFinish: return p.step.asked.asked_ra_um;
-    case Watched::kWear: return kAllowedWearMm;
+    case Watched::kForce:
+      return p.step.predicted.peak_force_n;
+    case Watched::kPower:
+      return p.power_limit_w;
+    case Watched::kSize:
+      return 0.5 * p.step.asked.tolerance_mm;
+    case Watched::kFinish:
+      return p.step.asked.asked_ra_um;
+    case Watched::kWear:
+      return kAllowedWearMm;
   }
   return 0.0;
 }
@@ -71,7 +77,8 @@ std::optional<long> day_of(const std::string& time_utc) {
   if (!all(text, text + 4, year) || !all(text + 5, text + 7, month) || !all(text + 8, text + 10, day)) {
     return std::nullopt;
   }
-  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{month}, std::chrono::day{day}};
+  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{month},
+                                         std::chrono::day{day}};
   if (!date.ok()) return std::nullopt;
   return std::chrono::sys_days{date}.time_since_epoch().count();
 }
@@ -127,7 +134,8 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   const Key theirs = key_of(c.asked), ours = key_of(p.step.asked);
   const Point a = point_of(theirs), b = point_of(ours);
   const unsigned both = theirs.known & ours.known;
-  for (std::size_t i = 0; i < kDimensions; ++i) e.question.push_back((both >> i & 1U) != 0 ? a[i] - b[i] : 0.0);
+  for (std::size_t i = 0; i < kDimensions; ++i)
+    e.question.push_back((both >> i & 1U) != 0 ? a[i] - b[i] : 0.0);
   const double wider = positive(c.asked.cutter_diameter_mm) && positive(p.step.asked.cutter_diameter_mm)
                            ? c.asked.cutter_diameter_mm / p.step.asked.cutter_diameter_mm
                            : 1.0;

@@ -21,17 +21,17 @@ inline constexpr double kAllowedWearMm = 0.3;
 /// A step as it is planned now, without cases: what cases are held against.
 struct PlannedStep {
   Case step;  ///< its question, its bound speed and feed, what is expected of it: `case_of` of the plan
-  double force_margin = 1.0;  ///< factor in its predicted loads, on those of a sharp edge (model::StepLoads)
-  double force_spread = 1.5;  ///< factor of one standard deviation of its forces (mechanics::ForceMargin)
+  double force_margin = 1.0;   ///< factor in its predicted loads, on those of a sharp edge (model::StepLoads)
+  double force_spread = 1.5;   ///< factor of one standard deviation of its forces (mechanics::ForceMargin)
   double power_limit_w = 0.0;  ///< of the spindle at this speed; 0: not known
   double mc = 0.25;            ///< Kienzle's exponent
   double taylor_n = 0.25;
   HardLimits hard;  ///< of the planner; empty: nothing is raised
 };
 
-/// Of a force the limit is the one that the plan was proved with, its margin included: no case lifts it. Power
-/// against the spindle, size against half the tolerance, roughness against what is asked, wear at the end
-/// against `kAllowedWearMm`; what is not asked or not known is not watched.
+/// Of a force the limit is the one that the plan was proved with, its margin included: no case lifts it.
+/// Power against the spindle, size against half the tolerance, roughness against what is asked, wear at the
+/// end against `kAllowedWearMm`; what is not asked or not known is not watched.
 [[nodiscard]] Handbook handbook_of(const PlannedStep& planned);
 
 /// A case as evidence on a step.
@@ -49,9 +49,9 @@ struct CorrectionHandbook {
   double force_margin = 1.0;
   model::ToolLifeLaw life;  ///< n and life 0: not known, no correction
 };
-/// The corrections that measured cases of one material and tool class make. A specific force is the handbook's
-/// at the mean chip of the case, times the observed peak force over the predicted one without its margin: which
-/// teeth are in the cut, and where, is then the model's in both.
+/// The corrections that measured cases of one material and tool class make. A specific force is the
+/// handbook's at the mean chip of the case, times the observed peak force over the predicted one without its
+/// margin: which teeth are in the cut, and where, is then the model's in both.
 [[nodiscard]] Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook);
 
 }  // namespace capstan::casebase::tune

@@ -23,11 +23,20 @@ std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
   return out;
@@ -42,11 +51,13 @@ struct Panel {
   [[nodiscard]] double x(double multiplier) const {
     return left + kPanel * std::log(multiplier / low) / std::log(high / low);
   }
-  [[nodiscard]] static double y(double v) { return kTop + kTall * (1.0 - std::clamp(v, 0.0, kMostY) / kMostY); }
+  [[nodiscard]] static double y(double v) {
+    return kTop + kTall * (1.0 - std::clamp(v, 0.0, kMostY) / kMostY);
+  }
 };
 
-std::string curve(const Panel& p, std::span<const LinePoint> points, const std::function<double(const SettingView&)>& of,
-                  std::string_view style) {
+std::string curve(const Panel& p, std::span<const LinePoint> points,
+                  const std::function<double(const SettingView&)>& of, std::string_view style) {
   std::string out = "<polyline fill=\"none\" points=\"";
   for (const LinePoint& at : points) {
     if (of(at.view) > kMostY) continue;
@@ -55,11 +66,13 @@ std::string curve(const Panel& p, std::span<const LinePoint> points, const std::
   return out + fmt::format("\" {}/>\n", style);
 }
 
-std::string mark(const Panel& p, double multiplier, std::string_view name, double level, std::string_view dash) {
+std::string mark(const Panel& p, double multiplier, std::string_view name, double level,
+                 std::string_view dash) {
   if (multiplier < p.low || multiplier > p.high) return {};
   const double x = p.x(multiplier);
-  return fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#444\" {3}/>\n", x,
-                     kTop, kTop + kTall, dash) +
+  return fmt::format(
+             "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#444\" {3}/>\n", x,
+             kTop, kTop + kTall, dash) +
          words(x + 3.0, kTop + 12.0 + 13.0 * level, name, "font-size=\"11\"");
 }
 
@@ -67,12 +80,12 @@ std::string panel_of(double left, std::span<const LinePoint> points, const Advic
   if (points.empty()) return {};
   const Panel p{left, points.front().multiplier, points.back().multiplier};
   std::string out = fmt::format(
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#888\"/>\n", left,
-      kTop, kPanel, kTall);
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#888\"/>\n",
+      left, kTop, kPanel, kTall);
   for (const double v : {0.0, 0.5, 1.0, 1.5}) {
     out += words(left - 6.0, Panel::y(v) + 4.0, fmt::format("{:.1f}", v), "text-anchor=\"end\"");
-    out += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", left,
-                       left + kPanel, Panel::y(v), Panel::y(v), v == 1.0 ? "#c00" : "#ddd");
+    out += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n",
+                       left, left + kPanel, Panel::y(v), Panel::y(v), v == 1.0 ? "#c00" : "#ddd");
   }
   for (const double m : {0.6, 0.8, 1.0, 1.25, 1.6}) {
     if (m < p.low || m > p.high) continue;
@@ -84,13 +97,18 @@ std::string panel_of(double left, std::span<const LinePoint> points, const Advic
   const std::size_t limits = points.front().view.limits.size();
   for (std::size_t i = 0; i + 1 < limits; ++i) {  // the last, failure, has a probability and no load
     const std::string_view colour = kColours[i % kColours.size()];
-    out += curve(p, points, [i](const SettingView& v) { return v.limits[i].load; },
-                 fmt::format("stroke=\"{}\" stroke-width=\"2\"", colour));
-    out += curve(p, points, [i](const SettingView& v) { return v.limits[i].load_95; },
-                 fmt::format("stroke=\"{}\" stroke-width=\"1\" stroke-dasharray=\"4 3\"", colour));
+    out += curve(
+        p, points, [i](const SettingView& v) { return v.limits[i].load; },
+        fmt::format("stroke=\"{}\" stroke-width=\"2\"", colour));
+    out += curve(
+        p, points, [i](const SettingView& v) { return v.limits[i].load_95; },
+        fmt::format("stroke=\"{}\" stroke-width=\"1\" stroke-dasharray=\"4 3\"", colour));
   }
-  out += curve(p, points, [](const SettingView& v) { return v.time; }, "stroke=\"#000\" stroke-width=\"2.5\"");
-  const auto multiplier = [of_feed](const SettingView& v) { return std::exp(of_feed ? v.at.ln_fz : v.at.ln_vc); };
+  out += curve(
+      p, points, [](const SettingView& v) { return v.time; }, "stroke=\"#000\" stroke-width=\"2.5\"");
+  const auto multiplier = [of_feed](const SettingView& v) {
+    return std::exp(of_feed ? v.at.ln_fz : v.at.ln_vc);
+  };
   out += mark(p, 1.0, "handbook", 0.0, "stroke-dasharray=\"1 3\"");
   out += mark(p, multiplier(a.proven), "proven", 1.0, "stroke-width=\"1\"");
   out += mark(p, multiplier(a.trial), "trial", 2.0, "stroke-dasharray=\"6 3\"");
@@ -102,7 +120,8 @@ std::string panel_of(double left, std::span<const LinePoint> points, const Advic
 std::string picture_of(const std::string& title, const Advice& advice, std::span<const LinePoint> by_speed,
                        std::span<const LinePoint> by_feed) {
   std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\" "
       "font-family=\"Helvetica,Arial,sans-serif\" font-size=\"12\">\n"
       "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#fff\"/>\n",
       kWidth, kHeight);
@@ -117,8 +136,9 @@ std::string picture_of(const std::string& title, const Advice& advice, std::span
   double x = kLeft;
   const auto legend = [&](std::string_view name, std::string_view colour) {
     out += fmt::format(
-        "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"2.5\"/>\n", x,
-        x + 20.0, kHeight - 42.0, kHeight - 42.0, colour);
+        "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
+        "stroke-width=\"2.5\"/>\n",
+        x, x + 20.0, kHeight - 42.0, kHeight - 42.0, colour);
     out += words(x + 25.0, kHeight - 38.0, name);
     x += 40.0 + 7.0 * static_cast<double>(name.size());
   };
@@ -126,9 +146,10 @@ std::string picture_of(const std::string& title, const Advice& advice, std::span
   for (std::size_t i = 0; i + 1 < advice.trial.limits.size(); ++i) {
     legend(advice.trial.limits[i].name, kColours[i % kColours.size()]);
   }
-  out += words(kLeft, kHeight - 16.0,
-               "loads over their limits with a worn edge: expected, and dashed what 95 of 100 parts stay below",
-               "font-size=\"11\"");
+  out +=
+      words(kLeft, kHeight - 16.0,
+            "loads over their limits with a worn edge: expected, and dashed what 95 of 100 parts stay below",
+            "font-size=\"11\"");
   return out + "</svg>\n";
 }
 

@@ -150,9 +150,15 @@ ProcessSpreads scaled(const ProcessSpreads& start, const Factors& f) {
   for (std::size_t i = 0; i < kKnobs.size(); ++i) {
     const double by = std::exp(f[i]);
     switch (kKnobs[i]) {
-      case Knob::kField: out.field *= by; break;
-      case Knob::kGroup: out.group *= by; break;
-      case Knob::kNoise: out.noise *= by; break;
+      case Knob::kField:
+        out.field *= by;
+        break;
+      case Knob::kGroup:
+        out.group *= by;
+        break;
+      case Knob::kNoise:
+        out.noise *= by;
+        break;
       case Knob::kLengths:
         for (double& l : out.lengths) l *= by;
         break;
@@ -254,8 +260,8 @@ FailureProcess::FailureProcess(std::vector<Row> rows, std::vector<PriorTerm> pri
     b += m.root_curvature.asDiagonal() * k * m.root_curvature.asDiagonal();
     m.factors.compute(b);
     const VectorXd c = m.root_curvature.cwiseAbs2().cwiseProduct(latent) + m.slope;
-    const VectorXd a = c - m.root_curvature.cwiseProduct(
-                               m.factors.solve(m.root_curvature.cwiseProduct(k * c)));
+    const VectorXd a =
+        c - m.root_curvature.cwiseProduct(m.factors.solve(m.root_curvature.cwiseProduct(k * c)));
     const VectorXd next = k * a;
     const double moved = n > 0 ? (next - latent).cwiseAbs().maxCoeff() : 0.0;
     latent = next;

@@ -11,11 +11,12 @@ namespace capstan::casebase::tune {
 
 /// Standard deviations and lengths of a Gaussian process,
 ///
-///     cov(y, y') = sum_k p_k^2 x_k x'_k + field^2 Matern(x, x') + group^2 [same group] + noise^2 / weight [same row]
+///     cov(y, y') = sum_k p_k^2 x_k x'_k + field^2 Matern(x, x') + group^2 [same group] + noise^2 / weight
+///     [same row]
 ///
 /// with x_0 = 1 and p_k the std devs of the linear prior.
 struct ProcessSpreads {
-  double field = 0.0;           ///< of what is not linear; 0: none of it (Bayesian linear regression)
+  double field = 0.0;                ///< of what is not linear; 0: none of it (Bayesian linear regression)
   std::vector<double> lengths = {};  ///< one per dimension, in its unit
   double group = 0.0;
   double noise = 0.1;

@@ -118,8 +118,8 @@ Residuals residuals(std::span<const Row> rows, const std::vector<std::size_t>& g
   return out;
 }
 
-Spread spread_of(const Residuals& r, const std::vector<std::size_t>& group,
-                 const std::vector<double>& weight, double known_terms, const RegressionOptions& o) {
+Spread spread_of(const Residuals& r, const std::vector<std::size_t>& group, const std::vector<double>& weight,
+                 double known_terms, const RegressionOptions& o) {
   double within = o.noise_rows * o.noise * o.noise, within_n = o.noise_rows;
   double rows = 0.0;
   for (std::size_t i = 0; i < weight.size(); ++i) {
@@ -151,8 +151,8 @@ Spread spread_of(const Residuals& r, const std::vector<std::size_t>& group,
   }
   const double freedom = std::max(1.0, groups - known_terms);
   const double seen = std::max(0.0, between / freedom - (groups > 0.0 ? noise_share / groups : 0.0));
-  s.between = std::sqrt((o.between_groups * o.between * o.between + freedom * seen) /
-                        (o.between_groups + freedom));
+  s.between =
+      std::sqrt((o.between_groups * o.between * o.between + freedom * seen) / (o.between_groups + freedom));
   return s;
 }
 
@@ -221,7 +221,8 @@ Regression regress(std::span<const Row> rows, std::size_t terms, const Regressio
         if (base[i] > 0.0) sizes.push_back(std::abs(r.of_row[i]) * std::sqrt(std::min(1.0, base[i])));
       }
       // Few rows say little of their own scatter: what is expected beforehand is its floor.
-      const double scale = std::max(kMadToDeviation * median(sizes), std::hypot(options.noise, options.between));
+      const double scale =
+          std::max(kMadToDeviation * median(sizes), std::hypot(options.noise, options.between));
       for (std::size_t i = 0; i < rows.size(); ++i) {
         weight[i] = base[i] * robust_weight(std::abs(r.of_row[i]) / scale, turn >= kHuberTurns);
       }

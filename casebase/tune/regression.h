@@ -9,10 +9,10 @@ namespace capstan::casebase::tune {
 
 /// One observation of a linear model: y = x . b + (what its group has in common) + noise.
 struct Row {
-  std::vector<double> x;    ///< the terms; the constant is one of them, where there is one
-  double y = 0.0;           ///< most often a logarithm
-  double weight = 1.0;      ///< against the others; 0: not heard
-  std::size_t group = 0;    ///< rows of one edge, one plate, one source: they do not count as independent
+  std::vector<double> x;  ///< the terms; the constant is one of them, where there is one
+  double y = 0.0;         ///< most often a logarithm
+  double weight = 1.0;    ///< against the others; 0: not heard
+  std::size_t group = 0;  ///< rows of one edge, one plate, one source: they do not count as independent
 };
 
 /// What is held of one coefficient before anything is observed. The default says nothing of it.
@@ -23,11 +23,11 @@ struct PriorTerm {
 
 struct RegressionOptions {
   std::vector<PriorTerm> prior = {};  ///< one per term; missing ones say nothing
-  double noise = 0.1;            ///< std dev of one row that is expected beforehand
-  double noise_rows = 2.0;       ///< how many rows that expectation is worth
-  double between = 0.0;          ///< std dev between groups that is expected beforehand
-  double between_groups = 2.0;   ///< how many groups that expectation is worth
-  bool robust = true;            ///< Huber's weights, then Tukey's: rows far from all others are not heard
+  double noise = 0.1;                 ///< std dev of one row that is expected beforehand
+  double noise_rows = 2.0;            ///< how many rows that expectation is worth
+  double between = 0.0;               ///< std dev between groups that is expected beforehand
+  double between_groups = 2.0;        ///< how many groups that expectation is worth
+  bool robust = true;  ///< Huber's weights, then Tukey's: rows far from all others are not heard
 };
 
 /// A fitted model with its uncertainty.
@@ -38,7 +38,7 @@ struct Regression {
   double between = 0.0;            ///< std dev between groups
   double effective_rows = 0.0;     ///< sum of the weights that the rows ended with, as shares of the largest
   std::size_t groups = 0;
-  std::vector<double> weight;      ///< of each row in the end, 0 to 1: how far it was believed
+  std::vector<double> weight;  ///< of each row in the end, 0 to 1: how far it was believed
 
   [[nodiscard]] double at(std::span<const double> x) const;
   /// Of the mean at x, by the coefficients alone.

@@ -28,22 +28,32 @@ double planned_s(const PlannedJob& j, double vc, double fz) {
 
 double limit_of(const PlannedJob& j, Watched w) {
   switch (w) {
-    case Watched::kForce: return j.job.force_n;
-    case Watched::kPower: return j.job.power_w;
-    case Watched::kSize: return j.job.size_mm;
-    case Watched::kFinish: return j.job.ra_um;
-    case Watched::kWear: return j.job.wear_mm;
+    case Watched::kForce:
+      return j.job.force_n;
+    case Watched::kPower:
+      return j.job.power_w;
+    case Watched::kSize:
+      return j.job.size_mm;
+    case Watched::kFinish:
+      return j.job.ra_um;
+    case Watched::kWear:
+      return j.job.wear_mm;
   }
   return 1.0;
 }
 
 double& load_of(Loads& l, Watched w) {
   switch (w) {
-    case Watched::kForce: return l.force_n;
-    case Watched::kPower: return l.power_w;
-    case Watched::kSize: return l.size_mm;
-    case Watched::kFinish: return l.ra_um;
-    case Watched::kWear: break;
+    case Watched::kForce:
+      return l.force_n;
+    case Watched::kPower:
+      return l.power_w;
+    case Watched::kSize:
+      return l.size_mm;
+    case Watched::kFinish:
+      return l.ra_um;
+    case Watched::kWear:
+      break;
   }
   return l.wear_mm;
 }
@@ -72,8 +82,9 @@ void expect(PlannedJob& j, const model::StepLoads& loads) {
   const double ra = kFloorRaUm + 257.0 * optimise::kRoughnessOverGeometry * loads.surface_rz_mm;
   tune::LoadPrior& finish = prior(Watched::kFinish, ra, 0.6);
   finish = {true, finish.ln_load, {0.0, 0.2}, {1.2, 0.5}, {0.2, 0.2}, 0.12, 0.2};
-  const double use = j.job.parts_per_edge * (60.0 * j.job.length_mm / (rpm_of(j, j.vc_m_min) *
-                                             j.question.cutter.teeth * j.fz_mm)) / 60.0 / j.tables.life_min;
+  const double use = j.job.parts_per_edge *
+                     (60.0 * j.job.length_mm / (rpm_of(j, j.vc_m_min) * j.question.cutter.teeth * j.fz_mm)) /
+                     60.0 / j.tables.life_min;
   tune::LoadPrior& wear = prior(Watched::kWear, use * j.job.wear_mm, 0.4);
   const double n = mechanics::kTaylorExponentCarbide;
   wear = {true, wear.ln_load, {1.0 / n - 1.0, 0.8}, {-0.4, 0.4}, {0.0, 0.05}, 0.12, mechanics::kLifeScatter};
@@ -161,8 +172,8 @@ PlannedJob drawn_job(std::uint64_t seed) {
   j.job.force_n = loads->peak_force_n * draw.uniform(1.02, 1.8);
   j.job.power_w = loads->power_w * draw.uniform(1.02, 2.0) + 200.0;  // and what the spindle takes idling
   j.job.size_mm = std::max(0.01, loads->deflection_mm * draw.uniform(1.02, 2.0));
-  j.job.ra_um = std::max(0.8, 257.0 * optimise::kRoughnessOverGeometry * loads->surface_rz_mm *
-                                  draw.uniform(1.5, 4.0));
+  j.job.ra_um =
+      std::max(0.8, 257.0 * optimise::kRoughnessOverGeometry * loads->surface_rz_mm * draw.uniform(1.5, 4.0));
   const double cut_min = j.job.length_mm / (n * c.teeth * j.fz_mm);
   j.job.parts_per_edge = std::max(1, static_cast<int>(0.4 * j.tables.life_min / cut_min));
   q.peak_force_limit_n = j.job.force_n;
@@ -210,8 +221,8 @@ Campaign run_campaign(std::uint64_t seed, Arm arm, int parts) {
       out.last = tune::advise(out.evidence, planned.handbook, options);
       at = out.last.trial.at;
     }
-    const CutPart part =
-        shop.cut(planned.job, planned.vc_m_min * std::exp(at.ln_vc), planned.fz_mm * std::exp(at.ln_fz), edge);
+    const CutPart part = shop.cut(planned.job, planned.vc_m_min * std::exp(at.ln_vc),
+                                  planned.fz_mm * std::exp(at.ln_fz), edge);
     out.parts.push_back({.at = at,
                          .time_s = part.time_s,
                          .planner_excess = planner_excess(planned, at),

@@ -56,8 +56,8 @@ struct Campaign {
 struct ArmSummary {
   std::vector<double> time_ratio;  ///< of each sound shop: mean of its last ten parts over the handbook's
   std::vector<std::vector<double>> ratio_by_part;  ///< of each sound shop, part by part
-  int parts = 0, over = 0;           ///< in sound shops: parts, and those that exceeded a hidden limit
-  int shops_over = 0;                ///< sound shops with any such part
+  int parts = 0, over = 0;                  ///< in sound shops: parts, and those that exceeded a hidden limit
+  int shops_over = 0;                       ///< sound shops with any such part
   int unsound_parts = 0, unsound_over = 0;  ///< in the others
   double worst_planner_excess = -1.0;       ///< of all settings but the handbook's own, in all shops
   [[nodiscard]] double mean_ratio() const;  ///< geometric

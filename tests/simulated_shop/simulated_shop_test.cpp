@@ -47,8 +47,7 @@ TEST(SimulatedShopProperty, HiddenLimitsAreExceededNoMoreOftenThanStated) {
 TEST(SimulatedShopProperty, WhereTheHandbookItselfIsTooMuchTheTunerIsNotWorse) {
   const Summary& all = shops();
   for (const ArmSummary& arm : all.arms) {
-    EXPECT_LE(arm.unsound_over,
-              all.arms.front().unsound_over + TuneOptions{}.probability * arm.unsound_parts)
+    EXPECT_LE(arm.unsound_over, all.arms.front().unsound_over + TuneOptions{}.probability * arm.unsound_parts)
         << "of " << arm.unsound_parts;
   }
 }
@@ -85,7 +84,7 @@ TEST(SimulatedShop, ADeepEnoughCutChatters) {
 }
 
 TEST(ClopperPearson, GivesTheTabulatedBounds) {
-  EXPECT_NEAR(clopper_pearson_upper(0, 59), 0.0495, 0.0005);  // 1 - 0.05^(1/59)
+  EXPECT_NEAR(clopper_pearson_upper(0, 59), 0.0495, 0.0005);         // 1 - 0.05^(1/59)
   EXPECT_NEAR(clopper_pearson_upper(2, 20, 0.975), 0.3170, 0.0005);  // Clopper and Pearson 1934, chart
 }
 

@@ -65,8 +65,8 @@ TEST(CorrectForce, APoisonedForceIsDoubted) {
 }
 
 TEST(CorrectLife, FindsTaylorsExponentAndKeepsWhatDoesNotVary) {
-  const model::ToolLifeLaw handbook{.substrate = "carbide", .v0_m_min = 150.0, .life_min = 15.0, .n = 0.25,
-                                    .q = 2.0, .source = {}};
+  const model::ToolLifeLaw handbook{
+      .substrate = "carbide", .v0_m_min = 150.0, .life_min = 15.0, .n = 0.25, .q = 2.0, .source = {}};
   std::vector<LifeSample> samples;
   for (std::size_t i = 0; i < 16; ++i) {
     const double v = 100.0 + 10.0 * static_cast<double>(i);

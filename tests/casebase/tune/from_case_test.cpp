@@ -129,7 +129,8 @@ TEST(CorrectionsOf, MeasuredCasesAlone) {
   ASSERT_TRUE(c.force);
   EXPECT_EQ(c.force->how.groups, 3U);
   // 450 N were observed where 900 / 1.8 were expected.
-  EXPECT_NEAR(c.force->kc11_n_mm2 * std::pow(0.03, -c.force->mc) / (1800.0 * std::pow(0.03, -0.2)), 0.9, 0.02);
+  EXPECT_NEAR(c.force->kc11_n_mm2 * std::pow(0.03, -c.force->mc) / (1800.0 * std::pow(0.03, -0.2)), 0.9,
+              0.02);
   ASSERT_TRUE(c.time);
   EXPECT_NEAR(c.time->factor(0.6), 1.1, 0.02);
   EXPECT_FALSE(c.life);

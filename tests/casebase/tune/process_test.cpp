@@ -39,8 +39,7 @@ TEST(Process, WithoutAFieldIsTheLineOfTheRegression) {
   std::vector<Row> rows = wave(9);
   const Process p(rows, kPrior, {.field = 0.0, .lengths = {1.0}, .group = 0.0, .noise = 0.3});
   for (Row& row : rows) row.x.insert(row.x.begin(), 1.0);
-  const Regression r =
-      regress(rows, 2, {.prior = kPrior, .noise = 0.3, .noise_rows = 1e9, .robust = false});
+  const Regression r = regress(rows, 2, {.prior = kPrior, .noise = 0.3, .noise_rows = 1e9, .robust = false});
   for (const double x : {-1.0, 0.2, 2.0}) {
     const std::vector<double> at = {x}, terms = {1.0, x};
     EXPECT_NEAR(p.at(at).mean, r.at(terms), 1e-6);

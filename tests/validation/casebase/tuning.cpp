@@ -12,7 +12,8 @@ namespace {
 
 using testing::ArmSummary;
 
-constexpr std::uint64_t kFirstSeed = 1;
+constexpr std::uint64_t kFirstSeed =
+    2001;  // none of which the tuner's or the shop's constants were chosen by
 constexpr int kShops = 30, kParts = 40;
 
 double quantile(std::vector<double> values, double share) {
@@ -38,7 +39,8 @@ Comparison tuning() {
         {testing::kArmNames[a], fixed(arm.mean_ratio(), 3),
          fixed(quantile(arm.time_ratio, 0.25), 3) + " and " + fixed(quantile(arm.time_ratio, 0.75), 3),
          fixed(quantile(arm.time_ratio, 0.0), 3), fixed(quantile(arm.time_ratio, 1.0), 3),
-         of(arm.over, arm.parts), fixed(100.0 * testing::clopper_pearson_upper(arm.over, arm.parts), 2) + " %",
+         of(arm.over, arm.parts),
+         fixed(100.0 * testing::clopper_pearson_upper(arm.over, arm.parts), 2) + " %",
          of(arm.shops_over, shops.sound), tuned ? fixed(1.0 + arm.worst_planner_excess, 4) : "-"});
   }
   Table unsound{{"speeds and feeds", "parts over a hidden limit"}, {}};
@@ -54,13 +56,15 @@ Comparison tuning() {
   out.headline = "time " + percent(process.mean_ratio() - 1.0) + " against the handbook's in " +
                  std::to_string(shops.sound) + " simulated shops; " + of(process.over, process.parts) +
                  " parts over a hidden limit (stated: 5 %), none over the planner's";
-  Table data{{"part", "regression", "regression_low", "regression_high", "process", "process_low", "process_high"},
-             {}};
+  Table data{
+      {"part", "regression", "regression_low", "regression_high", "process", "process_low", "process_high"},
+      {}};
   for (std::size_t k = 0; k < static_cast<std::size_t>(kParts); ++k) {
     std::vector<std::string> row = {std::to_string(k + 1)};
     for (const testing::Arm arm : {testing::Arm::kRegression, testing::Arm::kProcess}) {
       std::vector<double> ratios;
-      for (const auto& shop : shops.arms[static_cast<std::size_t>(arm)].ratio_by_part) ratios.push_back(shop[k]);
+      for (const auto& shop : shops.arms[static_cast<std::size_t>(arm)].ratio_by_part)
+        ratios.push_back(shop[k]);
       for (const double q : {0.5, 0.25, 0.75}) row.push_back(fixed(quantile(ratios, q), 4));
     }
     data.rows.push_back(std::move(row));

@@ -42,8 +42,8 @@ std::vector<std::string> cells_of(const std::string& line) {
   return out;
 }
 
-// The life of each edge: read off the curve through its wear, and, to compare, between the two readings around
-// the limit.
+// The life of each edge: read off the curve through its wear, and, to compare, between the two readings
+// around the limit.
 std::vector<Case> read_cases(const std::string& text) {
   std::map<int, Case> cases;
   std::map<int, std::vector<tune::WearReading>> readings;

@@ -5,11 +5,11 @@ set terminal svg size 720,420 dynamic font "Helvetica,12" background rgb "white"
 d = data."/tuning.dat"
 set title "Simulated shops: time of a part, tuned over handbook" font ",14"
 set xrange [1:40]
-set yrange [0.6:1.1]
+set yrange [0.75:1.05]
 set xlabel "part"
 set ylabel "time over the handbook's"
 set grid
-set key top right samplen 1.5
+set key bottom left Left reverse samplen 1.5
 set style fill transparent solid 0.18 noborder
 plot 1 with lines ls 9 title "handbook (no cases)", \
   d using 1:3:4 with filledcurves lc rgb "#0072b2" title "half of the shops", \

@@ -31,7 +31,8 @@ class CasesTune : public CommandTest {
     }
     ASSERT_GT(planned_.predicted.peak_force_n, 0.0);
   }
-  /// A part that was cut as planned, at half of the force and power that planning allows for; three parts an edge.
+  /// A part that was cut as planned, at half of the force and power that planning allows for; three parts an
+  /// edge.
   [[nodiscard]] casebase::Case cut(int part, double speed = 1.0, double feed = 1.0) const {
     casebase::Case c = planned_;
     c.origin = casebase::Origin::kMeasured;
@@ -102,7 +103,8 @@ TEST_F(CasesTune, NamesACaseThatIsNotHeardAndWhy) {
   cases.push_back(cut(12, 1.0, 10.0));
   keep(cases);
   const Ran ran = run("cases tune base.db plan.json");
-  EXPECT_THAT(ran.out, HasSubstr("its feed per tooth is 10 times the handbook's; within a factor of 2 is heard"));
+  EXPECT_THAT(ran.out,
+              HasSubstr("its feed per tooth is 10 times the handbook's; within a factor of 2 is heard"));
   const nlohmann::json step = step_of(run("cases tune base.db plan.json --json").out);
   EXPECT_LE(step["trial"]["planner_load_over_limit"].get<double>(), 1.0 + 1e-9);
 }

@@ -12,8 +12,8 @@
 #include "planner/physics/mechanics/force/force_law.h"
 #include "tooling/shop/material/material.h"
 
-// `capstan cases tune`: what cases would change of a plan's speeds and feeds and of the models, why, and how sure
-// that is. Nothing is changed by it.
+// `capstan cases tune`: what cases would change of a plan's speeds and feeds and of the models, why, and how
+// sure that is. Nothing is changed by it.
 
 namespace capstan::app {
 namespace {
@@ -59,8 +59,8 @@ std::string step_text(const StepAdvice& s) {
     out += "  try next    " + value_text(s, a.trial.at) + ": time " + fixed(a.trial.time, 2) + " +- " +
            fixed(a.trial.time * a.trial.time_std_dev, 2) + " of the handbook's\n";
   }
-  std::vector<std::vector<std::string>> rows = {
-      {"limit", "load at handbook", "95 % below", "exceeded in", "load at trial", "95 % below", "exceeded in"}};
+  std::vector<std::vector<std::string>> rows = {{"limit", "load at handbook", "95 % below", "exceeded in",
+                                                 "load at trial", "95 % below", "exceeded in"}};
   for (std::size_t i = 0; i < a.trial.limits.size(); ++i) {
     const auto cells = [&](const tune::SettingView& v, std::vector<std::string>& row) {
       const tune::LimitView& l = v.limits[i];
@@ -115,8 +115,8 @@ std::string corrections_text(const MaterialCorrections& m) {
     // What of it reaches a margin: spread in the root of the sum of squares of mechanics/loads/margin.h.
     mechanics::ForceMargin before{.spread = m.handbook.force.spread}, after{.spread = f->spread};
     out += "  kc1.1 " + trimmed(m.card.kc11_n_mm2, 0) + " N/mm2, mc " + trimmed(m.card.mc, 3) + " (" +
-           m.card.sources.back().second + ")\n  margin of forces: " + fixed(before.factor(), 2) + " with the handbook's spread, " +
-           fixed(after.factor(), 2) + " with that of the cases\n";
+           m.card.sources.back().second + ")\n  margin of forces: " + fixed(before.factor(), 2) +
+           " with the handbook's spread, " + fixed(after.factor(), 2) + " with that of the cases\n";
   }
   if (const auto& t = m.corrections.time) {
     for (const double block_s : {0.02, 0.1, 1.0}) {
@@ -126,8 +126,9 @@ std::string corrections_text(const MaterialCorrections& m) {
   }
   if (const auto& b = m.corrections.bores) {
     for (const double ratio : {3.0, 6.0}) {
-      out += "  bores at 0.05 mm per turn, stick-out " + trimmed(ratio, 0) + " D: " +
-             fixed(b->deviation_mm(0.05, ratio), 3) + " +- " + fixed(b->std_dev_mm(0.05, ratio), 3) + " mm\n";
+      out += "  bores at 0.05 mm per turn, stick-out " + trimmed(ratio, 0) +
+             " D: " + fixed(b->deviation_mm(0.05, ratio), 3) + " +- " + fixed(b->std_dev_mm(0.05, ratio), 3) +
+             " mm\n";
     }
   }
   return out;
@@ -159,7 +160,8 @@ Tree view_json(const StepAdvice& s, const tune::SettingView& v) {
   return t;
 }
 
-std::string all_json(const std::vector<StepAdvice>& steps, const std::vector<MaterialCorrections>& materials) {
+std::string all_json(const std::vector<StepAdvice>& steps,
+                     const std::vector<MaterialCorrections>& materials) {
   Tree list = Tree::array();
   for (const StepAdvice& s : steps) {
     Tree t;
@@ -221,7 +223,8 @@ Result<std::vector<StepAdvice>> advise_steps(const model::Plan& plan, const case
       job.report(std::move(d));
       continue;
     }
-    StepAdvice s{.name = model::step_id(plan, step), .planned = *std::move(planned), .evidence = {}, .advice = {}};
+    StepAdvice s{
+        .name = model::step_id(plan, step), .planned = *std::move(planned), .evidence = {}, .advice = {}};
     const auto near = base.within(s.planned.step.asked, casebase::kPrecedentDistance);
     if (!near) return tl::unexpected(near.error());
     for (const casebase::Neighbour& n : *near) {
@@ -235,8 +238,8 @@ Result<std::vector<StepAdvice>> advise_steps(const model::Plan& plan, const case
   return out;
 }
 
-// What a predicted force holds beside the sharp one, where the plan's own margin is not kept: the usual margin on a
-// machine whose feed can be turned up by a fifth (tooling/data/machines/generic_vmc.yaml).
+// What a predicted force holds beside the sharp one, where the plan's own margin is not kept: the usual
+// margin on a machine whose feed can be turned up by a fifth (tooling/data/machines/generic_vmc.yaml).
 constexpr double kUsualOverride = 1.2;
 
 /// Corrections by material and tool class, in the order of their names.
@@ -250,15 +253,15 @@ Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase
   }
   std::vector<MaterialCorrections> out;
   for (const auto& [names, cases] : groups) {
-    MaterialCorrections m{.material = names.first, .tool = names.second, .corrections = {}, .handbook = {}, .card = {}};
+    MaterialCorrections m{
+        .material = names.first, .tool = names.second, .corrections = {}, .handbook = {}, .card = {}};
     for (const model::WorkMaterial& material : *materials) {
       if (casebase::material_group_of(material) != names.first) continue;
       m.handbook.force = {material.kc11_n_mm2, material.mc, mechanics::kienzle_margin(material).spread};
       for (const model::ToolLifeLaw& law : material.life) {
         if (m.tool.starts_with(law.substrate)) m.handbook.life = law;
       }
-      m.handbook.force_margin =
-          mechanics::kienzle_margin(material, {.feed_up = kUsualOverride}).factor();
+      m.handbook.force_margin = mechanics::kienzle_margin(material, {.feed_up = kUsualOverride}).factor();
       m.card = material;
     }
     m.corrections = tune::corrections_of(cases, m.handbook);
