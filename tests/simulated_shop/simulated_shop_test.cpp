@@ -27,7 +27,7 @@ const Summary& shops() {
 
 TEST(SimulatedShopProperty, TunedPartsTakeLessTimeThanTheHandbooks) {
   ASSERT_GT(shops().sound, 0);
-  // Thirty shops come to 0.85 to 0.88; six of them scatter more.
+  // Three times thirty shops came to 0.85 to 0.91; six of them scatter more.
   const double most = soaks() ? 0.93 : 0.97;
   EXPECT_LT(shops().arms[static_cast<std::size_t>(Arm::kRegression)].mean_ratio(), most);
   EXPECT_LT(shops().arms[static_cast<std::size_t>(Arm::kProcess)].mean_ratio(), most);
