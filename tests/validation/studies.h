@@ -47,6 +47,9 @@ namespace capstan::validation {
 
 /// Times of plans over a catalogue's, for a sample of features, materials and machines.
 [[nodiscard]] Comparison catalogue_times();
+/// Tuned speeds and feeds in simulated shops: no cases, regression only, Gaussian process.
+[[nodiscard]] Comparison tuning();
+
 /// Roughing of pockets against FreeCAD's paths at equal limits (freecad/rivals.h); `record`: the times on
 /// LinuxCNC's simulated machine, as `capstan_rival_times` recorded them.
 [[nodiscard]] Comparison freecad(const std::string& record);

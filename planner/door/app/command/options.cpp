@@ -291,6 +291,16 @@ class CommandLine {
     for (CLI::App* sub : {list, show, out}) sub->add_flag("--json", out_.json, "JSON on standard output");
   }
 
+  void case_tuning(CLI::App& cases) {
+    auto* tune = on_base(cases, "tune", "what cases would change of speeds, feeds and models, and why",
+                         Command::kCasesTune);
+    tune->add_option("plan", out_.files, "a plan, whose steps are tuned; without it the models alone")
+        ->expected(0, 1);
+    tune->add_flag("--json", out_.json, "JSON on standard output");
+    tune->add_option("-o,--output", out_.outputs, "picture (SVG) of each step of which there are cases");
+    tune->add_option("--today", out_.today, "date, e.g. 2016-06-28: later days of cases do not count as days");
+  }
+
   void cases() {
     auto* cases = app_.add_subcommand("cases", "what was cut once");
     cases->require_subcommand(1);
@@ -299,6 +309,7 @@ class CommandLine {
     add->add_option("base", raw_.of[kCases], "case base; made where there is none")->required();
     files(add, "files", "CSV files or plans", 1, 1000);
     case_verbs(*cases);
+    case_tuning(*cases);
     auto* near =
         command(*cases, "nearest", "the nearest cases, and the precedent they make", Command::kCasesNearest);
     near->add_option("base", raw_.of[kCases], "case base")->required();

@@ -37,6 +37,7 @@ enum class Command : std::uint8_t {
   kCasesRemove,
   kCasesExport,
   kCasesNearest,
+  kCasesTune,
 };
 
 /// The question of `cases nearest`.
@@ -74,6 +75,7 @@ struct Options {
   bool json_diagnostics = false;     ///< one JSON object per line on standard error
   std::vector<std::string> words;    ///< tools: a filter, an id; cases: ids, a filter
   ToolsOptions tools;
+  std::string today;      ///< cases tune: a date
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
   CaseJudgement judgement;
 };

@@ -62,6 +62,8 @@ int dispatch(Session& s) {
       return run_cases_export(s);
     case Command::kCasesNearest:
       return run_cases_nearest(s);
+    case Command::kCasesTune:
+      return run_cases_tune(s);
   }
   return kUsage;
 }

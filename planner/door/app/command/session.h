@@ -68,5 +68,6 @@ int run_cases_judge(Session& s);
 int run_cases_remove(Session& s);
 int run_cases_export(Session& s);
 int run_cases_nearest(Session& s);
+int run_cases_tune(Session& s);
 
 }  // namespace capstan::app

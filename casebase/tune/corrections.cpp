@@ -1,0 +1,232 @@
+#include "casebase/tune/corrections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+/// Each model is made linear and handed to `regress`:
+///
+///     force   ln kc = ln kc1.1 - mc ln h
+///     life    ln T  = ln T0 - 1/n ln(v / v0) - 1/p ln(h / h0) - 1/q ln(a / a0)
+///     time    ln(observed / planned) = a + b ln(block / 0.1 s)
+///     bores   deviation = a + b ln(feed / 0.05 mm) + c ln(stick-out / 4 D)
+namespace capstan::casebase::tune {
+namespace {
+
+// Kienzle's exponents of steels, cast irons and light metals lie between 0.1 and 0.35 (reference tables of
+// Mitsubishi and Roehm, docs/validation.md): half the width.
+constexpr double kMcSpread = 0.06;
+// 1 / n of carbide: 2 to 5 (Kalpakjian & Schmid: n 0.2 to 0.5); of feed and depth about 1 and less.
+constexpr double kLifeBySpeedSpread = 1.0, kLifeByFeedSpread = 0.7, kLifeByDepthSpread = 0.7;
+constexpr double kLifeSpread = 0.5;   // ln T0 of a table. Default, unsourced
+constexpr double kLifeScatter = 0.3;  // as mechanics/life
+constexpr double kForceNoise = 0.08;  // std dev of ln kc between cuts of one edge. Default, unsourced
+constexpr double kForceEdges = 0.08;  // and between edges. Default, unsourced
+// Wear runs in fast and goes on slower: an exponent below 1. Default, unsourced.
+constexpr double kWearByTime = 0.7, kWearByTimeSpread = 0.3;
+constexpr double kWearNoise = 0.1;        // std dev of ln VB of a reading. Default, unsourced
+constexpr double kLeastReadingMm = 0.05;  // less is the scatter of the reading
+constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;  // edges or parts
+constexpr double kZ90 = 1.6449;                               // of the normal distribution, both sides
+constexpr double kBlock0S = 0.1, kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
+constexpr double kFeed0Mm = 0.05, kStickOut0 = 4.0;
+constexpr double kBoreSpreadMm = 0.1, kBoreNoiseMm = 0.02;
+
+bool usable(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0.0; });
+}
+
+Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<const Row> rows,
+               const RegressionOptions& options, Regression fit) {
+  Corrected out;
+  out.model = std::move(model);
+  out.terms = std::move(terms);
+  out.cases = rows.size();
+  out.groups = fit.groups;
+  if (fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
+    const std::vector<LeftOut> left_out = leave_groups_out(rows, fit.coefficient.size(), options);
+    out.left_out = {rms(left_out), coverage(left_out, kZ90)};
+  }
+  out.doubted = static_cast<std::size_t>(
+      std::count_if(fit.weight.begin(), fit.weight.end(), [](double w) { return w < 0.5; }));
+  out.fit = std::move(fit);
+  return out;
+}
+
+CorrectedTerm term(const char* name, const char* unit, const PriorTerm& before, const Regression& fit,
+                   std::size_t i) {
+  return {name, unit, before.mean, before.std_dev, fit.coefficient[i], fit.std_dev(i)};
+}
+
+}  // namespace
+
+std::optional<ForceCorrection> correct_force(std::span<const ForceSample> samples,
+                                             const ForceHandbook& handbook) {
+  std::vector<Row> rows;
+  double ln_h = 0.0;
+  for (const ForceSample& s : samples) {
+    if (!usable({s.chip_mm, s.kc_n_mm2})) continue;
+    rows.push_back({{1.0, -std::log(s.chip_mm)}, std::log(s.kc_n_mm2), 1.0, s.group});
+    ln_h += std::log(s.chip_mm);
+  }
+  if (rows.empty() || !usable({handbook.kc11_n_mm2, handbook.spread})) return std::nullopt;
+  ln_h /= static_cast<double>(rows.size());
+  // The handbook's spread is that of the force of usual chips; at h = 1 mm the exponent's adds to it.
+  // Centred on the chips observed the two priors are independent.
+  for (Row& row : rows) row.x[1] += ln_h;
+  const RegressionOptions options{
+      .prior = {{std::log(handbook.kc11_n_mm2) - handbook.mc * ln_h, std::log(handbook.spread)},
+                {handbook.mc, kMcSpread}},
+      .noise = kForceNoise,
+      .between = kForceEdges};
+  const Regression fit = regress(rows, 2, options);
+  ForceCorrection out;
+  out.mc = fit.coefficient[1];
+  out.kc11_n_mm2 = std::exp(fit.coefficient[0] + out.mc * ln_h);
+  const std::vector<double> here = {1.0, 0.0};
+  out.spread = std::exp(fit.predictive_std_dev_at(here));
+  const std::string at = fmt::format("ln kc at h = {:.3g} mm", std::exp(ln_h));
+  out.how =
+      told("cutting force",
+           {term(at.c_str(), "ln N/mm2", options.prior[0], fit, 0), term("mc", "", options.prior[1], fit, 1)},
+           rows, options, fit);
+  return out;
+}
+
+std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm) {
+  std::vector<Row> rows;
+  double most = 0.0;
+  for (const WearReading& r : readings) {
+    if (!usable({r.time_min, r.wear_mm}) || r.wear_mm < kLeastReadingMm) continue;
+    rows.push_back({{1.0, std::log(r.time_min)}, std::log(r.wear_mm), 1.0, rows.size()});
+    most = std::max(most, r.wear_mm);
+  }
+  if (rows.size() < 2 || most < allowed_mm || !usable({allowed_mm})) return std::nullopt;
+  const Regression fit =
+      regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kWearNoise});
+  if (fit.coefficient[1] <= 0.0) return std::nullopt;
+  return std::exp((std::log(allowed_mm) - fit.coefficient[0]) / fit.coefficient[1]);
+}
+
+std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
+                                           const model::ToolLifeLaw& handbook) {
+  if (!usable({handbook.v0_m_min, handbook.life_min, handbook.n})) return std::nullopt;
+  model::ToolLifeLaw law = handbook;
+  const auto first = std::find_if(samples.begin(), samples.end(), [](const LifeSample& s) {
+    return usable({s.vc_m_min, s.feed_mm, s.depth_mm, s.life_min});
+  });
+  if (first == samples.end()) return std::nullopt;
+  if (law.h0_mm <= 0.0) law.h0_mm = first->feed_mm;
+  if (law.a0_mm <= 0.0) law.a0_mm = first->depth_mm;
+  std::vector<Row> rows;
+  for (const LifeSample& s : samples) {
+    if (!usable({s.vc_m_min, s.feed_mm, s.depth_mm, s.life_min})) continue;
+    rows.push_back({{1.0, std::log(s.vc_m_min / law.v0_m_min), std::log(s.feed_mm / law.h0_mm),
+                     std::log(s.depth_mm / law.a0_mm)},
+                    std::log(s.life_min),
+                    1.0,
+                    s.group});
+  }
+  const auto slope = [](double exponent) { return exponent > 0.0 ? -1.0 / exponent : 0.0; };
+  const double scatter = handbook.scatter > 0.0 ? handbook.scatter : kLifeScatter;
+  const RegressionOptions options{.prior = {{std::log(handbook.life_min), kLifeSpread},
+                                            {slope(handbook.n), kLifeBySpeedSpread},
+                                            {slope(handbook.p), kLifeByFeedSpread},
+                                            {slope(handbook.q), kLifeByDepthSpread}},
+                                  .noise = scatter};
+  const Regression fit = regress(rows, 4, options);
+  // Life never grows with speed; what grows with feed or depth is left out of the law.
+  const auto exponent = [&](std::size_t i) {
+    return fit.coefficient[i] < 0.0 ? -1.0 / fit.coefficient[i] : 0.0;
+  };
+  law.life_min = std::exp(fit.coefficient[0]);
+  law.n = fit.coefficient[1] < 0.0 ? exponent(1) : handbook.n;
+  law.p = exponent(2);
+  law.q = exponent(3);
+  const std::vector<double> here = {1.0, 0.0, 0.0, 0.0};
+  law.scatter = fit.predictive_std_dev_at(here);
+  law.source = fmt::format("{} cases on {} edges", rows.size(), fit.groups);
+  std::vector<CorrectedTerm> terms;
+  const char* names[] = {"ln life", "exponent of speed", "exponent of feed", "exponent of depth"};
+  for (std::size_t i = 0; i < 4; ++i)
+    terms.push_back(term(names[i], i == 0 ? "ln min" : "", options.prior[i], fit, i));
+  return LifeCorrection{std::move(law), told("tool life", std::move(terms), rows, options, fit)};
+}
+
+namespace {
+
+std::vector<double> time_terms(double block_s) { return {1.0, std::log(block_s / kBlock0S)}; }
+
+std::vector<double> bore_terms(double feed_per_turn_mm, double stick_out_ratio) {
+  return {1.0, std::log(feed_per_turn_mm / kFeed0Mm), std::log(stick_out_ratio / kStickOut0)};
+}
+
+}  // namespace
+
+double TimeCorrection::factor(double block_s) const { return std::exp(how.fit.at(time_terms(block_s))); }
+double TimeCorrection::ln_std_dev(double block_s) const {
+  return how.fit.predictive_std_dev_at(time_terms(block_s));
+}
+
+std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples) {
+  std::vector<Row> rows;
+  for (const TimeSample& s : samples) {
+    if (!usable({s.planned_s, s.observed_s, s.block_s})) continue;
+    rows.push_back({time_terms(s.block_s), std::log(s.observed_s / s.planned_s), 1.0, s.group});
+  }
+  if (rows.empty()) return std::nullopt;
+  const RegressionOptions options{
+      .prior = {{0.0, kTimeSpread}, {0.0, kTimeSlope}}, .noise = kTimeNoise, .between = 0.5 * kTimeNoise};
+  const Regression fit = regress(rows, 2, options);
+  return TimeCorrection{told("time",
+                             {term("ln(observed / planned) at blocks of 0.1 s", "", options.prior[0], fit, 0),
+                              term("per ln of the block's time", "", options.prior[1], fit, 1)},
+                             rows, options, fit)};
+}
+
+double BoreCorrection::deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const {
+  return how.fit.at(bore_terms(feed_per_turn_mm, stick_out_ratio));
+}
+double BoreCorrection::std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const {
+  return how.fit.predictive_std_dev_at(bore_terms(feed_per_turn_mm, stick_out_ratio));
+}
+
+std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples) {
+  std::vector<Row> rows;
+  for (const BoreSample& s : samples) {
+    if (!usable({s.feed_per_turn_mm, s.stick_out_ratio}) || !std::isfinite(s.deviation_mm)) continue;
+    rows.push_back({bore_terms(s.feed_per_turn_mm, s.stick_out_ratio), s.deviation_mm, 1.0, s.group});
+  }
+  if (rows.empty()) return std::nullopt;
+  const PriorTerm any{0.0, kBoreSpreadMm};
+  const RegressionOptions options{
+      .prior = {any, any, any}, .noise = kBoreNoiseMm, .between = 0.5 * kBoreNoiseMm};
+  const Regression fit = regress(rows, 3, options);
+  return BoreCorrection{told(
+      "size of bores",
+      {term("deviation at 0.05 mm per turn and 4 D", "mm", any, fit, 0),
+       term("per ln of the feed", "mm", any, fit, 1), term("per ln of the stick-out", "mm", any, fit, 2)},
+      rows, options, fit)};
+}
+
+model::WorkMaterial corrected(model::WorkMaterial material, const Corrections& corrections) {
+  if (const auto& f = corrections.force) {
+    material.kc11_n_mm2 = f->kc11_n_mm2;
+    material.mc = f->mc;
+    material.kc_uncertainty = f->spread - 1.0;
+    const std::string from = fmt::format("{} cases on {} edges", f->how.cases, f->how.groups);
+    std::erase_if(material.sources, [](const auto& s) { return s.first == "kc11_n_mm2" || s.first == "mc"; });
+    material.sources.emplace_back("kc11_n_mm2", from);
+    material.sources.emplace_back("mc", from);
+  }
+  if (const auto& l = corrections.life) {
+    std::erase_if(material.life,
+                  [&](const model::ToolLifeLaw& old) { return old.substrate == l->law.substrate; });
+    material.life.insert(material.life.begin(), l->law);
+  }
+  return material;
+}
+
+}  // namespace capstan::casebase::tune

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "casebase/tune/regression.h"
+#include "planner/model/plan/resources/material.h"
+
+/// What cases correct of the planner's models, each with its uncertainty. Each starts from the handbook's
+/// value with the handbook's spread as its prior: few cases move it little, and only evidence narrows it.
+namespace capstan::casebase::tune {
+
+/// One number of a model: before, and as the cases have it.
+struct CorrectedTerm {
+  std::string name, unit;
+  double handbook = 0.0, handbook_std_dev = 0.0;
+  double value = 0.0, std_dev = 0.0;
+};
+
+struct Corrected {
+  std::string model;  ///< "cutting force", "tool life", "time", "size of bores"
+  std::vector<CorrectedTerm> terms;
+  std::size_t cases = 0, groups = 0, doubted = 0;  ///< doubted: those that weigh less than half
+  /// Each edge or part predicted from the others: rms of the error (of the logarithm; of bores in mm), and
+  /// the share within the stated interval of 90 %. Nothing where there are fewer than three of them, or more
+  /// than 300.
+  struct LeftOutFigures {
+    double rms = 0.0, within_90 = 0.0;
+  };
+  std::optional<LeftOutFigures> left_out;
+  Regression fit;
+};
+
+/// The specific force of one cut: kc, force over area of the chip, at the mean thickness of the chip.
+struct ForceSample {
+  double chip_mm = 0.0, kc_n_mm2 = 0.0;
+  std::size_t group = 0;  ///< the edge
+};
+struct ForceHandbook {
+  double kc11_n_mm2 = 0.0, mc = 0.0;
+  double spread = 1.5;  ///< factor of one standard deviation of the force
+};
+struct ForceCorrection {
+  double kc11_n_mm2 = 0.0, mc = 0.0;
+  /// Factor of one standard deviation of the force of a further edge, at the mean of the chips observed:
+  /// `spread` of mechanics::ForceMargin, in place of the handbook's, in its root of the sum of squares.
+  double spread = 1.0;
+  Corrected how;
+};
+/// Least squares of ln kc on ln h. Nothing without a usable sample.
+[[nodiscard]] std::optional<ForceCorrection> correct_force(std::span<const ForceSample> samples,
+                                                           const ForceHandbook& handbook);
+
+/// Wear of one edge after a time in the cut.
+struct WearReading {
+  double time_min = 0.0, wear_mm = 0.0;
+};
+/// The time after which the edge is as worn as allowed, by a curve VB = c t^b through all its readings of at
+/// least 0.05 mm: a reading scatters, so that the two around the limit tell less than all. Nothing where
+/// fewer than two can be used or none is as worn as that: no life is told beyond what was seen.
+[[nodiscard]] std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm);
+
+/// One edge's life to the wear that is allowed.
+struct LifeSample {
+  double vc_m_min = 0.0, feed_mm = 0.0, depth_mm = 0.0, life_min = 0.0;
+  std::size_t group = 0;  ///< the edge
+};
+/// The extended Taylor law as exponents of the life, and what the cases make of it.
+struct LifeCorrection {
+  model::ToolLifeLaw
+      law;  ///< scatter: of a further edge, the law's own uncertainty at its reference included
+  Corrected how;
+};
+/// `handbook`: v0 and life at v0; n; h0, a0, p, q where they are known. Where speed, feed or depth do not
+/// vary, their exponents stay the handbook's.
+[[nodiscard]] std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
+                                                         const model::ToolLifeLaw& handbook);
+
+/// The time of one step beside the planned one, and the mean time that is planned for a block of its path.
+struct TimeSample {
+  double planned_s = 0.0, observed_s = 0.0, block_s = 0.0;
+  std::size_t group = 0;  ///< the part
+};
+struct TimeCorrection {
+  Corrected how;
+  /// Observed over planned for blocks of this time, and the std dev of its logarithm for one further part.
+  [[nodiscard]] double factor(double block_s) const;
+  [[nodiscard]] double ln_std_dev(double block_s) const;
+};
+[[nodiscard]] std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples);
+
+/// The deviation of a bore's diameter from what was programmed, and what it was milled with.
+struct BoreSample {
+  double deviation_mm = 0.0;
+  double feed_per_turn_mm = 0.0, stick_out_ratio = 0.0;  ///< stick-out over the cutter's diameter
+  std::size_t group = 0;                                 ///< the part
+};
+struct BoreCorrection {
+  Corrected how;
+  [[nodiscard]] double deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const;
+  [[nodiscard]] double std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const;
+};
+[[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples);
+
+/// What planning may take: every member by itself.
+struct Corrections {
+  std::optional<ForceCorrection> force;
+  std::optional<LifeCorrection> life;
+  std::optional<TimeCorrection> time;
+  std::optional<BoreCorrection> bores;
+};
+
+/// A material with the corrected coefficients in place of the handbook's, their origin named.
+[[nodiscard]] model::WorkMaterial corrected(model::WorkMaterial material, const Corrections& corrections);
+
+}  // namespace capstan::casebase::tune

@@ -1,0 +1,214 @@
+#include "casebase/tune/from_case.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "casebase/key/normalisation.h"
+
+namespace capstan::casebase::tune {
+namespace {
+
+// How loads depend on speed, feed and wear before anything was cut, beside what the models say: std devs of
+// the exponents. Default, unsourced, unless a line says more.
+constexpr double kForceExponentSpread = 0.15;
+constexpr double kWornForce = 1.3,
+                 kWornForceSpread = 0.15;                // Dietrich & Tschaetsch, as mechanics/constants.h
+constexpr double kUsualShare = 0.5, kUsualSpread = 0.6;  // of size and surface in what is asked
+// Ra of measured turning hardly follows f^2: exponents 0.18 to 0.52 against 2 by geometry.
+constexpr double kRaByFeed = 1.2, kRaByFeedSpread = 0.5;
+constexpr double kWearSpread = 0.4;
+constexpr double kHeavyChatter = 0.5;  // of the level 0 to 1
+
+bool evidence(const std::optional<Figure>& f) { return f && f->origin != Origin::kSimulated; }
+
+std::string edge_of(const From& f) {
+  return f.tool_instance.empty() && f.tool_edge.empty() ? std::string() : f.tool_instance + '/' + f.tool_edge;
+}
+
+bool positive(double v) { return std::isfinite(v) && v > 0.0; }
+
+double limit_of(const PlannedStep& p, Watched w) {
+  // A rough step leaves an allowance: size and surface are asked of the step that takes it off.
+  const bool rough = p.step.asked.operation.find("ROUGH") != std::string::npos;
+  if (rough && (w == Watched::kSize || w == Watched::kFinish)) return 0.0;
+  switch (w) {
+    case Watched::kForce:
+      return p.step.predicted.peak_force_n;
+    case Watched::kPower:
+      return p.power_limit_w;
+    case Watched::kSize:
+      return 0.5 * p.step.asked.tolerance_mm;
+    case Watched::kFinish:
+      return p.step.asked.asked_ra_um;
+    case Watched::kWear:
+      return kAllowedWearMm;
+  }
+  return 0.0;
+}
+
+/// Names of edges as numbers, in the order in which they come.
+class Groups {
+ public:
+  std::size_t of(const Case& c) {
+    std::string name = edge_of(c.from);
+    if (name.empty()) name = "?" + c.from.part + c.from.source;
+    return numbers_.emplace(std::move(name), numbers_.size()).first->second;
+  }
+
+ private:
+  std::map<std::string, std::size_t> numbers_;
+};
+
+}  // namespace
+
+std::optional<long> day_of(const std::string& time_utc) {
+  int year = 0;
+  unsigned month = 0, day = 0;
+  const char* text = time_utc.c_str();
+  if (time_utc.size() < 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
+  const auto all = [](const char* first, const char* last, auto& into) {
+    return std::from_chars(first, last, into).ptr == last;
+  };
+  if (!all(text, text + 4, year) || !all(text + 5, text + 7, month) || !all(text + 8, text + 10, day)) {
+    return std::nullopt;
+  }
+  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{month},
+                                         std::chrono::day{day}};
+  if (!date.ok()) return std::nullopt;
+  return std::chrono::sys_days{date}.time_since_epoch().count();
+}
+
+Handbook handbook_of(const PlannedStep& p) {
+  Handbook h;
+  h.machine = p.step.asked.machine_class;
+  h.hard = p.hard;
+  const Predicted& expected = p.step.predicted;
+  const double margin = std::max(1.0, p.force_margin);
+  const PriorTerm worn{std::log(kWornForce), kWornForceSpread}, by_fz{1.0 - p.mc, kForceExponentSpread};
+  const auto watch = [&](Watched w, double load, double spread) -> LoadPrior& {
+    LoadPrior& l = h.loads[static_cast<std::size_t>(w)];
+    const double limit = limit_of(p, w);
+    l.watched = positive(limit) && positive(load);
+    if (l.watched) l.ln_load = {std::log(load / limit), spread};
+    return l;
+  };
+  LoadPrior& force = watch(Watched::kForce, expected.peak_force_n / margin, std::log(p.force_spread));
+  force.by_vc = {0.0, kForceExponentSpread};
+  force.by_fz = by_fz;
+  force.by_wear = worn;
+  LoadPrior& power = watch(Watched::kPower, expected.power_w / margin, std::log(p.force_spread));
+  power.by_vc = {1.0, kForceExponentSpread};
+  power.by_fz = by_fz;
+  power.by_wear = worn;
+  LoadPrior& size = watch(Watched::kSize, kUsualShare * limit_of(p, Watched::kSize), kUsualSpread);
+  size.by_vc = {0.0, 0.4};
+  size.by_fz = {1.0 - p.mc, 0.3};
+  size.by_wear = {worn.mean, 0.2};
+  size.noise = 0.2;
+  size.edges = 0.15;
+  LoadPrior& finish = watch(Watched::kFinish, kUsualShare * limit_of(p, Watched::kFinish), kUsualSpread);
+  finish.by_vc = {0.0, 0.2};
+  finish.by_fz = {kRaByFeed, kRaByFeedSpread};
+  finish.by_wear = {0.2, 0.2};
+  finish.noise = 0.12;
+  finish.edges = 0.2;
+  // Wear at the end of this step: its share of the life that is expected, on a sharp edge.
+  const double use = positive(expected.tool_life_min) ? expected.time_s / 60.0 / expected.tool_life_min : 0.0;
+  LoadPrior& wear = watch(Watched::kWear, use * kAllowedWearMm, kWearSpread);
+  wear.by_vc = {1.0 / p.taylor_n - 1.0, 0.8};
+  wear.by_fz = {-0.4, 0.4};
+  wear.by_wear = {0.0, 0.05};
+  wear.noise = 0.12;
+  wear.edges = 0.3;
+  return h;
+}
+
+Evidence evidence_of(const Case& c, const PlannedStep& p) {
+  Evidence e;
+  e.id = c.id;
+  const Key theirs = key_of(c.asked), ours = key_of(p.step.asked);
+  const Point a = point_of(theirs), b = point_of(ours);
+  const unsigned both = theirs.known & ours.known;
+  for (std::size_t i = 0; i < kDimensions; ++i)
+    e.question.push_back((both >> i & 1U) != 0 ? a[i] - b[i] : 0.0);
+  const double wider = positive(c.asked.cutter_diameter_mm) && positive(p.step.asked.cutter_diameter_mm)
+                           ? c.asked.cutter_diameter_mm / p.step.asked.cutter_diameter_mm
+                           : 1.0;
+  e.at = {std::log(c.bound.vc_m_min / p.step.bound.vc_m_min),
+          std::log(c.bound.fz_mm / p.step.bound.fz_mm / wider)};
+  const Observed& o = c.observed;
+  if (!o.wear_series_mm.samples.empty() && o.wear_series_mm.origin != Origin::kSimulated) {
+    e.worn = std::max(0.0, o.wear_series_mm.samples.front().value) / kAllowedWearMm;
+  }
+  const bool same_step = c.from.plan_hash == p.step.from.plan_hash &&
+                         c.from.workingstep == p.step.from.workingstep && !c.from.workingstep.empty();
+  if (evidence(o.time_s) && positive(o.time_s->value) && positive(p.step.predicted.time_s)) {
+    const bool lengths = positive(c.bound.path_length_mm) && positive(p.step.bound.path_length_mm);
+    const double longer = lengths ? c.bound.path_length_mm / p.step.bound.path_length_mm : 1.0;
+    if (lengths || same_step) e.ln_time = std::log(o.time_s->value / longer / p.step.predicted.time_s);
+  }
+  const auto load = [&](Watched w, const std::optional<Figure>& f) {
+    const double limit = limit_of(p, w);
+    if (!evidence(f) || !positive(limit) || !std::isfinite(f->value)) return;
+    // A deviation of nothing is one below what can be measured.
+    e.ln_load[static_cast<std::size_t>(w)] = std::log(std::max(std::abs(f->value) / limit, 0.02));
+  };
+  load(Watched::kForce, o.peak_force_n);
+  load(Watched::kPower, o.power_w);
+  load(Watched::kSize, o.size_deviation_mm);
+  load(Watched::kFinish, o.surface_ra_um);
+  load(Watched::kWear, o.wear_mm);
+  const bool chatter = evidence(o.chatter), broke = evidence(o.breakage);
+  e.failed = o.verdict == Verdict::kBad || (chatter && o.chatter->value >= kHeavyChatter) ||
+             (broke && o.breakage->value >= 0.5);
+  e.judged = o.verdict != Verdict::kUnknown || chatter || broke;
+  e.measured = c.origin == Origin::kMeasured;
+  e.source = c.from.source + '\n' + c.from.part + '\n' + c.from.workingstep + '\n' + c.from.time_utc + '\n' +
+             edge_of(c.from);
+  e.machine = c.asked.machine_class;
+  e.edge = edge_of(c.from);
+  e.day = day_of(c.from.time_utc);
+  return e;
+}
+
+Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook) {
+  std::vector<ForceSample> forces;
+  std::vector<LifeSample> lives;
+  std::vector<TimeSample> times;
+  std::vector<BoreSample> bores;
+  Groups edges;
+  for (const Case& c : cases) {
+    if (c.origin != Origin::kMeasured) continue;
+    const std::size_t edge = edges.of(c);
+    const Observed& o = c.observed;
+    const Bound& b = c.bound;
+    if (evidence(o.peak_force_n) && positive(c.predicted.peak_force_n) && positive(b.mean_chip_mm)) {
+      const double expected = c.predicted.peak_force_n / handbook.force_margin;
+      const double kc = handbook.force.kc11_n_mm2 * std::pow(b.mean_chip_mm, -handbook.force.mc);
+      forces.push_back({b.mean_chip_mm, kc * o.peak_force_n->value / expected, edge});
+    }
+    if (evidence(o.time_s) && positive(c.predicted.time_s) && b.path_blocks > 0) {
+      times.push_back({c.predicted.time_s, o.time_s->value, c.predicted.time_s / b.path_blocks, edge});
+    }
+    const bool bore = positive(c.asked.diameter_mm) && !positive(c.asked.width_mm);
+    if (bore && evidence(o.size_deviation_mm) && positive(c.asked.cutter_diameter_mm)) {
+      bores.push_back({o.size_deviation_mm->value, b.fz_mm * std::max(1, c.asked.teeth),
+                       c.asked.stick_out_mm / c.asked.cutter_diameter_mm, edge});
+    }
+    if (o.wear_series_mm.origin != Origin::kSimulated) {
+      std::vector<WearReading> readings;
+      for (const Sample& s : o.wear_series_mm.samples) readings.push_back({s.t_s / 60.0, s.value});
+      if (const auto life = life_of(readings, kAllowedWearMm))
+        lives.push_back({b.vc_m_min, b.fz_mm, b.ap_mm, *life, edge});
+    }
+  }
+  return {correct_force(forces, handbook.force), correct_life(lives, handbook.life), correct_time(times),
+          correct_bores(bores)};
+}
+
+}  // namespace capstan::casebase::tune

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "casebase/record/case.h"
+#include "casebase/tune/advise.h"
+#include "casebase/tune/corrections.h"
+
+/// From the records of the case base to what tuning sees.
+namespace capstan::casebase::tune {
+
+/// Uniform flank wear at which an end mill is worn out, mm. Source: ISO 8688-2:1989, tool-life criterion.
+inline constexpr double kAllowedWearMm = 0.3;
+
+/// Days since 1970-01-01 of a date or a time in ISO 8601; nothing where it is none.
+[[nodiscard]] std::optional<long> day_of(const std::string& time_utc);
+
+/// A step as it is planned now, without cases: what cases are held against.
+struct PlannedStep {
+  Case step;  ///< its question, its bound speed and feed, what is expected of it: `case_of` of the plan
+  double force_margin = 1.0;   ///< factor in its predicted loads, on those of a sharp edge (model::StepLoads)
+  double force_spread = 1.5;   ///< factor of one standard deviation of its forces (mechanics::ForceMargin)
+  double power_limit_w = 0.0;  ///< of the spindle at this speed; 0: not known
+  double mc = 0.25;            ///< Kienzle's exponent
+  double taylor_n = 0.25;
+  HardLimits hard;  ///< of the planner; empty: nothing is raised
+};
+
+/// Of a force the limit is the one that the plan was proved with, its margin included: no case lifts it.
+/// Power against the spindle, size against half the tolerance, roughness against what is asked, wear at the
+/// end against `kAllowedWearMm`; what is not asked or not known is not watched.
+[[nodiscard]] Handbook handbook_of(const PlannedStep& planned);
+
+/// A case as evidence on a step.
+///
+/// Its speed is compared as it is, its feed per cutter diameter: makers' feeds go with the diameter. Its time
+/// counts by the length of path, or where it is a case of this very step. Figures that were computed are no
+/// evidence: only what was measured or entered.
+[[nodiscard]] Evidence evidence_of(const Case& c, const PlannedStep& planned);
+
+/// What the handbook says where cases correct it.
+struct CorrectionHandbook {
+  ForceHandbook force;
+  /// Factor in the forces that planning predicted for the cases, on those of a sharp edge and mean
+  /// coefficients: a case keeps what was predicted, not its margin.
+  double force_margin = 1.0;
+  model::ToolLifeLaw life;  ///< n and life 0: not known, no correction
+};
+/// The corrections that measured cases of one material and tool class make. A specific force is the
+/// handbook's at the mean chip of the case, times the observed peak force over the predicted one without its
+/// margin: which teeth are in the cut, and where, is then the model's in both.
+[[nodiscard]] Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook);
+
+}  // namespace capstan::casebase::tune

@@ -1,0 +1,142 @@
+#include "casebase/tune/from_case.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace capstan::casebase::tune {
+namespace {
+
+/// A pocket's finish step as planned: 120 m/min, 0.06 mm, proved with 900 N.
+PlannedStep planned() {
+  PlannedStep p;
+  Case& c = p.step;
+  c.asked.operation = "BOTTOM_AND_SIDE_FINISH_MILLING";
+  c.asked.material_group = "P/mild_steel";
+  c.asked.tool_class = "carbide/endmill";
+  c.asked.machine_class = "mill";
+  c.asked.depth_mm = 12.0;
+  c.asked.width_mm = 40.0;
+  c.asked.tolerance_mm = 0.1;
+  c.asked.asked_ra_um = 3.2;
+  c.asked.cutter_diameter_mm = 10.0;
+  c.asked.teeth = 4;
+  c.bound.vc_m_min = 120.0;
+  c.bound.fz_mm = 0.06;
+  c.bound.path_length_mm = 1000.0;
+  c.bound.mean_chip_mm = 0.03;
+  c.bound.path_blocks = 100;
+  c.predicted.time_s = 60.0;
+  c.predicted.peak_force_n = 900.0;
+  c.predicted.power_w = 600.0;
+  c.predicted.tool_life_min = 15.0;
+  c.from.plan_hash = "abc";
+  c.from.workingstep = "POCKET area_finish";
+  p.force_margin = 1.8;
+  p.power_limit_w = 3000.0;
+  return p;
+}
+
+Case cut(int part) {
+  Case c = planned().step;
+  c.id = "id " + std::to_string(part);
+  c.origin = Origin::kMeasured;
+  c.observed.time_s = Figure{.value = 66.0};
+  c.observed.peak_force_n = Figure{.value = 450.0};
+  c.observed.surface_ra_um = Figure{.value = 1.6};
+  c.observed.size_deviation_mm = Figure{.value = -0.01};
+  c.observed.verdict = Verdict::kGood;
+  c.from.machine = "7";
+  c.from.tool_instance = "T" + std::to_string(part / 3);
+  c.from.time_utc = "2016-06-2" + std::to_string(part % 10) + "T08:00:00Z";
+  c.from.part = std::to_string(part);
+  c.from.source = "log";
+  return c;
+}
+
+double load(const Evidence& e, Watched w) { return std::exp(*e.ln_load[static_cast<std::size_t>(w)]); }
+
+TEST(HandbookOf, WatchesWhatIsAskedAndKnown) {
+  const Handbook h = handbook_of(planned());
+  for (std::size_t i = 0; i < kWatchedCount; ++i) EXPECT_TRUE(h.loads[i].watched) << kWatchedNames[i];
+  // The limit of the force is what the plan was proved with, its margin included.
+  EXPECT_NEAR(std::exp(h.loads[0].ln_load.mean), 1.0 / 1.8, 1e-12);
+  PlannedStep bare = planned();
+  bare.step.asked.asked_ra_um = 0.0;
+  bare.power_limit_w = 0.0;
+  EXPECT_FALSE(handbook_of(bare).loads[static_cast<std::size_t>(Watched::kFinish)].watched);
+  EXPECT_FALSE(handbook_of(bare).loads[static_cast<std::size_t>(Watched::kPower)].watched);
+}
+
+TEST(HandbookOf, ARoughStepIsAskedNeitherSizeNorSurface) {
+  PlannedStep rough = planned();
+  rough.step.asked.operation = "BOTTOM_AND_SIDE_ROUGH_MILLING";
+  const Handbook h = handbook_of(rough);
+  EXPECT_FALSE(h.loads[static_cast<std::size_t>(Watched::kSize)].watched);
+  EXPECT_FALSE(h.loads[static_cast<std::size_t>(Watched::kFinish)].watched);
+  EXPECT_TRUE(h.loads[static_cast<std::size_t>(Watched::kForce)].watched);
+}
+
+TEST(EvidenceOf, HoldsFiguresAgainstTheirLimits) {
+  const Evidence e = evidence_of(cut(1), planned());
+  EXPECT_EQ(e.at, Setting{});
+  EXPECT_NEAR(std::exp(*e.ln_time), 1.1, 1e-12);
+  EXPECT_NEAR(load(e, Watched::kForce), 0.5, 1e-12);
+  EXPECT_NEAR(load(e, Watched::kFinish), 0.5, 1e-12);
+  EXPECT_NEAR(load(e, Watched::kSize), 0.2, 1e-12);
+  EXPECT_FALSE(e.ln_load[static_cast<std::size_t>(Watched::kWear)]);
+  EXPECT_TRUE(e.judged);
+  EXPECT_FALSE(e.failed);
+  EXPECT_EQ(e.day, day_of("2016-06-21"));
+}
+
+TEST(EvidenceOf, ComputedFiguresAreNone) {
+  Case c = cut(1);
+  c.observed.peak_force_n->origin = Origin::kSimulated;
+  EXPECT_FALSE(evidence_of(c, planned()).ln_load[static_cast<std::size_t>(Watched::kForce)]);
+}
+
+TEST(EvidenceOf, AFeedIsComparedPerDiameterOfTheCutter) {
+  Case c = cut(1);
+  c.asked.cutter_diameter_mm = 12.0;
+  c.bound.fz_mm = 0.072;
+  const Evidence e = evidence_of(c, planned());
+  EXPECT_NEAR(e.at.ln_fz, 0.0, 1e-12);
+  EXPECT_GT(e.question[5], 0.0);  // the cutter's diameter
+}
+
+TEST(EvidenceOf, BreakageAndBadVerdictsAreFailures) {
+  Case broken = cut(1), bad = cut(2);
+  broken.observed.breakage = Figure{.value = 1.0};
+  bad.observed.verdict = Verdict::kBad;
+  EXPECT_TRUE(evidence_of(broken, planned()).failed);
+  EXPECT_TRUE(evidence_of(bad, planned()).failed);
+}
+
+TEST(DayOf, ReadsDatesAndNothingElse) {
+  EXPECT_EQ(day_of("1970-01-02"), 1);
+  EXPECT_EQ(day_of("2016-06-28T17:32:31Z"), 16980);
+  EXPECT_FALSE(day_of("2016-02-30"));
+  EXPECT_FALSE(day_of("yesterday"));
+  EXPECT_FALSE(day_of(""));
+}
+
+TEST(CorrectionsOf, MeasuredCasesAlone) {
+  const CorrectionHandbook handbook{.force = {1800.0, 0.2, 1.5}, .force_margin = 1.8, .life = {}};
+  std::vector<Case> cases;
+  for (int i = 0; i < 9; ++i) cases.push_back(cut(i));
+  const Corrections c = corrections_of(cases, handbook);
+  ASSERT_TRUE(c.force);
+  EXPECT_EQ(c.force->how.groups, 3U);
+  // 450 N were observed where 900 / 1.8 were expected.
+  EXPECT_NEAR(c.force->kc11_n_mm2 * std::pow(0.03, -c.force->mc) / (1800.0 * std::pow(0.03, -0.2)), 0.9,
+              0.02);
+  ASSERT_TRUE(c.time);
+  EXPECT_NEAR(c.time->factor(0.6), 1.1, 0.02);
+  EXPECT_FALSE(c.life);
+  for (Case& one : cases) one.origin = Origin::kSimulated;
+  EXPECT_FALSE(corrections_of(cases, handbook).force);
+}
+
+}  // namespace
+}  // namespace capstan::casebase::tune

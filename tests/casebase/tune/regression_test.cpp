@@ -1,0 +1,91 @@
+#include "casebase/tune/regression.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace capstan::casebase::tune {
+namespace {
+
+/// y = 1 + 2 x and noise, in groups with something in common.
+std::vector<Row> line(std::size_t groups, std::size_t each, double between, double noise, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> z;
+  std::vector<Row> out;
+  for (std::size_t g = 0; g < groups; ++g) {
+    const double common = between * z(random);
+    for (std::size_t i = 0; i < each; ++i) {
+      const double x = std::sin(static_cast<double>(7 * g + 3 * i + 1));
+      out.push_back({{1.0, x}, 1.0 + 2.0 * x + common + noise * z(random), 1.0, g});
+    }
+  }
+  return out;
+}
+
+TEST(Regression, FindsALineWithoutNoiseExactly) {
+  const Regression r = regress(line(20, 1, 0.0, 0.0), 2, {});
+  EXPECT_NEAR(r.coefficient[0], 1.0, 1e-6);
+  EXPECT_NEAR(r.coefficient[1], 2.0, 1e-6);
+}
+
+TEST(Regression, KeepsThePriorWhereNothingIsObserved) {
+  const Regression r = regress({}, 2, {.prior = {{3.0, 0.5}, {-1.0, 0.2}}});
+  EXPECT_DOUBLE_EQ(r.coefficient[0], 3.0);
+  EXPECT_NEAR(r.std_dev(1), 0.2, 1e-12);
+}
+
+TEST(Regression, ATermThatDoesNotVaryStaysAtItsPrior) {
+  std::vector<Row> rows = line(20, 1, 0.0, 0.05);
+  for (Row& row : rows) row.x.push_back(0.0);
+  const Regression r = regress(rows, 3, {.prior = {{}, {}, {0.7, 0.1}}});
+  EXPECT_NEAR(r.coefficient[2], 0.7, 1e-9);
+  EXPECT_NEAR(r.std_dev(2), 0.1, 1e-9);
+}
+
+TEST(Regression, OutliersDoNotMoveTheLine) {
+  std::vector<Row> rows = line(40, 1, 0.0, 0.05);
+  for (std::size_t i = 0; i < 8; ++i) rows[5 * i].y += 3.0;
+  const Regression r = regress(rows, 2, {.noise = 0.05});
+  EXPECT_NEAR(r.coefficient[0], 1.0, 0.05);
+  EXPECT_NEAR(r.coefficient[1], 2.0, 0.07);
+  EXPECT_LT(r.weight[0], 0.01);
+  const Regression plain = regress(rows, 2, {.noise = 0.05, .robust = false});
+  EXPECT_GT(std::abs(plain.coefficient[0] - 1.0), 0.3);
+}
+
+TEST(Regression, AThousandCopiesOfOneRowAreOneGroup) {
+  std::vector<Row> rows = line(10, 1, 0.1, 0.02);
+  const RegressionOptions options{.noise = 0.02, .between = 0.1};
+  const Regression before = regress(rows, 2, options);
+  Row odd{{1.0, 0.0}, 1.25, 1.0, 99};
+  for (int i = 0; i < 1000; ++i) rows.push_back(odd);
+  const Regression after = regress(rows, 2, options);
+  // One group of eleven, two and a half of their standard deviations away.
+  EXPECT_LT(std::abs(after.coefficient[0] - before.coefficient[0]), 0.25 / 5.0);
+  EXPECT_GT(after.std_dev(0), 0.5 * before.std_dev(0));
+}
+
+TEST(RegressionProperty, StatedUncertaintyCoversTheTruth) {
+  int within = 0, all = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const Regression r = regress(line(12, 3, 0.1, 0.05, seed), 2, {.noise = 0.05, .between = 0.1});
+    within += std::abs(r.coefficient[1] - 2.0) <= 1.6449 * r.std_dev(1) ? 1 : 0;  // 90 % of a normal
+    ++all;
+  }
+  EXPECT_GE(within, all * 80 / 100);
+}
+
+TEST(LeaveGroupsOut, NeverPredictsAGroupFromItself) {
+  std::vector<Row> rows = line(6, 4, 0.0, 0.0);
+  for (Row& row : rows) {
+    if (row.group == 3) row.y += 1.0;
+  }
+  const std::vector<LeftOut> left_out = leave_groups_out(rows, 2, {.noise = 0.01});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_NEAR(left_out[i].observed - left_out[i].predicted, rows[i].group == 3 ? 1.0 : 0.0, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace capstan::casebase::tune
