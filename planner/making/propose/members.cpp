@@ -26,8 +26,10 @@ model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std
                               const std::vector<model::Selection>& chosen) {
   model::ProposedStep step = chain[at];
   if (at == 0 || chosen[at - 1].ranked.empty()) return step;
-  step.start_diameter_mm =
-      step::opened_by(step.start_diameter_mm, chain[at - 1], chosen[at - 1].ranked.front().cutter);
+  const model::Cutter& before = chosen[at - 1].ranked.front().cutter;
+  step.start_diameter_mm = step::opened_by(step.start_diameter_mm, chain[at - 1], before);
+  if (chain[at - 1].operation == model::TypeId::kCenterDrilling && before.point_angle_rad > 0.0)
+    step.tool.spot_angle_rad = before.point_angle_rad;
   return step;
 }
 

@@ -64,6 +64,7 @@ Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
     const double degrees = tip * 180.0 / std::numbers::pi;
     const bool flank = degrees <= 45.0 + kHair;
     const bool half = !flank && degrees <= 75.0 + kHair;
+    if (const auto round = length(m, c->tip_radius)) s->bottom_hole_radius_mm = round->nominal_mm;
     s->bottom_angle_rad = flank ? tip : half ? 0.5 * std::numbers::pi - tip : 0.5 * (std::numbers::pi - tip);
     if (flank || half) {
       const std::string point = trimmed(180.0 - 2.0 * s->bottom_angle_rad * 180.0 / std::numbers::pi, 2);
