@@ -54,7 +54,8 @@ std::optional<std::vector<ProposedStep>> by_carbide(const model::FeatureShape& s
     say(drill, deep ? "spotted: deeper than " + most : "spotted: a zone of position is asked");
     return chain;
   }
-  say(drill, "not spotted: a solid carbide drill centres itself to " + most + " (ctemag.com, Get it straight)");
+  say(drill,
+      "not spotted: a solid carbide drill centres itself to " + most + " (ctemag.com, Get it straight)");
   chain.erase(chain.begin());
   for (ProposedStep& s : chain) {
     for (std::size_t& after : s.after) --after;

@@ -286,9 +286,9 @@ Made ream(const Making& m) {
   ProposedStep s = begin(m, to_the_end(m));
   s.tool.classes = {CutterClass::kReamer};
   s.tool.diameter_exact_mm = m.shape.diameter.nominal_mm;
-  // The flutes fill the hole and what is over it, and stand out below a through one.
+  // The flutes fill the hole and stand out below a through one; what is over it is mostly cut before.
   const bool through = m.shape.bottom == HoleBottom::kThrough;
-  s.tool.depth_of_cut_mm = to_the_end(m) + (through ? kBreakThroughMm : 0.0) + m.context.stock_above_mm;
+  s.tool.depth_of_cut_mm = to_the_end(m) + (through ? kBreakThroughMm : 0.0);
   return s;
 }
 

@@ -82,8 +82,7 @@ std::optional<std::string> wrong_point(const Cutter& c, const ToolRequirement& r
   const double point = c.point_angle_rad, least = r.point_angle_rad;
   const double most = drill ? std::max(least, r.point_angle_most_rad) : least;
   if (least > 0.0 && point < least - slack - 1e-9)
-    return "point angle " + deg_text(point) +
-           (most > least ? " is below " : " is not ") + deg_text(least);
+    return "point angle " + deg_text(point) + (most > least ? " is below " : " is not ") + deg_text(least);
   if (least > 0.0 && point > most + slack + 1e-9)
     return "point angle " + deg_text(point) + (most > least ? " is above " : " is not ") + deg_text(most);
   if (model::has(c.cutter_class, model::CutterTrait::kMarks) && r.point_angle_most_rad > 0.0 &&

@@ -53,8 +53,8 @@ void take_shape(Cutter& c, const ToolRequirement& r) {
   if (r.corner_radius_limited) c.corner_radius_mm = std::min(c.corner_radius_mm, r.corner_radius_max_mm);
   if (model::has(c.cutter_class, CutterTrait::kBall)) c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
   if (r.point_angle_rad > 0.0)
-    c.point_angle_rad = std::clamp(c.point_angle_rad, r.point_angle_rad,
-                                   std::max(r.point_angle_rad, r.point_angle_most_rad));
+    c.point_angle_rad =
+        std::clamp(c.point_angle_rad, r.point_angle_rad, std::max(r.point_angle_rad, r.point_angle_most_rad));
   if (r.taper_angle_rad > 0.0)
     (c.cutter_class == CutterClass::kDovetailMill ? c.lead_angle_rad : c.taper_angle_rad) = r.taper_angle_rad;
   if (r.tip_diameter_max_mm > 0.0) c.tip_diameter_mm = std::min(c.tip_diameter_mm, r.tip_diameter_max_mm);
@@ -77,7 +77,8 @@ void take_shape(Cutter& c, const ToolRequirement& r) {
   }
 }
 
-/// A mill's shank follows it into the work, so that it is no thicker; chips leave a drill by its flutes.
+/// A mill's shank follows it into the work, so that it is no thicker; a drill's flutes are as long as it is
+/// used, for chips leave by them.
 void take_lengths(Cutter& c, const ToolRequirement& r) {
   const bool mills = !model::has(c.cutter_class, CutterTrait::kAlongAxis);
   if (mills && c.neck_diameter_mm == 0.0 && c.shank_diameter_mm > c.cutting_diameter_mm)
@@ -85,7 +86,7 @@ void take_lengths(Cutter& c, const ToolRequirement& r) {
   c.usable_length_mm = std::max(r.reach_mm, r.depth_of_cut_mm);
   const bool flutes_carry = model::has(c.cutter_class, CutterTrait::kDrills);
   c.maximum_depth_of_cut_mm = std::max(
-      flutes_carry ? c.usable_length_mm + 1.5 * c.cutting_diameter_mm : 0.0,
+      flutes_carry ? c.usable_length_mm : 0.0,
       r.depth_of_cut_mm > 0.0
           ? r.depth_of_cut_mm
           : std::min(c.maximum_depth_of_cut_mm, std::max(c.usable_length_mm, c.cutting_diameter_mm)));

@@ -143,8 +143,8 @@ void fill_drilling(Model& m, AnyRef op, const model::ProposedStep& step) {
   if (step.dwell_s > 0.0) o->dwell_time_bottom = step.dwell_s;
   if (auto* s = m.get<model::MultistepDrilling>(op)) {
     // Out of the hole to just above the material, or up a little to break the chip. The first two diameters
-    // are drilled before pecks begin (Kennametal-Greenfield IPG, technical tips, iowamidland.com); then by one
-    // diameter, a common default, unsourced.
+    // are drilled before pecks begin (Kennametal-Greenfield IPG, technical tips, iowamidland.com); then by
+    // one diameter, a common default, unsourced.
     const double d =
         step.tool.diameter_exact_mm > 0.0 ? step.tool.diameter_exact_mm : step.tool.diameter_max_mm;
     s->first_depth = 2.0 * d;

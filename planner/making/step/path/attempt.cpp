@@ -210,9 +210,8 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
       if (!loads && step.open_technology) return tl::unexpected(loads.error());
       if (loads) out.under = *loads;
     }
-    auto path = over_surface
-                    ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
-                    : workholding::kept_clear(p.setups[step.setup], step.cutter, job, make_path);
+    auto path = over_surface ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
+                             : workholding::kept_clear(p.setups[step.setup], step.cutter, job, make_path);
     over_surface.reset();
     if (!path) return tl::unexpected(path.error());
     if (first) {

@@ -154,8 +154,8 @@ class SectionCutter {
     const bool finishes = model::finishes_walls(task_.operation);
     const double terrace = finishes ? kFinishStep : kRoughStep * 2.0 * tip_.radius_mm;
     const bool fine = finishes ? tip_.corner_mm <= 0.0 : side > 0.0;
-    const auto zs = fine ? fine_levels(thick, rise, end, terrace)
-                         : levels(area_, task_.start_z_mm, end, step, 0.0);
+    const auto zs =
+        fine ? fine_levels(thick, rise, end, terrace) : levels(area_, task_.start_z_mm, end, step, 0.0);
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
       return fail({.code = "TPA-DEPTH",

@@ -273,7 +273,8 @@ void StepChecks::ring_up(const Move& m) {
   if (before_ == nullptr || rise <= 1e-9) return;
   const bool aside = !is_arc(m.kind) && norm(xy(m.to) - xy(m.from)) >= rise;
   if (m.kind != MoveKind::kRapid && (aside || winds(m, head))) return;
-  const double into = before_->highest(xy(m.from), std::max(0.0, radius_ - neck_slack(grid_))) - (m.from.z + head);
+  const double into =
+      before_->highest(xy(m.from), std::max(0.0, radius_ - neck_slack(grid_))) - (m.from.z + head);
   if (into <= kSlackMm) return;
   out_.error(11, "CHK-HEAD", at(m),
              "the tool goes up and its head runs " + mm(into) + " into material at " + here(xy(m.from)) +

@@ -18,9 +18,9 @@
 // radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
 // bounds (steps, outsides, closed pockets: volumes::unstated_corner_mm); nothing in the square ends of slots,
 // at the open side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical
-// bottom's depth only; what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A through hole that ends within another feature that the plan makes is done there.
-// Crests of threads and what heights do not hold are not looked at, nor what is narrower than two cells: a
-// note says so.
+// bottom's depth only; what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A
+// through hole that ends within another feature that the plan makes is done there. Crests of threads and what
+// heights do not hold are not looked at, nor what is narrower than two cells: a note says so.
 //
 // In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
 // step.
