@@ -278,17 +278,14 @@ double to_the_end(const Making& m) {
   return m.shape.depth_mm + (m.shape.bottom == HoleBottom::kThrough ? m.number("past_mm") : 0.0);
 }
 
-/// What the path goes below a through hole by itself, mm (planner/making/step/path/job_of.cpp).
-constexpr double kBreakThroughMm = 1.0;
-
 Made ream(const Making& m) {
   if (m.known.facts.symbol("reamer") != "fits") return no("no standard H7 reamer makes this tolerance");
   ProposedStep s = begin(m, to_the_end(m));
   s.tool.classes = {CutterClass::kReamer};
   s.tool.diameter_exact_mm = m.shape.diameter.nominal_mm;
-  // The flutes fill the hole and stand out below a through one; what is over it is mostly cut before.
-  const bool through = m.shape.bottom == HoleBottom::kThrough;
-  s.tool.depth_of_cut_mm = to_the_end(m) + (through ? kBreakThroughMm : 0.0);
+  // The flutes are as long as the hole; that they stand out below a through one is a matter of reach, for the
+  // shank behind them is thinner.
+  s.tool.depth_of_cut_mm = m.shape.depth_mm;
   return s;
 }
 
