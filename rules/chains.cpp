@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "rules/facts/demand.h"
 #include "rules/rules.h"
+#include "rules/spots.h"
 #include "rules/strategy/action.h"
 
 namespace capstan::rules {
@@ -294,7 +295,12 @@ std::vector<Proposal> propose_members(const RuleBase& base, std::span<const Feat
     for (std::size_t back = 1; back <= std::min(i, kLookBack) && same == i; ++back) {
       if (same_context(i - back, i) && copies(shapes[i - back], shapes[i])) same = i - back;
     }
-    out.push_back(same != i ? out[same] : propose(base, shapes[i], contexts[i]));
+    if (same == i) {
+      out.push_back(propose(base, shapes[i], contexts[i]));
+      carbide_first(shapes[i], contexts[i], out.back());
+    } else {
+      out.push_back(out[same]);
+    }
   }
   return out;
 }

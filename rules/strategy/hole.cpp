@@ -140,8 +140,14 @@ Made drill(const Making& m) {
   ProposedStep s = begin(m, depth);
   s.tool.classes = {CutterClass::kTwistDrill};
   require(s.tool, w);
-  if (m.known.facts.symbol("point") == "drill" && m.shape.bottom == HoleBottom::kConical)
+  if (m.known.facts.symbol("point") == "drill" && m.shape.bottom == HoleBottom::kConical) {
     s.tool.point_angle_rad = std::numbers::pi - 2.0 * m.shape.bottom_angle_rad;
+    // tip_angle has no tolerance in ISO 14649: a blunter point leaves rest below the full diameter's depth,
+    // unless the file states the tip's radius, too. Never a sharper one, which would go deeper.
+    if (!(m.shape.bottom_hole_radius_mm > 0.0))
+      s.tool.point_angle_most_rad =
+          std::max(s.tool.point_angle_rad, m.number("bluntest_deg") * std::numbers::pi / 180.0);
+  }
   const double tip = kDrillTip * w.best;
   s.tool.depth_of_cut_mm = depth + tip + m.context.stock_above_mm;  // chips leave through the flutes
   s.tool.reach_mm += tip;
@@ -241,6 +247,9 @@ Made pilot(const Making& m) {
 /// Room between a spot drill's body and a wall beside the hole, mm. Default, unsourced.
 constexpr double kBesideWallMm = 0.25;
 
+/// The mark of a spot at most, of the hole's diameter, so that the drill takes it away. Default, unsourced.
+constexpr double kMostOfHole = 0.95;
+
 // A mark for the drill: narrower than the hole, so that nothing of it stays. The body above the mark is
 // wider: it must stay clear of walls beside the hole.
 Made centre(const Making& m) {
@@ -250,6 +259,7 @@ Made centre(const Making& m) {
   s.tool.classes = {CutterClass::kSpotDrill, CutterClass::kCenterDrill};
   s.tool.depth_of_cut_mm = depth;
   s.tool.centre_cutting = true;
+  s.tool.point_angle_most_rad = 2.0 * std::atan(0.5 * kMostOfHole * d / depth);
   s.start_diameter_mm = 0.0;
   if (m.context.clear_radius_mm) {
     const double clear = *m.context.clear_radius_mm;
@@ -273,6 +283,8 @@ Made ream(const Making& m) {
   ProposedStep s = begin(m, to_the_end(m));
   s.tool.classes = {CutterClass::kReamer};
   s.tool.diameter_exact_mm = m.shape.diameter.nominal_mm;
+  // The flutes are as long as the hole; that they stand out below a through one is a matter of reach, for the
+  // shank behind them is thinner.
   s.tool.depth_of_cut_mm = m.shape.depth_mm;
   return s;
 }
@@ -372,16 +384,20 @@ std::vector<Action> hole_actions() {
   const ActionParameter for_ream{"for_ream", 0.0, "1: leaves what table ream_stock says"};
   const ActionParameter any_size{
       "any_size", 0.0, "1: any drill that the tolerance admits, where the nominal one cannot be had"};
+  const ActionParameter bluntest{
+      "bluntest_deg", 140.0,
+      "point of a drill that may leave rest material in a conical bottom; 140: carbide drills of makers' "
+      "catalogues; 0: the bottom's own only"};
   const ActionParameter through{"coolant_through", 0.0, "1: drill and machine give coolant through the tool"};
   return {
       {"centre",
        TypeId::kCenterDrilling,
        {{"of_diameter", 0.3, "depth by diameter"}, {"deepest_mm", 3.0, "depth"}},
        centre},
-      {"drill", TypeId::kDrilling, {under, for_ream, any_size, through, past, leave}, drill},
+      {"drill", TypeId::kDrilling, {under, for_ream, any_size, through, past, leave, bluntest}, drill},
       {"peck_drill",
        TypeId::kMultistepDrilling,
-       {under, for_ream, any_size, through, past, leave},
+       {under, for_ream, any_size, through, past, leave, bluntest},
        peck_drill},
       {"gun_pilot",
        TypeId::kDrilling,

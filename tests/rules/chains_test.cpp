@@ -72,7 +72,9 @@ TEST(DeepHole, IsPeckedThenGunDrilledThenRefused) {
   EXPECT_THAT(actions(hole(10, 25), c), ElementsAre("centre", "drill"));
   EXPECT_FALSE(propose(shipped(), hole(10, 25), c).chains[0][1].peck);
   EXPECT_TRUE(propose(shipped(), hole(10, 40), c).chains[0][1].peck);
-  EXPECT_THAT(row(hole(10, 150), c), HasSubstr("[hole.gun.dry]"));
+  EXPECT_EQ(row(hole(10, 150), c), "hole.long");
+  EXPECT_THAT(actions(hole(10, 150), c), ElementsAre("centre", "peck_drill")) << "dry, to 20 diameters";
+  EXPECT_THAT(row(hole(10, 250), c), HasSubstr("[hole.gun.dry]"));
   c.has_through_coolant = true;
   EXPECT_EQ(row(hole(10, 60), c), "hole.deep.through");
   EXPECT_TRUE(propose(shipped(), hole(10, 60), c).chains[0][1].coolant_through);

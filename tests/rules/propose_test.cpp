@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "rules/facts/it_grade.h"
 #include "rules/rules.h"
@@ -41,7 +43,38 @@ TEST(Pattern, ProposesTheSameForEachCopyAsForOne) {
   }
   const auto proposals = propose_members(shipped(), shapes, steel());
   ASSERT_EQ(proposals.size(), 400U);
-  for (const auto& p : proposals) EXPECT_EQ(kinds(p.chains.at(0)), first(proposed(shapes[0])));
+  const auto one = propose_members(shipped(), std::span(shapes).first(1), steel());
+  for (const auto& p : proposals) ASSERT_EQ(kinds(p.chains.at(0)), kinds(one[0].chains.at(0)));
+}
+
+TEST(Spot, IsLeftOutForACarbideDrillToFiveDiametersUnlessAPositionIsAsked) {
+  const auto chains = [](double depth, const Context& c) {
+    return propose_members(shipped(), std::vector{hole(10, depth)}, c)[0].chains;
+  };
+  const auto shallow = chains(40, steel());
+  EXPECT_EQ(kinds(shallow.at(0)), std::vector{model::TypeId::kMultistepDrilling});
+  EXPECT_TRUE(shallow[0][0].tool.solid_carbide);
+  EXPECT_TRUE(shallow[0][0].after.empty());
+  // Where there is no such drill, any drill after a spot.
+  EXPECT_EQ(shallow.at(1).at(0).operation, model::TypeId::kCenterDrilling);
+  EXPECT_FALSE(shallow.at(1).at(1).tool.solid_carbide);
+  Context placed = steel();
+  placed.quality.location_mm = 0.5;
+  for (const auto& spotted : {chains(60, steel()).at(0), chains(40, placed).at(0)}) {
+    ASSERT_EQ(spotted.at(0).operation, model::TypeId::kCenterDrilling);
+    EXPECT_NEAR(spotted[0].tool.point_angle_rad, 142.0 * std::numbers::pi / 180.0, 1e-12);
+    EXPECT_TRUE(spotted.at(1).tool.solid_carbide);
+  }
+}
+
+TEST(ConicalBottom, TakesABlunterDrillAndNeverASharperOneUnlessItsTipHasARadius) {
+  FeatureShape s = hole(8, 20, model::HoleBottom::kConical);
+  s.bottom_angle_rad = 31.0 * kDegree;  // 118 degrees
+  const auto drill = proposed(s).chains.at(0).at(1).tool;
+  EXPECT_NEAR(drill.point_angle_rad, 118.0 * kDegree, 1e-12);
+  EXPECT_NEAR(drill.point_angle_most_rad, 140.0 * kDegree, 1e-12);
+  s.bottom_hole_radius_mm = 0.4;
+  EXPECT_EQ(proposed(s).chains.at(0).at(1).tool.point_angle_most_rad, 0.0);
 }
 
 TEST(Face, IsMilledAtOnceWhereNoSurfaceIsAskedForAndRoughedFirstElse) {

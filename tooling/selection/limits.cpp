@@ -33,6 +33,9 @@ constexpr double kAngleSlackRad = 0.5 * kPi / 180.0;
 /// Drawings show the point of a twist drill, 118 degrees, as 120; the difference in the cone is 1.2 % of the
 /// diameter. The next point of a catalogue, 130 degrees, is another. Default, unsourced.
 constexpr double kPointSlackRad = 2.0 * kPi / 180.0;
+/// The least point of a carbide drill that centres itself: makers grind 130 to 150 degrees, and such a drill
+/// needs no spot (cutting-tool-supply.com, high performance drill point angles; ctemag.com, get it straight).
+constexpr double kStartsAloneRad = 130.0 * kPi / 180.0;
 /// The spindle's slowest turn may exceed the preset's cutting speed by this much and no more.
 constexpr double kFastestOverPreset = 1.25;  // default, unsourced
 /// The least cut that is worth a tool: a mill's depth and width, a drill's share of its start feed. Defaults,
@@ -70,6 +73,31 @@ std::optional<std::string> wrong_hand(const Cutter& c, const ToolRequirement& r)
   if (tap && r.left_hand && !left) return std::string("it cuts right-hand threads");
   if (left && !(tap && r.left_hand))
     return tap ? std::string("it cuts left-hand threads") : std::string("it is a left-hand cutter");
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_point(const Cutter& c, const ToolRequirement& r) {
+  const bool drill = c.cutter_class == CutterClass::kTwistDrill;
+  const double slack = drill ? kPointSlackRad : kAngleSlackRad;
+  const double point = c.point_angle_rad, least = r.point_angle_rad;
+  const double most = drill ? std::max(least, r.point_angle_most_rad) : least;
+  if (least > 0.0 && point < least - slack - 1e-9)
+    return "point angle " + deg_text(point) + (most > least ? " is below " : " is not ") + deg_text(least);
+  if (least > 0.0 && point > most + slack + 1e-9)
+    return "point angle " + deg_text(point) + (most > least ? " is above " : " is not ") + deg_text(most);
+  if (model::has(c.cutter_class, model::CutterTrait::kMarks) && r.point_angle_most_rad > 0.0 &&
+      point > r.point_angle_most_rad + kAngleSlackRad)
+    return "point angle " + deg_text(point) + " marks wider than the hole; at most " +
+           deg_text(r.point_angle_most_rad);
+  if (!drill) return std::nullopt;
+  const bool carbide = c.substrate == model::Substrate::kCarbide;
+  if (r.solid_carbide && !(carbide && point >= kStartsAloneRad - slack))
+    return carbide ? "its point of " + deg_text(point) + " does not centre it"
+                   : std::string(model::to_text(c.substrate)) + " is not the carbide that is wanted";
+  // Its corners would meet the spot's cone first, at the whole feed.
+  if (carbide && r.spot_angle_rad > 0.0 && point > r.spot_angle_rad + kAngleSlackRad)
+    return "a spot of " + deg_text(r.spot_angle_rad) + " is steeper than its carbide point of " +
+           deg_text(point) + ", whose corners would meet it first";
   return std::nullopt;
 }
 
@@ -225,9 +253,7 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
     return "corner radius " + mm_text(c.corner_radius_mm) + " is not " + mm_text(r.corner_radius_exact_mm);
   if (r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
     return "corner radius " + mm_text(c.corner_radius_mm) + " is above " + mm_text(r.corner_radius_max_mm);
-  const double slack = c.cutter_class == CutterClass::kTwistDrill ? kPointSlackRad : kAngleSlackRad;
-  if (r.point_angle_rad > 0.0 && std::abs(c.point_angle_rad - r.point_angle_rad) > slack + 1e-9)
-    return "point angle " + deg_text(c.point_angle_rad) + " is not " + deg_text(r.point_angle_rad);
+  if (auto why = wrong_point(c, r)) return why;
   // A dovetail's flanks lean inwards by its lead angle.
   const double taper = c.cutter_class == CutterClass::kDovetailMill ? c.lead_angle_rad : c.taper_angle_rad;
   if (r.taper_angle_rad > 0.0 && std::abs(taper - r.taper_angle_rad) > kAngleSlackRad)

@@ -19,19 +19,28 @@ using model::ToolRequirement;
 /// Between what is cut and the holder's face. Default, unsourced.
 constexpr double kClearOfHolderMm = 2.0;
 
+/// The least diameter of a tool that only marks: its cone as wide as it is sunk.
+double marks_from_mm(const Cutter& c, const ToolRequirement& r) {
+  return 2.0 * r.depth_of_cut_mm * std::tan(0.5 * c.point_angle_rad);
+}
+
 /// The generic cutter of the class with the largest diameter within the limits, the shortest of these; else
-/// the nearest. Null where there is none of the class.
+/// the nearest. Of tools that only mark, the smallest that makes the mark: a larger one does nothing more.
+/// Null where there is none of the class.
 const Cutter* pattern_of(const ToolRequirement& r, CutterClass c, const std::vector<Cutter>& generic) {
-  const double low = model::lower_size(r), high = model::upper_size(r);
+  const bool marks = model::has(c, CutterTrait::kMarks);
+  const double high = model::upper_size(r);
   const auto off = [&](const Cutter& g) {
     const double d = g.cutting_diameter_mm;
+    const double low = std::max(model::lower_size(r), marks ? marks_from_mm(g, r) : 0.0);
     return std::max({0.0, low - d, high > 0.0 ? d - high : 0.0});
   };
   const Cutter* best = nullptr;
   for (const Cutter& g : generic) {
-    if (g.cutter_class != c) continue;
+    if (g.cutter_class != c || (r.solid_carbide && g.substrate != model::Substrate::kCarbide)) continue;
+    const double larger = marks ? -1.0 : 1.0;
     if (best == nullptr || off(g) < off(*best) ||
-        (off(g) == off(*best) && (g.cutting_diameter_mm > best->cutting_diameter_mm ||
+        (off(g) == off(*best) && (larger * g.cutting_diameter_mm > larger * best->cutting_diameter_mm ||
                                   (g.cutting_diameter_mm == best->cutting_diameter_mm &&
                                    g.usable_length_mm < best->usable_length_mm))))
       best = &g;
@@ -43,7 +52,9 @@ void take_shape(Cutter& c, const ToolRequirement& r) {
   if (r.corner_radius_exact_mm >= 0.0) c.corner_radius_mm = r.corner_radius_exact_mm;
   if (r.corner_radius_limited) c.corner_radius_mm = std::min(c.corner_radius_mm, r.corner_radius_max_mm);
   if (model::has(c.cutter_class, CutterTrait::kBall)) c.corner_radius_mm = 0.5 * c.cutting_diameter_mm;
-  if (r.point_angle_rad > 0.0) c.point_angle_rad = r.point_angle_rad;
+  if (r.point_angle_rad > 0.0)
+    c.point_angle_rad =
+        std::clamp(c.point_angle_rad, r.point_angle_rad, std::max(r.point_angle_rad, r.point_angle_most_rad));
   if (r.taper_angle_rad > 0.0)
     (c.cutter_class == CutterClass::kDovetailMill ? c.lead_angle_rad : c.taper_angle_rad) = r.taper_angle_rad;
   if (r.tip_diameter_max_mm > 0.0) c.tip_diameter_mm = std::min(c.tip_diameter_mm, r.tip_diameter_max_mm);
@@ -66,7 +77,8 @@ void take_shape(Cutter& c, const ToolRequirement& r) {
   }
 }
 
-/// A mill's shank follows it into the work, so that it is no thicker; chips leave a drill by its flutes.
+/// A mill's shank follows it into the work, so that it is no thicker; a drill's flutes are as long as it is
+/// used, for chips leave by them.
 void take_lengths(Cutter& c, const ToolRequirement& r) {
   const bool mills = !model::has(c.cutter_class, CutterTrait::kAlongAxis);
   if (mills && c.neck_diameter_mm == 0.0 && c.shank_diameter_mm > c.cutting_diameter_mm)
@@ -74,7 +86,7 @@ void take_lengths(Cutter& c, const ToolRequirement& r) {
   c.usable_length_mm = std::max(r.reach_mm, r.depth_of_cut_mm);
   const bool flutes_carry = model::has(c.cutter_class, CutterTrait::kDrills);
   c.maximum_depth_of_cut_mm = std::max(
-      flutes_carry ? c.usable_length_mm + 1.5 * c.cutting_diameter_mm : 0.0,
+      flutes_carry ? c.usable_length_mm : 0.0,
       r.depth_of_cut_mm > 0.0
           ? r.depth_of_cut_mm
           : std::min(c.maximum_depth_of_cut_mm, std::max(c.usable_length_mm, c.cutting_diameter_mm)));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -90,6 +91,18 @@ void sum_up_sizes(const ToolRequirement& r, const std::map<CutterClass, std::set
   }
 }
 
+/// What a drill leaves in a conical bottom that asks a sharper point: between two cones on its diameter.
+struct PointRest {
+  double height_mm = 0.0, volume_mm3 = 0.0;
+};
+PointRest rest_under_point(const Cutter& c, double asked_rad) {
+  const double r = 0.5 * c.cutting_diameter_mm;
+  const double h = r / std::tan(0.5 * asked_rad) - r / std::tan(0.5 * c.point_angle_rad);
+  return {h, std::numbers::pi * r * r * h / 3.0};
+}
+/// Less than this is the rounding of drawn points, 118 as 120 degrees. Default, unsourced.
+constexpr double kTellRestMm = 0.1;
+
 model::Reason reason_for(const Cutter& c, const ToolRequirement& r, const StartValues& start,
                          const Preferences& p, std::size_t fitting, const Estimate& e) {
   std::string text = c.description.empty() ? c.id : c.description;
@@ -97,6 +110,13 @@ model::Reason reason_for(const Cutter& c, const ToolRequirement& r, const StartV
   text += r.diameter_exact_mm > 0.0 ? "of the size wanted" : "diameter " + mm_text(c.cutting_diameter_mm);
   if (upper_size(r) > 0.0 && r.diameter_exact_mm <= 0.0) text += " within " + mm_text(upper_size(r));
   if (r.reach_mm > 0.0) text += ", reach " + mm_text(reach_of(c)) + " for " + mm_text(r.reach_mm);
+  if (r.point_angle_most_rad > 0.0 && c.cutter_class == CutterClass::kTwistDrill) {
+    const PointRest rest = rest_under_point(c, r.point_angle_rad);
+    if (rest.height_mm > kTellRestMm)
+      text += ", its point of " + deg_text(c.point_angle_rad) + " leaves " + trimmed(rest.height_mm, 2) +
+              " mm, " + trimmed(rest.volume_mm3, 1) + " mm3, in the bottom's cone of " +
+              deg_text(r.point_angle_rad);
+  }
   if (c.loaded)
     text += ", loaded as T" + std::to_string(c.pocket);
   else if (std::find(p.used.begin(), p.used.end(), c.id) != p.used.end())

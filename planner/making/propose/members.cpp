@@ -26,13 +26,13 @@ model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std
                               const std::vector<model::Selection>& chosen) {
   model::ProposedStep step = chain[at];
   if (at == 0 || chosen[at - 1].ranked.empty()) return step;
+  const model::Cutter& before = chosen[at - 1].ranked.front().cutter;
   // The cutter that left the rest is known, where its largest was only bounded.
-  if (step.rest_of_diameter_mm > 0.0) {
-    const double wide = chosen[at - 1].ranked.front().cutter.cutting_diameter_mm;
-    step.rest_of_diameter_mm = std::min(step.rest_of_diameter_mm, wide);
-  }
-  step.start_diameter_mm =
-      step::opened_by(step.start_diameter_mm, chain[at - 1], chosen[at - 1].ranked.front().cutter);
+  if (step.rest_of_diameter_mm > 0.0)
+    step.rest_of_diameter_mm = std::min(step.rest_of_diameter_mm, before.cutting_diameter_mm);
+  step.start_diameter_mm = step::opened_by(step.start_diameter_mm, chain[at - 1], before);
+  if (chain[at - 1].operation == model::TypeId::kCenterDrilling && before.point_angle_rad > 0.0)
+    step.tool.spot_angle_rad = before.point_angle_rad;
   return step;
 }
 

@@ -142,11 +142,12 @@ void fill_drilling(Model& m, AnyRef op, const model::ProposedStep& step) {
   if (step.start_diameter_mm > 0.0) o->previous_diameter = step.start_diameter_mm;
   if (step.dwell_s > 0.0) o->dwell_time_bottom = step.dwell_s;
   if (auto* s = m.get<model::MultistepDrilling>(op)) {
-    // Pecks of one diameter; out of the hole to just above the material, or up a little to break the chip. The
-    // diameter is a common default, unsourced.
+    // Out of the hole to just above the material, or up a little to break the chip. The first two diameters
+    // are drilled before pecks begin (Kennametal-Greenfield IPG, technical tips, iowamidland.com); then by
+    // one diameter, a common default, unsourced.
     const double d =
         step.tool.diameter_exact_mm > 0.0 ? step.tool.diameter_exact_mm : step.tool.diameter_max_mm;
-    s->first_depth = d;
+    s->first_depth = 2.0 * d;
     s->depth_of_step = d;
     s->retract_distance = step.peck_retract_mm;
   }

@@ -74,7 +74,7 @@ struct FeatureShape {
   double bottom_diameter_mm = 0.0;  ///< tapered holes; else diameter.nominal
   HoleBottom bottom = HoleBottom::kThrough;
   double bottom_angle_rad = 0.0;       ///< conical: angle of the bottom's flank against the plane z = const
-  double bottom_hole_radius_mm = 0.0;  ///< spherical, flat with radius
+  double bottom_hole_radius_mm = 0.0;  ///< spherical, flat with radius; conical: a stated tip radius
 
   double thread_pitch_mm = 0.0, thread_major_mm = 0.0, thread_depth_mm = 0.0;
   bool thread_left_hand = false;

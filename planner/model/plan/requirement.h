@@ -20,6 +20,13 @@ struct ToolRequirement {
   double corner_radius_exact_mm = -1.0;  ///< >= 0: ball or bull of this radius
   bool centre_cutting = false;           ///< or a ramp the tool allows
   double point_angle_rad = 0.0;
+  /// Drills: blunter points than the one wanted will do up to this, and leave rest material in the bottom's
+  /// cone. Spots: the bluntest point, whose mark is no wider than the hole. 0: does not matter.
+  double point_angle_most_rad = 0.0;
+  /// Drills: of solid carbide, with a point that centres itself.
+  bool solid_carbide = false;
+  /// Drills: the full angle of the spot that they start in; 0: there is none.
+  double spot_angle_rad = 0.0;
   double thread_pitch_mm = 0.0;
   double thread_size_mm = 0.0;        ///< nominal, thread mills and taps
   double lead_threads_max = 0.0;      ///< taps: threads in the chamfer, where the tap states them; 0: any

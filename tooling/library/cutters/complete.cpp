@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "tooling/library/cutters/edges.h"
 #include "tooling/library/cutters/generic.h"
 #include "tooling/shop/material/material.h"
@@ -134,6 +135,21 @@ Speed speed_of_like(const Cutter* like, const std::string& material) {
     return {p.vc_m_min, p.source.substr(0, p.source.find("; fz: "))};
   }
   return {};
+}
+
+/// A thread mill with one profile stands on a neck that clears the thread, or it would cut one turn only:
+/// thinner by its profile, 0.65 of the pitch, and 0.1 mm on either side, as those of the generic series.
+void fill_neck_of_ring(Cutter& c, Filler& f) {
+  if (!model::mills_threads(c.cutter_class) || c.neck_diameter_mm > 0.0 || !(c.thread_pitch_mm > 0.0) ||
+      !(c.maximum_depth_of_cut_mm < 2.0 * c.thread_pitch_mm))
+    return;
+  const double neck = rounded(c.cutting_diameter_mm - 1.3 * c.thread_pitch_mm - 0.2, 3);
+  if (!(neck > 0.0)) return;
+  const double reach = c.neck_length_mm > 0.0 ? c.neck_length_mm : c.usable_length_mm;
+  if (!(reach > c.maximum_depth_of_cut_mm)) return;
+  c.neck_diameter_mm = neck;
+  c.neck_length_mm = reach;
+  f.note("neck_diameter_mm", std::string(kNotStated) + ", that of the generic series for its pitch");
 }
 
 /// As kCoated, of a bare edge of cobalt steel.
@@ -269,6 +285,7 @@ void complete(Cutter& c, const std::vector<Cutter>& generic) {
   f.take(c.shank_diameter_mm, g->shank_diameter_mm, "shank_diameter_mm");
   f.take(c.holder_diameter_mm, g->holder_diameter_mm, "holder_diameter_mm");
   fill_lengths(c, *g, f);
+  fill_neck_of_ring(c, f);
   fill_feeds(c, *g, generic, f);
   if (model::has(c.cutter_class, model::CutterTrait::kToCentre) && !c.centre_cutting) {
     c.centre_cutting = true;

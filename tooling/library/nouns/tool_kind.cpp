@@ -79,7 +79,7 @@ std::optional<CutterClass> class_of_body(const Model& m, const ToolParts& p, dou
 /// The points that each class is sold with, deg.
 std::span<const double> usual_points(CutterClass c) {
   static constexpr std::array<double, 6> kDrill{118, 140, 135, 130, 120, 90};
-  static constexpr std::array<double, 3> kCentre{60, 90, 120};
+  static constexpr std::array<double, 4> kCentre{60, 90, 120, 142};
   static constexpr std::array<double, 5> kSink{90, 60, 82, 120, 30};
   if (model::has(c, model::CutterTrait::kDrills)) return kDrill;
   if (model::has(c, model::CutterTrait::kMarks)) return kCentre;

@@ -6,6 +6,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/ground/vocabulary/thread_mill.h"
+#include "planner/making/step/cut/thread_bound.h"
 #include "planner/making/step/path/freeform.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
@@ -342,9 +343,9 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     if (m.holds<model::FreeformFinishMilling>(step.operation) && job.allowance_bottom_mm > 0.0)
       q.deflection_limit_mm = std::max(q.deflection_limit_mm, kDeflectionShare * job.allowance_bottom_mm);
     if (model::mills_threads(step.cutter.cutter_class)) {
-      // Depth of an ISO metric thread's flank, 0.6134 p (ISO 68-1).
-      q.width_mm = 0.6134 * job.shape.thread_pitch_mm;
-      q.ap_mm = std::min(step.cutter.maximum_depth_of_cut_mm, job.shape.thread_pitch_mm);
+      const ThreadBound bound = thread_bound(step.cutter, job.shape);
+      q.width_mm = bound.ae_mm;
+      q.ap_mm = bound.ap_mm;
     }
   }
   // A ball as wide as a round slot, milling it into the solid, cuts as in roughing; its deflection limit

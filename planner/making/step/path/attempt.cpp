@@ -6,7 +6,9 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/said_before.h"
 #include "planner/ground/memo/remembered.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/step/cut/question.h"
+#include "planner/making/step/cut/thread_bound.h"
 #include "planner/making/step/cut_samples.h"
 #include "planner/making/step/path/freeform.h"
 #include "planner/making/step/path/given_path.h"
@@ -140,6 +142,20 @@ void schedule(MeasuredCut& cut, model::SectionSeries* sections, memo::Memo* memo
   asked.dwell_s = std::move(known.dwell_s);
 }
 
+/// Of a thread mill whose ring stands under what its way in leaves: nothing, and a note that a bound judges
+/// it.
+std::optional<engagement::Measurement> measured_thread(const model::Model& m, const StepDraft& step,
+                                                       const model::CutterPath& path, const Means& means) {
+  auto out = means.stocks.measure(step.setup, path, step.cutter);
+  if (out) return *std::move(out);
+  const ThreadBound bound = thread_bound(step.cutter, step.shapes.front());
+  means.job.note("PIP-BOUND", "step '" + draft::name_of(m, step) +
+                                  "': its cut under an overhang is not measured but bounded, by " +
+                                  trimmed(bound.ap_mm, 3) + " mm of depth and " + trimmed(bound.ae_mm, 3) +
+                                  " mm of width all along the thread; forces, power and bending are of that");
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
@@ -194,9 +210,8 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
       if (!loads && step.open_technology) return tl::unexpected(loads.error());
       if (loads) out.under = *loads;
     }
-    auto path = over_surface
-                    ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
-                    : workholding::kept_clear(p.setups[step.setup], step.cutter, job, make_path);
+    auto path = over_surface ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
+                             : workholding::kept_clear(p.setups[step.setup], step.cutter, job, make_path);
     over_surface.reset();
     if (!path) return tl::unexpected(path.error());
     if (first) {
@@ -248,7 +263,10 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
   r.axial_depth_mm = made.answer.ap_mm;
   r.radial_depth_mm = made.answer.ae_mm;
   r.active = active_of(made.answer);
-  if (auto m = measured(plan.model, step, *out.path, means.stocks, means.job)) {
+  const bool thread = model::mills_threads(step.cutter.cutter_class) && !step.shapes.empty();
+  auto m = thread ? measured_thread(plan.model, step, *out.path, means)
+                  : measured(plan.model, step, *out.path, means.stocks, means.job);
+  if (m) {
     out.removed_mm3 = m->removed_mm3;
     out.rapid_removed_mm3 = m->rapid_removed_mm3;
     fq.samples = samples_of(*m, *out.path, step.cutter);
@@ -269,6 +287,7 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
     engagement::keep_digits(m->sections, m->known_to_mm);
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
   } else {
+    if (thread) fq.samples = bound_samples(thread_bound(step.cutter, step.shapes.front()), *out.path);
     schedule(out, nullptr, means.memo);
   }
   out.made = std::move(made);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "planner/ground/base/number.h"
@@ -77,6 +78,26 @@ Result<double> bottom_z(const PathJob& task) {
   return z;  // flat and spherical bottoms: the tip stops at the depth
 }
 
+/// Notes  TPA-REST where a drill that goes to a conical bottom is blunter than it: what stays there between
+/// the two cones, below the full diameter's depth.
+void tell_rest_under_point(const PathJob& task, double z, Job& job) {
+  constexpr double kTellMm = 0.1;  // less is the rounding of drawn points, 118 as 120; default, unsourced
+  const auto& s = task.shape;
+  if (s.bottom != HoleBottom::kConical || task.cutter.cutter_class != CutterClass::kTwistDrill ||
+      task.cutting_depth_mm.value_or(s.depth_mm) < s.depth_mm - 1e-6)
+    return;
+  const double r = 0.5 * s.diameter.nominal_mm;
+  const double rest = z - (task.feature_in_setup.origin.z - s.depth_mm - r * std::tan(s.bottom_angle_rad));
+  if (rest <= kTellMm) return;
+  constexpr double kPi = std::numbers::pi;
+  job.note("TPA-REST", about(task) + "rest material at the bottom: " + trimmed(rest, 2) + " mm high, " +
+                           trimmed(kPi * r * r * rest / 3.0, 1) + " mm3, for the point of drill " +
+                           task.cutter.id + ", " + trimmed(task.cutter.point_angle_rad * 180.0 / kPi, 1) +
+                           " degrees, is blunter than the bottom's " +
+                           trimmed(180.0 - 2.0 * s.bottom_angle_rad * 180.0 / kPi, 1) +
+                           ", which has no tolerance; the full diameter is as deep as asked");
+}
+
 std::vector<Stretch> stretches(const PathJob& task, double end_z) {
   const DrillPhases p = task.phases.value_or(DrillPhases{});
   const double top = task.feature_in_setup.origin.z;
@@ -147,6 +168,7 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
   if (task.operation == TypeId::kMultistepDrilling && !task.peck)
     return refuse(task, "TPA-DEPTH",
                   "first_depth and depth_of_step of the step drilling are missing; state them");
+  tell_rest_under_point(task, *z, job);
   PathWriter w(task);
   const auto o = task.feature_in_setup.origin;
   w.over(xy(o));

@@ -154,8 +154,8 @@ class SectionCutter {
     const bool finishes = model::finishes_walls(task_.operation);
     const double terrace = finishes ? kFinishStep : kRoughStep * 2.0 * tip_.radius_mm;
     const bool fine = finishes ? tip_.corner_mm <= 0.0 : side > 0.0;
-    const auto zs = fine ? fine_levels(thick, rise, end, terrace)
-                         : levels(area_, task_.start_z_mm, end, step, 0.0);
+    const auto zs =
+        fine ? fine_levels(thick, rise, end, terrace) : levels(area_, task_.start_z_mm, end, step, 0.0);
     if (zs.empty() && lowest >= section_.depth_mm - 1e-6) return no_fit();
     if (zs.empty()) {
       return fail({.code = "TPA-DEPTH",
@@ -280,10 +280,11 @@ class SectionCutter {
     return sink(t, z);
   }
 
-  /// Down along a track by no more than the ramp angle, then once around from there.
+  /// Down along a track by no more than the usual ramp in the material, then once around from there. A track
+  /// that ends and is too short for one way down is gone to and fro along, as often as it takes.
   Status sink(const Track& t, double z) {
     const double fall = writer_.at().z - z;
-    const double most = task_.cutter.maximum_ramp_angle_rad;
+    const double most = usual_ramp_rad(task_);
     const double length = length_of(t);
     if (fall > 1e-9 && !(most > 0.0) && !task_.cutter.centre_cutting) {
       return fail({.code = "TPA-ENTRY",
@@ -291,7 +292,9 @@ class SectionCutter {
                               " may neither ramp nor plunge from pass to pass",
                    .path = task_.shape.name});
     }
-    const bool ramps = fall > 1e-9 && most > 0.0 && (t.closed || fall <= length * std::tan(most));
+    constexpr int kMostWays = 1000;
+    const double run = most > 0.0 ? fall / std::tan(most) : 0.0;
+    const bool ramps = fall > 1e-9 && most > 0.0 && (t.closed || run <= kMostWays * length);
     if (!ramps) {
       if (fall > 1e-9 && !task_.cutter.centre_cutting)
         return fail({.code = "TPA-ENTRY",
@@ -301,14 +304,16 @@ class SectionCutter {
       writer_.follow(t, z, MoveRole::kCut);
       return {};
     }
+    const double top = writer_.at().z;
     if (!t.closed) {
-      writer_.follow_down(t, z, MoveRole::kRamp);
-      writer_.follow(reversed(t), z, MoveRole::kCut);
+      const int ways = std::max(1, static_cast<int>(std::ceil(run / length - 1e-9)));
+      for (int i = 1; i <= ways; ++i)
+        writer_.follow_down(i % 2 == 1 ? t : reversed(t), i == ways ? z : top - fall * i / ways,
+                            MoveRole::kRamp);
+      writer_.follow(ways % 2 == 1 ? reversed(t) : t, z, MoveRole::kCut);
       return {};
     }
-    const double run = fall / std::tan(usual_ramp_rad(task_));
-    const double top = writer_.at().z;
-    const int rounds = std::min(1000, static_cast<int>(std::floor(run / length)));
+    const int rounds = std::min(kMostWays, static_cast<int>(std::floor(run / length)));
     for (int i = 1; i <= rounds; ++i)
       writer_.follow_down(t, top - fall * (i * length / run), MoveRole::kRamp);
     const Spot down = snapped(t, at_length(t, run - rounds * length));

@@ -64,6 +64,7 @@ Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
     const double degrees = tip * 180.0 / std::numbers::pi;
     const bool flank = degrees <= 45.0 + kHair;
     const bool half = !flank && degrees <= 75.0 + kHair;
+    if (const auto round = length(m, c->tip_radius)) s->bottom_hole_radius_mm = round->nominal_mm;
     s->bottom_angle_rad = flank ? tip : half ? 0.5 * std::numbers::pi - tip : 0.5 * (std::numbers::pi - tip);
     if (flank || half) {
       const std::string point = trimmed(180.0 - 2.0 * s->bottom_angle_rad * 180.0 / std::numbers::pi, 2);
@@ -101,9 +102,10 @@ Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, const Within
   s.name = f.its_id.value_or(s.name);
   if (s.kind != ShapeKind::kHole) return unsupported(m, self, "only threads in holes are planned");
   if (f.inner_or_outer_thread == false)
-    return unsupported(m, self,
-                       "it lies in a hole and says that it is an outer thread; state inner_or_outer_thread as "
-                       "true, or the shaft that it is on");
+    return unsupported(
+        m, self,
+        "it lies in a hole and says that it is an outer thread; state inner_or_outer_thread as "
+        "true, or the shaft that it is on");
   s.kind = ShapeKind::kThread;
   s.thread_major_mm = f.major_diameter.value_or(0.0);
   if (!(s.thread_major_mm > 0.0)) return missing(m, self, "major_diameter");

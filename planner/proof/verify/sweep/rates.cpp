@@ -103,7 +103,14 @@ void StepChecks::planned_section() {
                    plain(stated) + " N: its limits were not held there; rough it first",
                amount);
   };
-  if (deep)
+  // Deeper and narrower: a strip on a wall beside a floor, the edge of thin levels. No more is removed than
+  // was planned, by a force within what the plan states: no limit hangs on it.
+  if (deep && !wide && !unheld && section <= depth * width)
+    out_.note(20, "CHK-DEPTH-LEFT", where,
+              mm(a.depth_mm) + " are cut in a strip of " + plain(section) +
+                  " mm2; the step was planned for " + mm(depth) + " x " + mm(width) + ": a mean force of " +
+                  plain(met) + " N, within the " + plain(stated) + " N that the plan states");
+  else if (deep)
     tell("CHK-DEPTH-LEFT", mm(a.depth_mm) + " are cut; the step was planned for a depth of " + mm(depth),
          a.depth_mm);
   if (wide)

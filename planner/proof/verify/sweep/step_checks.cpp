@@ -63,9 +63,9 @@ double into_hole_walls(const std::vector<volumes::Form>& shapes, const geometry:
 /// What a neck must be thicker than to be judged on these cells.
 double neck_slack(const Grid& grid) { return 1.5 * grid.cell(); }
 
-bool ring_on_a_neck(const model::Cutter& c, const Grid& grid) {
+bool ring_on_a_neck(const model::Cutter& c) {
   return mills_threads(c.cutter_class) && c.neck_length_mm > c.maximum_depth_of_cut_mm &&
-         0.5 * c.neck_diameter_mm > neck_slack(grid);
+         c.neck_diameter_mm > 0.0;
 }
 
 /// A helix that goes up or down by no more in a turn than the teeth are high, and no steeper than 45 degrees
@@ -101,7 +101,7 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
       feed_limit_(feed_limit(*step.cutter, plan.material)),
       least_chip_mm_(least_chip_of(*step.cutter, plan.material)),
       mark_(earlier.mark()),
-      before_(ring_on_a_neck(*step.cutter, grid) ? std::make_unique<const Grid>(grid) : nullptr) {
+      before_(ring_on_a_neck(*step.cutter) ? std::make_unique<const Grid>(grid) : nullptr) {
   constexpr double kThicker = 0.02;  // mm: what is no thicker follows where the cutter has been
   std::erase_if(body_, [&](const BodyPart& p) {
     return p.what == BodyPart::What::kCutter || p.radius_mm <= radius_ + kThicker;
@@ -113,6 +113,11 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
   arcs_count_ = op != nullptr && !finishes(model::AnyRef(ws->its_operation).type) && is_mill(cutter_) &&
                 cutter_.substrate == model::Substrate::kCarbide && outline_->ball() == nullptr &&
                 cutter_.taper_angle_rad == 0.0 && cutter_.lead_angle_rad == 0.0;
+  if (before_ != nullptr && 0.5 * cutter_.neck_diameter_mm <= neck_slack(grid))
+    out_.unproved(Severity::kNote, 11, "CHK-NECK-UNDECIDED", {step.order + 1, step.id, -1},
+                  "the tool's neck of " + mm(cutter_.neck_diameter_mm) +
+                      " is too thin to be judged on cells of " + mm(grid.cell()) +
+                      ": whether it touches the thread's crests is not looked at");
   ramp_chosen_ = ws != nullptr && chose_ramp(plan, *ws);
   std::string why;
   if (undercuts(cutter_.cutter_class)) {
@@ -248,7 +253,7 @@ void StepChecks::neck(const Move& m, const Grid& grid) {
   for (int i = 0; i <= n; ++i) {
     const geometry::Vec3 p = point_of(m, static_cast<double>(i) / n);
     const double beside = grid.highest(xy(p), radius - slack) - (p.z + head);
-    const double below = falls ? grid.highest(xy(p), radius_ - slack) - p.z : 0.0;
+    const double below = falls ? grid.highest(xy(p), std::max(0.0, radius_ - slack)) - p.z : 0.0;
     if (beside > kSlackMm || below > kSlackMm) {
       const bool first = beside > kSlackMm;
       out_.error(11, first ? "CHK-NECK" : "CHK-HEAD", at(m),
@@ -268,7 +273,8 @@ void StepChecks::ring_up(const Move& m) {
   if (before_ == nullptr || rise <= 1e-9) return;
   const bool aside = !is_arc(m.kind) && norm(xy(m.to) - xy(m.from)) >= rise;
   if (m.kind != MoveKind::kRapid && (aside || winds(m, head))) return;
-  const double into = before_->highest(xy(m.from), radius_ - neck_slack(grid_)) - (m.from.z + head);
+  const double into =
+      before_->highest(xy(m.from), std::max(0.0, radius_ - neck_slack(grid_))) - (m.from.z + head);
   if (into <= kSlackMm) return;
   out_.error(11, "CHK-HEAD", at(m),
              "the tool goes up and its head runs " + mm(into) + " into material at " + here(xy(m.from)) +

@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "planner/ground/base/number.h"
 #include "tests/door/pipeline/block.h"
 #include "tooling/library/library.h"
 
@@ -75,6 +79,101 @@ TEST(NeededTools, AreListedAtOnceAndAddingExactlyThesePlansAllOfThePart) {
     if (!fewer.empty())
       for (model::Cutter& c : read_list(fewer)) less.library.push_back(std::move(c));
     EXPECT_FALSE(bound(read(kParts), less).plan.unplanned.empty()) << entries[i];
+  }
+}
+
+/// A shaped part in its own numbers: `at` places it, `below` is its depth.
+struct Part {
+  std::string text;
+  int n = 100;
+  std::string add(const std::string& noun) {
+    text += "#" + std::to_string(++n) + "=" + noun + ";\n";
+    return "#" + std::to_string(n);
+  }
+  std::string at(double x, double y) {
+    const auto p = add("CARTESIAN_POINT('',(" + number(x) + "," + number(y) + ",0.))");
+    return add("AXIS2_PLACEMENT_3D(''," + p + ",#21,#22)");
+  }
+  std::string below(double depth) {
+    const auto p = add("CARTESIAN_POINT('',(0.,0.," + number(-depth) + "))");
+    return add("PLANE(''," + add("AXIS2_PLACEMENT_3D(''," + p + ",#21,#22)") + ")");
+  }
+  std::string size(double v, double up = 0.1, double down = 0.1) {
+    const auto t = add("PLUS_MINUS_VALUE(" + number(up) + "," + number(down) + ",3)");
+    return add("TOLERANCED_LENGTH_MEASURE(" + number(v) + "," + t + ")");
+  }
+  std::string hole(const std::string& name, double x, double y, double d, double depth, const char* bottom,
+                   double up = 0.1, double down = 0.1) {
+    const auto where = at(x, y), to = below(depth), wide = size(d, up, down), end = add(bottom);
+    return add("ROUND_HOLE('" + name + "',#4,()," + where + "," + to + "," + wide + ",$," + end + ")");
+  }
+  void thread(const std::string& name, double x, double y, double depth, const std::string& in, double major,
+              double pitch, const char* hand) {
+    const auto where = at(x, y), to = below(depth);
+    const auto part = add("PARTIAL_AREA_DEFINITION(" + number(depth) + "," + where + ",$)");
+    const auto fit = add("DESCRIPTIVE_PARAMETER('fit class','6H')"),
+               form = add("DESCRIPTIVE_PARAMETER('form','M')");
+    const auto count = add("NUMERIC_PARAMETER('threads per mm'," + number(1.0 / pitch) + ",'mm')");
+    const auto turn = add(std::string("DESCRIPTIVE_PARAMETER('hand','") + hand + "')");
+    add("DEFINED_THREAD('" + name + "',#4,()," + where + "," + to + "," + part + ",(" + in + "),.T.,$," +
+        fit + "," + form + "," + number(major) + "," + count + "," + turn + "," +
+        number(major - 0.65 * pitch) + "," + number(major - pitch) + ",$)");
+  }
+  void pocket(const std::string& name, double x, double y, double l, double w, double depth, double radius) {
+    const auto where = at(x, y), to = below(depth), width = size(w), length = size(l),
+               corner = size(radius, 0.2, 0.2);
+    const auto profile = add("RECTANGULAR_CLOSED_PROFILE($," + width + "," + length + ")");
+    add("CLOSED_POCKET('" + name + "',#4,()," + where + "," + to + ",(),$,#57,$," + corner + "," + profile +
+        ")");
+  }
+  static std::string number(double v) { return trimmed(v, 6) + (v == std::floor(v) ? "." : ""); }
+};
+
+constexpr const char* kThrough = "THROUGH_BOTTOM_CONDITION()";
+constexpr const char* kPoint = "CONICAL_HOLE_BOTTOM(118.,$)";
+constexpr const char* kFlat = "FLAT_HOLE_BOTTOM()";
+
+std::vector<std::pair<std::string, std::string>> parts() {
+  std::vector<std::pair<std::string, std::string>> out;
+  const auto keep = [&](const char* name, const Part& p) { out.emplace_back(name, p.text); };
+  Part holes;
+  holes.hole("THROUGH", 20, 20, 6.6, 20, kThrough);
+  holes.hole("BLIND", 50, 20, 6, 14, kPoint);
+  holes.hole("SLENDER", 80, 20, 2.5, 20, kThrough);
+  holes.hole("WIDE", 50, 60, 30, 20, kThrough);
+  keep("holes", holes);
+  Part reamed;
+  reamed.hole("H7 THROUGH", 20, 20, 6, 20, kThrough, 0.012, 0.0);
+  reamed.hole("H7 BLIND", 60, 20, 10, 15, kPoint, 0.015, 0.0);
+  keep("reamed bores", reamed);
+  Part threads;
+  threads.thread("M6", 20, 20, 12, threads.hole("CORE 6", 20, 20, 5, 17, kPoint, 0.2, 0.05), 6, 1, "right");
+  threads.thread("M8 LEFT", 60, 20, 12, threads.hole("CORE 8", 60, 20, 6.8, 17, kFlat, 0.2, 0.05), 8, 1.25,
+                 "left");
+  keep("threads", threads);
+  Part deep;
+  deep.pocket("NARROW", 50, 50, 60, 12, 18, 3);
+  keep("a deep and narrow pocket", deep);
+  Part corners;
+  corners.pocket("CORNERS", 50, 50, 40, 30, 12, 1.6);
+  keep("a pocket with small corners", corners);
+  Part flat;
+  flat.hole("FLAT", 50, 50, 18, 12, kFlat);
+  keep("a flat bottom", flat);
+  return out;
+}
+
+TEST(NeededToolsProperty, OfAnEmptyShopPlanAllOfThePartInOneGo) {
+  for (const auto& [name, text] : parts()) {
+    const Inputs empty = shop_with({"generic/endmill_3f_short/16"});
+    const Planned lacking = bound(read(text), empty);
+    const auto entries = entries_of(lacking.plan);
+    EXPECT_FALSE(entries.empty()) << name << "\n" << lacking.said;
+    Inputs richer = empty;
+    for (model::Cutter& c : read_list(entries)) richer.library.push_back(std::move(c));
+    const Planned whole = bound(read(text), richer);
+    EXPECT_THAT(whole.plan.unplanned, IsEmpty()) << name << "\n" << whole.said;
+    EXPECT_THAT(entries_of(whole.plan), IsEmpty()) << name;
   }
 }
 

@@ -18,9 +18,9 @@
 // radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
 // bounds (steps, outsides, closed pockets: volumes::unstated_corner_mm); nothing in the square ends of slots,
 // at the open side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical
-// bottom's depth only. A through hole that ends within another feature that the plan makes is done there.
-// Crests of threads and what heights do not hold are not looked at, nor what is narrower than two cells: a
-// note says so.
+// bottom's depth only; what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A
+// through hole that ends within another feature that the plan makes is done there. Crests of threads and what
+// heights do not hold are not looked at, nor what is narrower than two cells: a note says so.
 //
 // In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
 // step.
@@ -46,6 +46,8 @@ constexpr double kNone = 1e300;
 constexpr double kUnstatedShare = 0.35;
 /// At the foot of an upright wall: the usual largest corner of a milling insert (ISO 1832, 08), mm.
 constexpr double kUnstatedFootMm = 0.8;
+/// Points are drawn as 120 degrees and made as 118; less than this is no blunter drill. Default, unsourced.
+constexpr double kPointMm = 0.1;
 constexpr double kBelowMm = 0.05;  ///< a hole's end, to see what it opens into; default, unsourced
 
 std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
@@ -225,6 +227,7 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
   if (const std::string what = not_judged(s, a, ring); !what.empty())
     out.note(36, "CHK-NOT-JUDGED", a.where,
              "of " + s.name + ", " + what + ": what stays there is not looked at");
+  left_in_point(c, grid, a, limit, out);
   const bool below = c.frame.z.z < 0.0;
   const auto floor = [&](Vec2 p) -> std::optional<double> {
     const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
@@ -292,6 +295,41 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
                 ", " + plain(volume) + " mm3 in all; allowed " + mm(limit) + " (cells of " + mm(grid.cell()) +
                 ")",
             worst);
+}
+
+void Target::left_in_point(const Cavity& c, const Grid& grid, const Asked& a, double limit,
+                           Findings& out) const {
+  const Form& s = *c.shape;
+  const auto* bore = s.kind == ShapeKind::kHole ? s.bore() : nullptr;
+  if (bore == nullptr || bore->bottom != volumes::Bore::Bottom::kCone || !(s.tip_mm > 0.0) ||
+      c.frame.z.z < 0.0 || c.open_bottom)
+    return;
+  const double bottom = c.frame.origin.z - s.depth_mm();
+  double worst = 0.0, volume = 0.0;
+  const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
+  const auto [x0, x1] = grid.columns(c.box.lo.x, c.box.hi.x);
+  for (int iy = y0; iy < y1; ++iy) {
+    for (int ix = x0; ix < x1; ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      // What stands above the full diameter's depth is told apart.
+      if (grid.stock[i] <= Grid::kNothing / 2 || grid.stock[i] > bottom + limit) continue;
+      const Vec2 p = grid.centre(ix, iy);
+      const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
+      const auto own = volumes::floor_at(s, {local.x, local.y});
+      if (!own) continue;
+      const double stays = grid.stock[i] - std::max(c.frame.origin.z + *own, grid.base[i]);
+      if (stays <= 0.0) continue;
+      volume += stays * grid.cell() * grid.cell();
+      worst = std::max(worst, stays);
+    }
+  }
+  if (worst <= std::max(limit, kPointMm)) return;
+  const std::string text = "in the point of the bottom of " + s.name + " stays rest material, " + mm(worst) +
+                           " high, " + plain(volume) + " mm3 in all: its drill is blunter than the bottom";
+  if (bore->blunt_mm > 0.0)
+    out.warn(36, "CHK-LEFT-POINT", a.where, text + ", whose tip has a stated radius", worst);
+  else
+    out.note(36, "CHK-LEFT-POINT", a.where, text + ", whose angle has no tolerance");
 }
 
 void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {

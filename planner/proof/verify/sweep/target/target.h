@@ -121,6 +121,7 @@ class Target : public GougeJudge {
   };
 
   void add(const volumes::Form& s, bool bevel = false);
+  void left_in_point(const Cavity& c, const Grid& grid, const Asked& a, double limit, Findings& out) const;
   void left_of(const Cavity& c, const Grid& grid, const Asked& a, const std::vector<Asked>& asked,
                bool carried, Findings& out) const;
   /// Whether another feature that is made takes away what lies right below a point at the end of this one,

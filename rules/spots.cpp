@@ -1,0 +1,78 @@
+#include "rules/spots.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::rules {
+namespace {
+
+using model::ProposedStep;
+
+/// How deep a solid carbide drill starts by itself, in diameters: beyond 5 makers of drills agree on a spot,
+/// others begin at 7 or 8 (Cutting Tool Engineering, June 2012, Starter kit, ctemag.com); up to there "a
+/// solid-carbide drill usually doesn't need to be spotted" (the same, Get it straight).
+constexpr double kStartsAloneRatio = 5.0;
+/// Full angle of the spot before such a drill, whose point has 140 degrees: at least the drill's, so that its
+/// middle meets the cone first (cncyangsen.com, spot drill vs center drill: equal or slightly larger); makers
+/// grind 142 to 145.
+constexpr double kBluntSpotRad = 142.0 * std::numbers::pi / 180.0;
+
+/// A chain that begins with a spot and a twist drill, for a drill of solid carbide: without the spot where
+/// none is needed, else with a spot as blunt as that drill. Nothing of other chains. Holes with a zone of
+/// position keep the spot ("for a tight-tolerance hole, spotting is required", Starter kit).
+std::optional<std::vector<ProposedStep>> by_carbide(const model::FeatureShape& shape, const Context& context,
+                                                    std::vector<ProposedStep> chain) {
+  if (shape.kind != model::ShapeKind::kHole || chain.size() < 2) return std::nullopt;
+  ProposedStep& spot = chain[0];
+  ProposedStep& drill = chain[1];
+  const bool drills =
+      drill.operation == model::TypeId::kDrilling || drill.operation == model::TypeId::kMultistepDrilling;
+  const double least = model::lower_size(drill.tool);
+  if (spot.operation != model::TypeId::kCenterDrilling || !drills || !(least > 0.0) ||
+      drill.tool.classes != std::vector{model::CutterClass::kTwistDrill})
+    return std::nullopt;
+  const auto say = [](ProposedStep& s, const std::string& text) {
+    s.tool.words = words_of(s.tool);
+    s.why.text += (s.why.text.empty() ? "" : "; ") + text;
+  };
+  drill.tool.solid_carbide = true;
+  const std::string most = trimmed(kStartsAloneRatio, 1) + " diameters";
+  const bool deep = drill.depth_mm + context.stock_above_mm > kStartsAloneRatio * least;
+  if (deep || context.quality.location_mm) {
+    const double depth = spot.depth_mm / std::tan(0.5 * kBluntSpotRad);  // a mark as wide as at 90 degrees
+    spot.tool.diameter_min_mm = 2.0 * spot.depth_mm;
+    spot.tool.reach_mm -= spot.depth_mm - depth;
+    spot.tool.point_angle_rad = kBluntSpotRad;
+    spot.tool.point_angle_most_rad = 0.0;
+    spot.depth_mm = spot.tool.depth_of_cut_mm = depth;
+    say(spot, "as blunt as a carbide drill's point, whose middle meets it first");
+    say(drill, deep ? "spotted: deeper than " + most : "spotted: a zone of position is asked");
+    return chain;
+  }
+  say(drill,
+      "not spotted: a solid carbide drill centres itself to " + most + " (ctemag.com, Get it straight)");
+  chain.erase(chain.begin());
+  for (ProposedStep& s : chain) {
+    for (std::size_t& after : s.after) --after;
+  }
+  chain.front().after.clear();
+  return chain;
+}
+
+}  // namespace
+
+void carbide_first(const model::FeatureShape& shape, const Context& context, model::Proposal& proposal) {
+  std::vector<std::vector<ProposedStep>> chains;
+  for (std::vector<ProposedStep>& chain : proposal.chains) {
+    if (auto carbide = by_carbide(shape, context, chain)) chains.push_back(*std::move(carbide));
+    chains.push_back(std::move(chain));
+  }
+  proposal.chains = std::move(chains);
+}
+
+}  // namespace capstan::rules
