@@ -257,16 +257,19 @@ class PathMaker {
     return step::seconds_of(plan_.machine, *tried->path, tried->feeds.schedule);
   }
 
-  /// Tries one of the candidates: rings, and where the step may have it and it could be quicker constant
-  /// engagement; takes the quicker of those that keep the limits. Only that one is removed from the stock.
+  /// Tries one of the candidates: rings outwards, and where the step may have them and they could be quicker
+  /// rings inwards and constant engagement; takes the quickest of those that keep the limits. Only that one
+  /// is removed from the stock.
   Result<step::MeasuredCut> with_cutter(StepDraft& step, std::size_t i) {
     step.constant_engagement.reset();
+    step.inwards.reset();
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto other = step::constant_cut(p_, step, candidate, means_);
-    if (!other) return with_strategy(step, i);
+    const bool inwards = step::rings_inwards(p_, step, means_);
+    if (!other && !inwards) return with_strategy(step, i);
     const step::SaidBefore before(job_);
-    return quicker_strategy(step, i, *other);
+    return quickest_way(step, i, inwards, other);
   }
 
   /// How long it takes, if it keeps the limits.
@@ -275,58 +278,77 @@ class PathMaker {
     return step::seconds_of(plan_.machine, *t->path, t->feeds.schedule);
   }
 
-  /// Rings, or constant engagement where that is worthwhile; of the other, only what is recorded is told.
-  Result<step::MeasuredCut> quicker_strategy(StepDraft& step, std::size_t i, const step::ConstantCut& other) {
+  /// Rings, or constant engagement where that is worthwhile; of the others, only what is recorded is told.
+  Result<step::MeasuredCut> quickest_way(StepDraft& step, std::size_t i, bool inwards,
+                                         const std::optional<step::ConstantCut>& other) {
+    using step::Clearing;
     const auto before = stocks_.before(step.setup);
-    const auto with = [&](bool constant_engagement) {
+    const auto with = [&](Clearing way) {
       (void)job_.take_diagnostics();
       stocks_.put_back(step.setup, before);
-      step.constant_engagement = constant_engagement;
+      step.constant_engagement = way == Clearing::kConstantEngagement;
+      step.inwards = way == Clearing::kInwards;
       return with_strategy(step, i);
     };
-    auto rings = with(false);
-    const auto of_rings = kept_seconds(step, rings);
-    const double volume = of_rings ? rings->removed_mm3.value_or(0.0) : 0.0;
-    const double about = step::estimated_seconds(other.question, other.answer, volume, other.walled);
     step::StrategyChoice choice;
-    if (of_rings && about >= kWorthwhile * *of_rings) {
-      choice.lost.push_back({step::words_of(true, other.answer),
-                             "takes about " + motion::duration_text(about) +
-                                 " by its rate and entry against " + motion::duration_text(*of_rings)});
-      rings->strategy = std::move(choice);
-      return rings;
-    }
-    auto constant = with(true);
-    const auto of_constant = kept_seconds(step, constant);
-    if (of_constant && (!of_rings || *of_constant < kWorthwhile * *of_rings)) {
-      choice.constant_engagement = true;
-      choice.taken = step::words_of(true, constant->made.answer) + ": " + motion::duration_text(*of_constant);
-      if (of_rings) {
-        choice.lost.push_back({step::words_of(false, rings->made.answer),
-                               "takes " + motion::duration_text(*of_rings) + " against " +
-                                   motion::duration_text(*of_constant)});
-      } else {
-        choice.lost.push_back({"rings", rings ? excess_text(*rings) : rings.error().message});
+    const auto lose = [&](Clearing way, const Result<step::MeasuredCut>& t, double best_s) {
+      const auto seconds = kept_seconds(step, t);
+      std::string why = seconds ? (*seconds < best_s ? "saves too little: takes " : "takes ") +
+                                      motion::duration_text(*seconds) + " against " +
+                                      motion::duration_text(best_s)
+                        : t ? excess_text(*t)
+                            : t.error().message;
+      const optimise::CutAnswer cut = t                                               ? t->made.answer
+                                      : other && way == Clearing::kConstantEngagement ? other->answer
+                                                                                      : optimise::CutAnswer{};
+      choice.lost.push_back({step::words_of(way, cut), std::move(why)});
+    };
+    auto best = with(Clearing::kOutwards);
+    auto best_s = kept_seconds(step, best);
+    Clearing last = choice.way;
+    if (inwards) {
+      auto from_wall = with(last = Clearing::kInwards);
+      const auto seconds = kept_seconds(step, from_wall);
+      if (seconds && (!best_s || *seconds < kWorthwhile * *best_s)) {
+        std::swap(best, from_wall);
+        best_s = seconds;
+        choice.way = Clearing::kInwards;
       }
-      constant->strategy = std::move(choice);
-      return constant;
+      if (best_s)
+        lose(choice.way == Clearing::kInwards ? Clearing::kOutwards : Clearing::kInwards, from_wall, *best_s);
+    }
+    if (other) {
+      const double volume = best_s ? best->removed_mm3.value_or(0.0) : 0.0;
+      const double about = step::estimated_seconds(other->question, other->answer, volume, other->walled);
+      if (best_s && about >= kWorthwhile * *best_s) {
+        choice.lost.push_back({step::words_of(Clearing::kConstantEngagement, other->answer),
+                               "takes about " + motion::duration_text(about) +
+                                   " by its rate and entry against " + motion::duration_text(*best_s)});
+      } else {
+        auto constant = with(last = Clearing::kConstantEngagement);
+        const auto seconds = kept_seconds(step, constant);
+        if (seconds && (!best_s || *seconds < kWorthwhile * *best_s)) {
+          lose(choice.way, best, *seconds);
+          std::swap(best, constant);
+          best_s = seconds;
+          choice.way = Clearing::kConstantEngagement;
+        } else if (best_s) {
+          lose(Clearing::kConstantEngagement, constant, *best_s);
+        }
+      }
     }
     // The same again, from what is remembered: the stock is to be cut by it.
-    rings = with(false);
-    if (!rings) return rings;
-    std::string why = constant ? excess_text(*constant) : constant.error().message;
-    if (of_constant && of_rings)
-      why = (*of_constant < *of_rings ? "saves too little: takes " : "takes ") +
-            motion::duration_text(*of_constant) + " against " + motion::duration_text(*of_rings);
-    choice.lost.push_back(
-        {step::words_of(true, constant ? constant->made.answer : other.answer), std::move(why)});
-    rings->strategy = std::move(choice);
-    return rings;
+    if (last != choice.way || !best_s) best = with(choice.way);
+    if (!best) return best;
+    if (best_s)
+      choice.taken = step::words_of(choice.way, best->made.answer) + ": " + motion::duration_text(*best_s);
+    best->strategy = std::move(choice);
+    return best;
   }
 
-  /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up to kMostThinner
-  /// times, if a limit is exceeded along its path; takes the gentlest if none keeps the limits. Removes the
-  /// cut from the stock, except for a proposed step that exceeds the limits.
+  /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up
+  /// to kMostThinner times, if a limit is exceeded along its path; takes the gentlest if none keeps the
+  /// limits. Removes the cut from the stock, except for a proposed step that exceeds the limits.
   Result<step::MeasuredCut> with_strategy(StepDraft& step, std::size_t i) {
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     const auto before = stocks_.before(step.setup);

@@ -194,9 +194,8 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
       if (!loads && step.open_technology) return tl::unexpected(loads.error());
       if (loads) out.under = *loads;
     }
-    auto path = over_surface
-                    ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
-                    : workholding::kept_clear(p.setups[step.setup], step.cutter, job, make_path);
+    auto path = over_surface ? Result<toolpath::GeneratedPath>(*std::move(over_surface))
+                             : workholding::kept_clear(p.setups[step.setup], step.cutter, job, make_path);
     over_surface.reset();
     if (!path) return tl::unexpected(path.error());
     if (first) {
@@ -223,6 +222,13 @@ std::optional<ConstantCut> constant_cut(const PlanSoFar& p, StepDraft step, cons
   auto answer = means.cuts.answer(q);
   if (!answer || !answer->feasible) return std::nullopt;
   return ConstantCut{std::move(q), *std::move(answer), walled};
+}
+
+bool rings_inwards(const PlanSoFar& p, const StepDraft& step, const Means& means) {
+  if (step.shapes.empty()) return false;
+  auto job = job_of(p, step, step.shapes.front());
+  means.progress.prepare(step, means.stocks.of(step.setup), job);
+  return may_ring_inwards(p, step, job);
 }
 
 MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, PathWithCut made,

@@ -240,6 +240,11 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
     job.feed_direction.reset();
     job.stepover_left.reset();
   }
+  // Inwards with the material beside the pass on the right of a climbing right-hand cutter: clockwise.
+  if (step.inwards && !job.constant_engagement) {
+    job.rotation_ccw.reset();
+    if (*step.inwards) job.rotation_ccw = job.climb == (step.cutter.hand == model::Hand::kLeft);
+  }
   // The noun's is that of the cutter that the step had: another may be tried.
   if (const auto depth = depth_with_its_cutter(step)) job.cutting_depth_mm = depth;
   if (m.holds<model::FreeformFinishMilling>(step.operation))

@@ -11,8 +11,11 @@
 
 // Rings take wide cuts and begin each level with a slot, at which corners and bending hold depth and feed.
 // Constant engagement takes narrow ones as deep as the edge is long. At equal force rings remove more per
-// time, at equal chip and life a narrow cut is fed and turned faster. Neither wins everywhere, so both are
-// made and the quicker is kept (door/pipeline/make_paths.cpp).
+// time, at equal chip and life a narrow cut is fed and turned faster. Rings outwards come into each corner
+// with more of the cutter than on the straight, inwards they go round the corner of what is left with less;
+// and the longest ring, the slot along the wall, is cut by the ramp on its way down. But that slot is longer
+// than one in the middle. None wins everywhere, so all are made and the quickest is kept
+// (door/pipeline/make_paths.cpp).
 
 namespace capstan::step {
 namespace {
@@ -75,6 +78,12 @@ bool may_engage_constantly(const PlanSoFar& p, const StepDraft& step, const tool
          is_rings(m, strategy);
 }
 
+bool may_ring_inwards(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job) {
+  return may_engage_constantly(p, step, job) && !job.shape.open && step.cutter.maximum_ramp_angle_rad > 0.0 &&
+         !job.left_on_side_mm && job.approach.kind == toolpath::Approach::Kind::kFree && !job.start_point &&
+         model::has(job.shape.kind, model::ShapeTrait::kWalled);
+}
+
 double estimated_seconds(const optimise::CutQuestion& q, const optimise::CutAnswer& cut, double volume_mm3,
                          bool walled) {
   const double rate = cut.ap_mm * cut.ae_mm * cut.feed_mm_min;
@@ -89,37 +98,46 @@ double estimated_seconds(const optimise::CutQuestion& q, const optimise::CutAnsw
   return 60.0 * out;
 }
 
-std::string words_of(bool constant_engagement, const optimise::CutAnswer& cut) {
-  return std::string(constant_engagement ? "constant engagement " : "rings ") + trimmed(cut.ae_mm, 2) +
-         " mm wide, " + trimmed(cut.ap_mm, 2) + " mm deep";
+std::string words_of(Clearing way, const optimise::CutAnswer& cut) {
+  const char* what = way == Clearing::kConstantEngagement ? "constant engagement "
+                     : way == Clearing::kInwards          ? "rings from the wall inwards "
+                                                          : "rings ";
+  return what + trimmed(cut.ae_mm, 2) + " mm wide, " + trimmed(cut.ap_mm, 2) + " mm deep";
 }
 
 void record_strategy(model::Plan& plan, const StepDraft& step, const StrategyChoice& choice) {
   Model& m = plan.model;
   const AnyRef now = strategy_of(m, step);
-  const bool was = now.set() && m.holds<model::ExplicitStrategy>(now);
-  if (choice.constant_engagement == was) {
-    // As the rules proposed it, or as it was chosen before: the other is told beside it.
+  const auto* ringed = m.get<model::ContourParallel>(now);
+  const Clearing was = now.set() && m.holds<model::ExplicitStrategy>(now)      ? Clearing::kConstantEngagement
+                       : ringed != nullptr && ringed->rotation_direction.set() ? Clearing::kInwards
+                                                                               : Clearing::kOutwards;
+  if (choice.way == was) {
+    // As the rules proposed it, or as it was chosen before: the others are told beside it.
     auto* d = plan.ledger.find(step.operation, kStrategy);
-    if (!choice.constant_engagement && d != nullptr && d->state == model::DecisionState::kBound) {
+    if (choice.way == Clearing::kOutwards && d != nullptr && d->state == model::DecisionState::kBound) {
       for (const model::Rejected& r : choice.lost) d->rejected.push_back(r);
       return;
     }
   }
   Ref<model::Two5dMillingStrategy> made;
-  if (choice.constant_engagement) {
+  const char* why = "path.constant_engagement";
+  if (choice.way == Clearing::kConstantEngagement) {
     made = m.add(model::ExplicitStrategy{});
   } else {
     model::ContourParallel rings;
     rings.cutmode = model::CutmodeType::kClimb;
+    if (choice.way == Clearing::kInwards)
+      rings.rotation_direction =
+          step.cutter.hand == model::Hand::kLeft ? model::RotDirection::kCcw : model::RotDirection::kCw;
     made = m.add(rings);
+    why = choice.way == Clearing::kInwards ? "path.rings_inwards" : "path.rings";
   }
   m.get<model::Two5dMillingOperation>(step.operation)->its_machining_strategy = made;
-  plan.ledger.bind(
-      step.operation, kStrategy, model::Binder::kOptimiser,
-      {choice.constant_engagement ? "path.constant_engagement" : "path.rings",
-       "the quicker of two paths at equal limits: " + choice.taken, "times of both paths along their feeds"},
-      {{step.operation, "its_tool"}}, choice.lost);
+  plan.ledger.bind(step.operation, kStrategy, model::Binder::kOptimiser,
+                   {why, "the quickest of its paths at equal limits: " + choice.taken,
+                    "times of the paths along their feeds"},
+                   {{step.operation, "its_tool"}}, choice.lost);
 }
 
 }  // namespace capstan::step
