@@ -10,8 +10,8 @@
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
 
-// Rings or constant engagement: the quicker is planned, the other stands beside it, and a plan that is read
-// again keeps what was chosen. examples/reference_pocket.p21: 60 x 40 x 10 mm, corners of 6 mm.
+// Rings outwards or inwards, or constant engagement: the quickest is planned, the others stand beside it, and a
+// plan that is read again keeps what was chosen. examples/reference_pocket.p21: 60 x 40 x 10 mm, corners of 6 mm.
 
 namespace capstan::pipeline {
 namespace {
@@ -51,6 +51,15 @@ model::Plan read(const std::string& text, const std::string& name = "part.p21") 
 
 std::string pocket() { return testing::slurp(testing::source_dir() + "/examples/reference_pocket.p21"); }
 
+/// The same pocket, 12 mm deep.
+std::string deeper() {
+  std::string text = pocket();
+  const std::string floor = "(0.,0.,-10.)";
+  const auto at = text.find(floor);
+  EXPECT_NE(at, std::string::npos);
+  return at == std::string::npos ? text : text.replace(at, floor.size(), "(0.,0.,-12.)");
+}
+
 model::Plan bound(model::Plan plan, const Inputs& in, unsigned threads = 1, const Policy& policy = {}) {
   Job job;
   job.threads = threads;
@@ -82,7 +91,7 @@ const model::Decision* decided(const model::Plan& plan) {
 }
 
 TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTheRings) {
-  const auto plan = bound(read(pocket()), shop(weak()));
+  const auto plan = bound(read(deeper()), shop(weak()));
   ASSERT_TRUE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
@@ -90,9 +99,10 @@ TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTh
   const model::Reason& why = plan.ledger.reason(d->reason);
   EXPECT_EQ(why.id, "path.constant_engagement");
   EXPECT_THAT(why.text, HasSubstr("constant engagement "));
-  ASSERT_EQ(d->rejected.size(), 1u);
-  EXPECT_THAT(d->rejected[0].what, HasSubstr("rings "));
-  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+  ASSERT_EQ(d->rejected.size(), 2u);
+  EXPECT_THAT(d->rejected[0].what, HasSubstr("rings from the wall inwards "));
+  EXPECT_THAT(d->rejected[1].what, HasSubstr("rings "));
+  EXPECT_THAT(d->rejected[1].why, HasSubstr(" against "));
 }
 
 TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThemWithItsTime) {
@@ -100,9 +110,9 @@ TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThe
   ASSERT_FALSE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
-  ASSERT_EQ(d->rejected.size(), 1u);
-  EXPECT_THAT(d->rejected[0].what, HasSubstr("constant engagement "));
-  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+  ASSERT_EQ(d->rejected.size(), 2u);
+  EXPECT_THAT(d->rejected[1].what, HasSubstr("constant engagement "));
+  EXPECT_THAT(d->rejected[1].why, HasSubstr(" against "));
 }
 
 TEST(ConstantEngagementPlanned, SaysWhyItHasNoPathWhereThereIsNone) {
@@ -118,13 +128,44 @@ TEST(ConstantEngagementPlanned, SaysWhyItHasNoPathWhereThereIsNone) {
   ASSERT_FALSE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
-  ASSERT_EQ(d->rejected.size(), 1u);
-  EXPECT_THAT(d->rejected[0].what, HasSubstr("constant engagement "));
-  EXPECT_THAT(d->rejected[0].why, HasSubstr("no path of constant engagement: a round leads"));
+  ASSERT_EQ(d->rejected.size(), 2u);
+  EXPECT_THAT(d->rejected[1].what, HasSubstr("constant engagement "));
+  EXPECT_THAT(d->rejected[1].why, HasSubstr("no path of constant engagement: a round leads"));
+}
+
+const model::ContourParallel* rings_of(const model::Plan& plan) {
+  const auto* o = plan.model.get<model::Two5dMillingOperation>(roughing(plan));
+  return o == nullptr ? nullptr : plan.model.get<model::ContourParallel>(o->its_machining_strategy);
+}
+
+TEST(RingsInwardsPlanned, StandAsRingsWithASenseOfRotationAndAreKeptByEachForm) {
+  ShopFiles names;
+  names.machine = "generic_vmc";
+  names.material = "C45";
+  const Inputs in = shop(names);
+  const auto plan = bound(read(deeper()), in);
+  const auto* rings = rings_of(plan);
+  ASSERT_NE(rings, nullptr);
+  ASSERT_TRUE(rings->rotation_direction.set());
+  EXPECT_EQ(rings->rotation_direction.value(), model::RotDirection::kCw);
+  const auto* d = decided(plan);
+  ASSERT_NE(d, nullptr);
+  EXPECT_EQ(plan.ledger.reason(d->reason).id, "path.rings_inwards");
+  ASSERT_FALSE(d->rejected.empty());
+  EXPECT_THAT(d->rejected[0].what, HasSubstr("rings "));
+  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+  for (const auto& [format, name] : {std::pair(Format::kJson, "p.json"), std::pair(Format::kAp238, "p.stpnc"),
+                                     std::pair(Format::kIso14649, "p.p21")}) {
+    const auto again = bound(read(written(plan, format), name), in);
+    ASSERT_FALSE(again.steps.empty()) << name;
+    ASSERT_NE(rings_of(again), nullptr) << name;
+    EXPECT_TRUE(rings_of(again)->rotation_direction.set()) << name;
+    EXPECT_EQ(again.steps.front().path->size(), plan.steps.front().path->size()) << name;
+  }
 }
 
 TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
-  const auto plan = bound(read(pocket()), shop(weak()));
+  const auto plan = bound(read(deeper()), shop(weak()));
   ASSERT_TRUE(constant(plan));
   const auto& step = plan.steps.front();
   double entering = 0.0, cutting = 0.0;
@@ -139,7 +180,7 @@ TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
 
 TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
   const Inputs in = shop(weak());
-  const auto plan = bound(read(pocket()), in);
+  const auto plan = bound(read(deeper()), in);
   ASSERT_TRUE(constant(plan));
   const model::CutterPath& path = *plan.steps.front().path;
   for (const auto& [format, name] : {std::pair(Format::kJson, "p.json"), std::pair(Format::kAp238, "p.stpnc"),
@@ -161,19 +202,19 @@ TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
 
 TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
   Inputs in = shop(weak());
-  const std::string one = written(bound(read(pocket()), in), Format::kJson);
-  EXPECT_EQ(written(bound(read(pocket()), in, 2), Format::kJson), one);
+  const std::string one = written(bound(read(deeper()), in), Format::kJson);
+  EXPECT_EQ(written(bound(read(deeper()), in, 2), Format::kJson), one);
   in.memo = std::make_shared<memo::Memo>(0);  // keeps nothing
-  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
+  EXPECT_EQ(written(bound(read(deeper()), in), Format::kJson), one);
   in.memo = std::make_shared<memo::Memo>();
-  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
-  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
+  EXPECT_EQ(written(bound(read(deeper()), in), Format::kJson), one);
+  EXPECT_EQ(written(bound(read(deeper()), in), Format::kJson), one);
 }
 
 // A plan whose strategy the operator states, rings, with the technology open again.
 TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
   const Inputs in = shop(weak());
-  model::Plan plan = bound(read(pocket()), in);
+  model::Plan plan = bound(read(deeper()), in);
   ASSERT_TRUE(constant(plan));
   const auto operation = roughing(plan);
   model::ContourParallel rings;

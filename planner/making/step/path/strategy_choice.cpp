@@ -52,6 +52,18 @@ bool is_rings(const Model& m, AnyRef strategy) {
   return false;
 }
 
+/// Whether the wall goes round like a circle: a ramp along it would be a helix that leaves a core
+/// (CHK-HELIX).
+bool is_round(const geometry::Region& area) {
+  constexpr double kRound =
+      0.98;  // of 4 pi area / circumference^2, which is 1 of a circle; default, unsourced
+  return std::any_of(area.loops.begin(), area.loops.end(), [](const geometry::Loop& loop) {
+    double around_mm = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) around_mm += norm(loop[(i + 1) % loop.size()] - loop[i]);
+    return 4.0 * std::numbers::pi * geometry::signed_area(loop) > kRound * around_mm * around_mm;
+  });
+}
+
 }  // namespace
 
 bool engages_constantly(const model::Plan& plan, const StepDraft& step) {
@@ -79,8 +91,9 @@ bool may_engage_constantly(const PlanSoFar& p, const StepDraft& step, const tool
 }
 
 bool may_ring_inwards(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job) {
-  return may_engage_constantly(p, step, job) && !job.shape.open && step.cutter.maximum_ramp_angle_rad > 0.0 &&
-         !job.left_on_side_mm && job.approach.kind == toolpath::Approach::Kind::kFree && !job.start_point &&
+  return may_engage_constantly(p, step, job) && !job.shape.open && !is_round(job.shape.area) &&
+         step.cutter.maximum_ramp_angle_rad > 0.0 && !job.left_on_side_mm &&
+         job.approach.kind == toolpath::Approach::Kind::kFree && !job.start_point &&
          model::has(job.shape.kind, model::ShapeTrait::kWalled);
 }
 

@@ -37,8 +37,8 @@ struct StrategyChoice {
 [[nodiscard]] bool may_engage_constantly(const PlanSoFar& p, const draft::StepDraft& step,
                                          const toolpath::PathJob& job);
 
-/// Whether a step that may have either of these may have rings inwards, too: its area is closed, its cutter
-/// ramps, and no way in is stated.
+/// Whether a step that may have either of these may have rings inwards, too: its area is closed and not round
+/// (a ramp along it would leave a core), its cutter ramps, and no way in is stated.
 [[nodiscard]] bool may_ring_inwards(const PlanSoFar& p, const draft::StepDraft& step,
                                     const toolpath::PathJob& job);
 
