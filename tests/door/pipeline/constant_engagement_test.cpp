@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "planner/door/pipeline/pipeline.h"
@@ -10,8 +12,9 @@
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
 
-// Rings outwards or inwards, or constant engagement: the quickest is planned, the others stand beside it, and a
-// plan that is read again keeps what was chosen. examples/reference_pocket.p21: 60 x 40 x 10 mm, corners of 6 mm.
+// Rings outwards or inwards, or constant engagement: the quickest is planned, the others stand beside it, and
+// a plan that is read again keeps what was chosen. examples/reference_pocket.p21: 60 x 40 x 10 mm, corners of
+// 6 mm.
 
 namespace capstan::pipeline {
 namespace {
@@ -162,6 +165,38 @@ TEST(RingsInwardsPlanned, StandAsRingsWithASenseOfRotationAndAreKeptByEachForm) 
     EXPECT_TRUE(rings_of(again)->rotation_direction.set()) << name;
     EXPECT_EQ(again.steps.front().path->size(), plan.steps.front().path->size()) << name;
   }
+}
+
+// Corners of 18 mm are wider than what the centre of a helix may go round; a ramp along the wall turns round
+// four of them and leaves no core.
+TEST(RingsInwardsPlanned, PassTheCheckRoundWideCorners) {
+  ShopFiles names;
+  names.machine = "generic_vmc";
+  names.material = "C45";
+  Inputs in = shop(names);
+  std::erase_if(in.library, [](const model::Cutter& k) {
+    return k.cutter_class != model::CutterClass::kEndmill || k.cutting_diameter_mm != 10.0;
+  });
+  std::string text = deeper();
+  const std::string corner = "#38=TOLERANCED_LENGTH_MEASURE(6.,#37);";
+  const auto at = text.find(corner);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, corner.size(), "#38=TOLERANCED_LENGTH_MEASURE(18.,#37);");
+  Job job;
+  const auto made = bind_checked(read(text), in, {}, job);
+  ASSERT_TRUE(made) << to_text(made.error());
+  const auto* d = decided(made->plan);
+  ASSERT_NE(d, nullptr);
+  EXPECT_EQ(made->plan.ledger.reason(d->reason).id, "path.rings_inwards");
+  double turned = 0.0;  // of the ramp round centres farther away than the radius
+  const model::CutterPath& p = *made->plan.steps.front().path;
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (p.role[i] != model::MoveRole::kRamp || !model::is_arc(p.kind[i])) continue;
+    const double radius = std::hypot(p.x[i] - p.cx[i], p.y[i] - p.cy[i]);
+    if (radius > 5.0) turned += model::move_length(p, i) / radius;
+  }
+  EXPECT_GT(turned, 2.0 * std::numbers::pi);
+  for (const auto& f : made->findings) EXPECT_NE(f.severity, Severity::kError) << f.message;
 }
 
 TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {

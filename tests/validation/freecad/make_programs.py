@@ -123,6 +123,6 @@ for depth, boss, kind, stepover, levels in PROGRAMS:
         doc = FreeCAD.newDocument("rival")
         made = operation(doc, depth, boss, kind, stepover, levels, angle, way)
         name = "%s_%d_%d_%d_%d_%s.ngc" % (kind, depth, boss, stepover, levels, ends)
-        with open(os.path.join(folder, name), "w") as f:
+        with open(os.path.join(folder, kind, name), "w") as f:
             f.write(program(made.Path.Commands))
         FreeCAD.closeDocument(doc.Name)

@@ -90,8 +90,8 @@ constexpr double kSlopeMissed = 1.1;
 
 std::vector<std::string> programs_of(const RivalCase& c) {
   std::vector<std::string> out;
-  for (const auto& f :
-       std::filesystem::directory_iterator(testing::source_dir() + "/tests/validation/freecad/programs")) {
+  for (const auto& f : std::filesystem::recursive_directory_iterator(testing::source_dir() +
+                                                                     "/tests/validation/freecad/programs")) {
     const Recipe r = recipe_of(f.path());
     if (r.depth_mm == c.depth_mm && r.boss_mm == c.boss_mm && r.levels > 0) out.push_back(f.path().string());
   }
