@@ -30,9 +30,14 @@ struct Limit {
   std::string text;
 };
 
-// The largest cutter for the corners of walls with an allowance; 0: no limit.
-Limit corner_cutter(const Making& m, double allowance) {
+// The largest cutter for the corners of walls with an allowance; 0: no limit. `times` above 1: by so much
+// wider than the corners themselves, for a finish that takes what stays in them.
+Limit corner_cutter(const Making& m, double allowance, double times = 1.0) {
   const auto& s = m.shape;
+  if (times > 1.0 && s.corner_radius_mm > 0.0)
+    return {2.0 * times * s.corner_radius_mm, "corners of radius " + mm_text(s.corner_radius_mm) +
+                                                  " may keep up to " + mm_text(times * s.corner_radius_mm) +
+                                                  " until the finish"};
   // A wall moved inwards by the allowance has corners that much tighter.
   if (s.corner_radius_mm > 0.0)
     return {2.0 * std::max(s.corner_radius_mm - allowance, 0.5 * s.corner_radius_mm),
@@ -53,7 +58,7 @@ constexpr double kBeforeSharp = 2.0;
 
 // The widest cutter between walls with an allowance, and what determines it.
 Limit widest_cutter(const Making& m, double of_passage, double allowance, bool corners = true,
-                    double of_sharp = 1.0) {
+                    double of_sharp = 1.0, double times = 1.0) {
   const auto& s = m.shape;
   double limit = std::numeric_limits<double>::infinity();
   Limit out;
@@ -76,7 +81,7 @@ Limit widest_cutter(const Making& m, double of_passage, double allowance, bool c
     narrow(2.0 * of_sharp * m.context.sharp_corner_mm,
            "inner corners are drawn sharp: a radius of " + mm_text(of_sharp * m.context.sharp_corner_mm) +
                (of_sharp > 1.0 ? " may stay until the finish" : " may stay at most"));
-  const Limit corner = corner_cutter(m, allowance);
+  const Limit corner = corner_cutter(m, allowance, times);
   if (!corners) {
     out.text += (out.text.empty() ? "" : "; ") + std::string("corners are left to a smaller cutter");
   } else if (corner.diameter_mm > 0.0) {
@@ -107,19 +112,64 @@ tl::expected<Limit, std::string> before_rest(const Making& m, double of_passage,
   return wide;
 }
 
+/// The widest cutter that reaches a share of the area within the allowance, corners and narrow places left
+/// out, by bisection: a cutter of diameter D reaches offset(offset(area, -D/2), D/2). 0: none of at least
+/// `least_mm` does. `bound`: least_mm itself is answer enough.
+double widest_reaching(const Making& m, double share, double allowance, double least_mm, bool bound) {
+  constexpr double kChord = 0.02;
+  constexpr double kAccuracy = 0.05;  // of the result; sizes of mills are farther apart. Default, unsourced.
+  const auto& s = m.shape;
+  double hi = m.number("of_passage") * m.known.passage.widest_mm;
+  if (hi < least_mm) return 0.0;
+  geometry::Region free = s.reach.empty() ? s.area : s.reach;
+  for (const auto& island : s.islands) free = geometry::subtract(free, island.area);
+  free = geometry::offset(free, -allowance, kChord);
+  const double wanted = share * geometry::area(free);
+  const auto reaches = [&](double d) {
+    const auto stood = geometry::offset(free, -0.5 * d, kChord);
+    return !stood.empty() && geometry::area(geometry::offset(stood, 0.5 * d, kChord)) >= wanted;
+  };
+  if (!reaches(least_mm)) return 0.0;
+  double lo = least_mm;
+  while (!bound && hi - lo > kAccuracy * lo) {
+    const double mid = 0.5 * (lo + hi);
+    (reaches(mid) ? lo : hi) = mid;
+  }
+  return lo;
+}
+
+// The cutter of a step that leaves corners and narrow places to a narrower one; or why there is no use in
+// that. `bound`: only whether there is one.
+tl::expected<Limit, std::string> before_narrow(const Making& m, double allowance, const Limit& narrow,
+                                               bool bound, model::ToolRequirement& tool) {
+  if (!(narrow.diameter_mm > 0.0)) return tl::unexpected(std::string("nothing asks for a narrower cutter"));
+  const double least = kWorthARest * narrow.diameter_mm;
+  const double wide = widest_reaching(m, m.number("of_area"), allowance, least, bound);
+  if (!(wide > 0.0))
+    return tl::unexpected("no cutter of " + mm_text(least) + ", wide enough to be worth a second one of " +
+                          mm_text(narrow.diameter_mm) + ", reaches enough of the area");
+  tool.diameter_min_mm = least;
+  return Limit{wide, narrow.text + "; that is left to a narrower cutter"};
+}
+
 // Allowance of roughing such that a cutter without the fillet's radius stays above the fillet: its corner
 // lies on or above the arc of radius r if both allowances are (1 - 1/sqrt 2) r.
 double for_fillet(const Making& m) { return 0.293 * m.shape.bottom_radius_mm; }
 
-Made rough(const Making& m) {
+/// `leaves`: as its row says, which may leave corners or narrow places to a step after it.
+Made rough_with(const Making& m, bool leaves) {
   ProposedStep s = begin(m);
   s.allowance_side_mm = std::max(m.number("allowance_side_mm"), for_fillet(m));
   s.allowance_bottom_mm = m.shape.through ? 0.0 : std::max(m.number("allowance_bottom_mm"), for_fillet(m));
   s.tool.classes = {CutterClass::kEndmill, CutterClass::kBullnoseEndmill};
   const bool finish_follows = m.number("allowance_side_mm") > 0.0;
   Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm, true,
-                              finish_follows ? kBeforeSharp : 1.0);
-  if (m.number("corners") == 0.0) {
+                              finish_follows ? kBeforeSharp : 1.0, m.number("corners"));
+  if (leaves && m.number("of_area") < 1.0) {
+    const auto wide = before_narrow(m, s.allowance_side_mm, limit, false, s.tool);
+    if (!wide) return no(wide.error());
+    limit = *wide;
+  } else if (leaves && m.number("corners") == 0.0) {
     const auto wide = before_rest(m, m.number("of_passage"), s.allowance_side_mm, s.tool);
     if (!wide) return no(wide.error());
     limit = *wide;
@@ -136,6 +186,8 @@ Made rough(const Making& m) {
   s.why.text = limit.text;
   return s;
 }
+
+Made rough(const Making& m) { return rough_with(m, true); }
 
 Made finish(const Making& m) {
   ProposedStep s = begin(m);
@@ -184,7 +236,25 @@ Made rest(const Making& m, Made made) {
   s.why.text = corner.text + "; only what the wider cutter before left is cut";
   return made;
 }
-Made rest_rough(const Making& m) { return rest(m, rough(m)); }
+
+// As `rest`, with the narrow places that a step before, made with the same `of_area`, did not enter.
+Made narrow_rest(const Making& m) {
+  Made made = rough_with(m, false);
+  if (!made) return made;
+  ProposedStep& s = *made;
+  if (std::abs(m.shape.slope_rad) > 1e-6) return no("rest machining needs upright walls");
+  model::ToolRequirement before;
+  const auto wide = before_narrow(m, s.allowance_side_mm, {s.tool.diameter_max_mm, s.why.text}, true, before);
+  if (!wide) return no(wide.error());
+  // A bound: which cutter it was is known when it is chosen (propose/members.h).
+  s.rest_of_diameter_mm = m.known.passage.widest_mm;
+  s.why.text += "; only what the wider cutter before left is cut";
+  return made;
+}
+
+Made rest_rough(const Making& m) {
+  return m.number("of_area") < 1.0 ? narrow_rest(m) : rest(m, rough_with(m, true));
+}
 Made rest_finish(const Making& m) { return rest(m, finish(m)); }
 
 // The floor alone, at once; the walls keep what they have.
@@ -283,20 +353,27 @@ std::vector<Action> area_actions() {
   const ActionParameter bottom{"allowance_bottom_mm", 0.0, "left on the floor"};
   const ActionParameter rough_passage{"of_passage", 0.8, "largest cutter by the narrowest passage"};
   const ActionParameter finish_passage{"of_passage", 0.95, "largest cutter by the narrowest passage"};
-  const ActionParameter corners{"corners", 1.0, "0: corners do not limit the cutter, a rest step follows"};
+  const ActionParameter corners{"corners", 1.0,
+                                "0: corners do not limit the cutter, a rest step follows; above 1, of "
+                                "roughing: corners may keep that many times their radius until the finish"};
   const ActionParameter of_corner{"of_corner", 0.9, "largest cutter by the diameter of the corners"};
+  const ActionParameter of_area{
+      "of_area", 1.0, "below 1: the widest cutter that reaches this share of the area, a rest step follows"};
   return {
       {"plane_rough", TypeId::kPlaneRoughMilling, {bottom}, plane_rough},
       {"plane_finish", TypeId::kPlaneFinishMilling, {}, plane_finish},
-      {"area_rough", TypeId::kBottomAndSideRoughMilling, {side, bottom, rough_passage, corners}, rough},
+      {"area_rough",
+       TypeId::kBottomAndSideRoughMilling,
+       {side, bottom, rough_passage, corners, of_area},
+       rough},
       {"area_finish", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
       {"spring_pass", TypeId::kBottomAndSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
-      {"wall_rough", TypeId::kSideRoughMilling, {side, bottom, rough_passage, corners}, rough},
+      {"wall_rough", TypeId::kSideRoughMilling, {side, bottom, rough_passage, corners, of_area}, rough},
       {"wall_finish", TypeId::kSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
       {"wall_spring_pass", TypeId::kSideFinishMilling, {side, bottom, finish_passage, corners}, finish},
       {"rest_rough",
        TypeId::kBottomAndSideRoughMilling,
-       {side, bottom, rough_passage, corners, of_corner},
+       {side, bottom, rough_passage, corners, of_corner, of_area},
        rest_rough},
       {"rest_finish",
        TypeId::kBottomAndSideFinishMilling,

@@ -68,6 +68,29 @@ TEST(RestAction, IsRefusedWhereCornersDoNotLimitTheCutter) {
   EXPECT_THAT(propose(base, pocket(0.0), {}).cannot, HasSubstr("no rest to machine"));
 }
 
+TEST(RestAction, LeavesNarrowPlacesToANarrowerCutterWhereTheWideOneReachesMostOfTheArea) {
+  const RuleBase base =
+      with_chain("pocket", kUpright, "{do: area_rough, of_area: 0.9}, {do: rest_rough, of_area: 0.9}");
+  FeatureShape one_narrow_place = pocket(6.0);
+  one_narrow_place.islands.push_back({geometry::disc({20, 30}, 16.0), 0.0});  // 4 mm from the left wall
+  const Proposal p = propose(base, one_narrow_place, {});
+  ASSERT_EQ(p.chains.size(), 1U) << p.cannot;
+  EXPECT_GT(p.chains[0][0].tool.diameter_max_mm, 10.0);
+  EXPECT_LT(p.chains[0][1].tool.diameter_max_mm, 4.0);
+  EXPECT_GT(p.chains[0][0].tool.diameter_min_mm, p.chains[0][1].tool.diameter_max_mm);
+  EXPECT_GT(p.chains[0][1].rest_of_diameter_mm, 0.0);
+  EXPECT_THAT(propose(base, pocket(26.0), {}).cannot, HasSubstr("reaches enough of the area"));
+}
+
+TEST(RoughAction, MayLeaveCornersOfTwiceTheirRadiusToTheFinish) {
+  const RuleBase base =
+      with_chain("pocket", kUpright, "{do: area_rough, corners: 2, allowance_side_mm: 0.3}, area_finish");
+  const Proposal p = propose(base, pocket(6.0), {});
+  ASSERT_EQ(p.chains.size(), 1U) << p.cannot;
+  EXPECT_NEAR(p.chains[0][0].tool.diameter_max_mm, 24.0, 1e-9);
+  EXPECT_LE(p.chains[0][1].tool.diameter_max_mm, 12.0);
+}
+
 TEST(FloorAndThinWallActions, CutTheFloorAtOnceAndTheWallInLevelsOfItsThickness) {
   const RuleBase base = with_chain("pocket", kUpright,
                                    "{do: area_rough, allowance_side_mm: 0.3, allowance_bottom_mm: 0.2}, "

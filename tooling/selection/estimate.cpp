@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/bending/deflection.h"
 #include "planner/physics/mechanics/constants.h"
@@ -10,6 +11,7 @@
 #include "planner/physics/mechanics/force/immersion.h"
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
+#include "planner/physics/mechanics/stability.h"
 #include "tooling/selection/limits.h"
 
 // Estimated time of a step with a cutter: rough, the same for all candidates, without any optimiser.
@@ -75,15 +77,33 @@ Result<double> compliance_mm_n(const Cutter& c) {
   return mechanics::tip_compliance_mm_n({out, shank, flute, d, e});
 }
 
-double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, const Machine& m,
-                 const Preferences& p, std::string& limited) {
+/// Deepest level of roughing, mm: as far as the cutter stays quiet where no modes are known, and no deeper
+/// than its slots where each level begins with one; the limits that the optimiser keeps
+/// (making/optimise/cut).
+double deepest_mm(const Cutter& c, const WorkMaterial& w, const Machine& m, const Preferences& p,
+                  std::string& limited) {
+  double ap = kDepthRatio * c.cutting_diameter_mm;
+  if (c.maximum_depth_of_cut_mm > 0.0) ap = std::min(ap, c.maximum_depth_of_cut_mm);
+  if (p.depth_mm > 0.0) ap = std::min(ap, p.depth_mm);
+  if (!p.roughs) return ap;
+  const auto lower = [&](double most, const char* by) {
+    if (!(most > 0.0) || most >= ap) return;
+    ap = most;
+    limited = by;
+  };
+  if (c.stick_out_mm > 0.0 && mechanics::modes_for(m, c.id).empty())
+    lower(mechanics::slender_depth_mm(c.cutting_diameter_mm, c.stick_out_mm), "its stick-out");
+  if (p.walled) lower(model::ramp_of(c, w).slot_depth_mm, "the depth of its slots");
+  return ap;
+}
+
+double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
+                 const Machine& m, const Preferences& p, std::string& limited) {
   const double d = c.cutting_diameter_mm;
   const double volume = p.volume_mm3 > 0.0 ? p.volume_mm3 : kNominalVolumeMm3;
   double ae = kWidthRatio * d;
   if (p.width_mm > 0.0) ae = std::min(ae, p.width_mm);
-  double ap = kDepthRatio * d;
-  if (c.maximum_depth_of_cut_mm > 0.0) ap = std::min(ap, c.maximum_depth_of_cut_mm);
-  if (p.depth_mm > 0.0) ap = std::min(ap, p.depth_mm);
+  double ap = deepest_mm(c, w, m, p, limited);
   double feed = s.feed_mm_min;
   int teeth = c.teeth;
   if (w.iso_group == "N" && teeth > kTeethInSoft) {
@@ -116,7 +136,16 @@ double milling_s(const Cutter& c, const StartValues& s, const WorkMaterial& w, c
   ap *= scale;
   // Levels are whole.
   if (p.depth_mm > 0.0) ap = p.depth_mm / std::ceil(p.depth_mm / ap - 1e-9);
-  return 60.0 * volume / (ap * ae * feed);
+  double minutes = volume / (ap * ae * feed);
+  if (p.floor_mm2 > 0.0 && p.depth_mm > 0.0) {  // less what the passes along its walls cover
+    const double walls = volume / (p.depth_mm * ae);
+    minutes += std::max(0.0, p.floor_mm2 - walls * d) / (kWidthRatio * d * feed);
+  }
+  if (r.centre_cutting && p.walled) {
+    const model::Ramp ramp = model::ramp_of(c, w);
+    if (ramp.angle_rad > 0.0) minutes += p.depth_mm / (std::sin(ramp.angle_rad) * ramp.feed_share * feed);
+  }
+  return 60.0 * minutes;
 }
 
 /// Parallel passes of a ball over a surface, as far apart as their ridges allow on a level one.
@@ -165,7 +194,7 @@ Estimate estimate(const Cutter& c, const ToolRequirement& r, const StartValues& 
   out.cutting_s = passes ? passes_s(c, s, p)
                   : model::has(c.cutter_class, model::CutterTrait::kAlongAxis)
                       ? axial_s(c, r, s, w, m, p, out.limited_by)
-                      : milling_s(c, s, w, m, p, out.limited_by);
+                      : milling_s(c, r, s, w, m, p, out.limited_by);
   out.cutting_s *= std::max(1, p.places);
   const double minutes = out.cutting_s / 60.0 * std::max(1, p.batch);
   double whole = 0.0;  // of the batch

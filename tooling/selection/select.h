@@ -54,6 +54,9 @@ struct Preferences {
   double passes_mm2 = 0.0;         ///< balls: the surface that parallel passes cover, as seen from above
   double ridges_mm = 0.0;          ///< with it: height of what stays between two passes
   double pre_hole_mm = 0.0;        ///< drilling, tapping: the hole that is there
+  double floor_mm2 = 0.0;          ///< finishing: the floor that the same step goes over, too
+  bool roughs = false;             ///< milling: levels as deep as the cutter stays quiet
+  bool walled = false;             ///< with it: between upright walls, where each level begins with a slot
   int places = 1;                  ///< members of a pattern made with it
   int batch = 1;                   ///< pieces that loading is shared by
 };
@@ -76,8 +79,9 @@ inline void use(std::vector<std::string>& used, const std::string& id) {
 ///
 ///     cutting     milling V / (ap ae vf), ap cut back to what power, torque and bending of the tip allow
 ///     (force
-///                 coefficients with their uncertainty and a worn edge); drilling L / (f n), f cut back
-///                 likewise
+///                 coefficients with their uncertainty and a worn edge), in roughing also to the depth at
+///                 which a slender cutter stays quiet and to that of a slot, and the ways down by its ramp;
+///                 drilling L / (f n), f cut back likewise
 ///     tool        minutes of cutting x price / life, as machine time; edges beyond the life left, sisters'
 ///     included readiness   a tool change when the plan does not use it yet; loading when the magazine is
 ///     known and lacks it

@@ -7,11 +7,17 @@
 
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/said_before.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/magazine.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/decision/by_planning.h"
 
 // A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
-// same three questions: is anything open, is every cutter in the magazine, does the check condemn it.
+// same three questions: is anything open, is every cutter in the magazine, does the check condemn it. Where
+// an operation finds no loaded cutter, and planning chose all operations, they are chosen once more from what
+// is loaded: another chain may do without.
 
 namespace capstan::late {
 namespace {
@@ -25,10 +31,31 @@ double machining_s(const model::Plan& plan) {
   return t;
 }
 
-pipeline::Policy policy_of() {
+pipeline::Policy policy_of(pipeline::Reopen reopen) {
   pipeline::Policy p;
   p.only_loaded_cutters = true;
+  p.reopen = reopen;
   return p;
+}
+
+/// Whether planning chose all operations and paths of the plan, and nobody pinned a value: then it may choose
+/// them once more.
+bool planning_chose_all(const model::Plan& plan) {
+  const auto chosen = [&](model::AnyRef object, const char* attribute) {
+    return model::by_planning(plan.ledger.find(object, attribute));
+  };
+  for (const auto& [key, decision] : plan.ledger.entries()) {
+    if (decision.pinned) return false;
+  }
+  const std::vector<model::AnyRef> roots = {plan.project};
+  for (const model::AnyRef r : model::reachable(plan.model, roots)) {
+    const auto* step = plan.model.get<model::MachiningWorkingstep>(r);
+    if (step == nullptr) continue;
+    const auto* op = plan.model.get<model::MachiningOperation>(step->its_operation);
+    if (op == nullptr || !chosen(r, "its_operation")) return false;
+    if (op->its_toolpath.set() && !chosen(step->its_operation, "its_toolpath")) return false;
+  }
+  return true;
 }
 
 std::string ms(Duration d) {
@@ -80,12 +107,13 @@ void tell_late(LateOutcome& out, const LatePolicy& policy, TimePoint began, Job&
 /// while half of the time is left. `checking` is what one check takes. A stop leaves it.
 Result<LateOutcome> fallback(const model::Plan& plan, const pipeline::Inputs& inputs,
                              const std::function<Status(const model::Plan&)>& acceptable,
-                             const LatePolicy& policy, TimePoint began, Duration& checking, Job& job) {
+                             const LatePolicy& policy, pipeline::Reopen reopen, TimePoint began,
+                             Duration& checking, Job& job) {
   LateOutcome out;
   std::optional<TimePoint> half;
   if (policy.deadline) half = began + *policy.deadline / 2;
   const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
-  auto made = pipeline::bind_checked(plan, inputs, policy_of(), job, {half, acceptable});
+  auto made = pipeline::bind_checked(plan, inputs, policy_of(reopen), job, {half, acceptable});
   job.evaluation_budget = budget;
   if (!made) return tl::unexpected(made.error());
   const auto check_start = job.now();
@@ -110,8 +138,8 @@ Result<LateOutcome> fallback(const model::Plan& plan, const pipeline::Inputs& in
 /// Plans again with the whole budget; takes the plan into `out` if it is whole, checked, in time and faster.
 void improve(LateOutcome& out, model::Plan plan, const pipeline::Inputs& inputs,
              const std::function<Status(const model::Plan&)>& acceptable, const LatePolicy& policy,
-             TimePoint began, Job& trial, Job& job) {
-  auto better = pipeline::bind(std::move(plan), inputs, policy_of(), trial);
+             pipeline::Reopen reopen, TimePoint began, Job& trial, Job& job) {
+  auto better = pipeline::bind(std::move(plan), inputs, policy_of(reopen), trial);
   if (!better || !acceptable(*better)) return;
   const double t = machining_s(*better);
   const bool faster = t < out.fallback_s || !out.condemned.empty();
@@ -145,9 +173,28 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
     return only_loaded(made, magazine);
   };
   Duration checking{};
-  auto out = stoppable(
-      job, [&] { return fallback(plan, inputs, acceptable, policy, began, checking, job); },
-      [&]() -> Result<LateOutcome> { return tl::unexpected(pipeline::stopped_planning(plan)); });
+  auto reopen = pipeline::Reopen::kNothing;
+  const auto fallen_back = [&] {
+    return stoppable(
+        job, [&] { return fallback(plan, inputs, acceptable, policy, reopen, began, checking, job); },
+        [&]() -> Result<LateOutcome> { return tl::unexpected(pipeline::stopped_planning(plan)); });
+  };
+  const SaidBefore before(job);
+  auto out = fallen_back();
+  const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
+  if (nothing_fits && !reopened->empty() && planning_chose_all(plan)) {
+    auto said = job.take_diagnostics();
+    reopen = pipeline::Reopen::kOperations;
+    auto anew = fallen_back();
+    if (anew) {
+      reopened->push_back("with the loaded tools alone the plan's operations cannot be made (" +
+                          out.error().message + "); all of them were chosen anew");
+      out = std::move(anew);
+    } else {
+      (void)job.take_diagnostics();
+      for (Diagnostic& d : said) job.report(std::move(d));
+    }
+  }
   if (!out) return out;
   out->reopened = *std::move(reopened);
 
@@ -169,7 +216,8 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
         job,
         [&] {
           stoppable(
-              trial, [&] { improve(*out, std::move(plan), inputs, acceptable, policy, began, trial, job); },
+              trial,
+              [&] { improve(*out, std::move(plan), inputs, acceptable, policy, reopen, began, trial, job); },
               nothing_more);
         },
         nothing_more);

@@ -109,6 +109,7 @@ std::map<AnyRef, MadeStep> made_steps(const step::PlanSoFar& p) {
                    s.in_chain,
                    s.cutter.id,
                    s.proposal.name,
+                   s.cutter.cutting_diameter_mm,
                    p.plan.model.holds<model::FreeformFinishMilling>(s.operation),
                    step::cut_around(p, s)};
   }

@@ -10,6 +10,7 @@
 
 #include "planner/door/pipeline/stages.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/said_before.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/rests.h"
@@ -25,7 +26,6 @@
 #include "planner/making/step/record/grouped_reasons.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
-#include "planner/making/step/said_before.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 #include "tooling/selection/select.h"
@@ -45,10 +45,7 @@ constexpr int kMostThinner = 3;
 constexpr double kThinnerAim = 0.9;      // default, unsourced
 constexpr double kThinnerUnknown = 0.5;  // if no formula gives the excess; default, unsourced
 constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
-/// Constant engagement is taken where its path takes less than this share of the rings' time: the spindle
-/// comes up to its speed, and its program is longer. Default, unsourced.
-constexpr double kWorthwhile = 0.99;
-constexpr double kThinnest = 0.02;  // of the cut that keeps the limits off the path; default, unsourced
+constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
 /// Depth and width of a cut, for people.
 std::string sizes(const optimise::CutAnswer& a) {
@@ -268,7 +265,7 @@ class PathMaker {
     const auto other = step::constant_cut(p_, step, candidate, means_);
     const bool inwards = step::rings_inwards(p_, step, means_);
     if (!other && !inwards) return with_strategy(step, i);
-    const step::SaidBefore before(job_);
+    const SaidBefore before(job_);
     return quickest_way(step, i, inwards, other);
   }
 
@@ -278,72 +275,71 @@ class PathMaker {
     return step::seconds_of(plan_.machine, *t->path, t->feeds.schedule);
   }
 
+  /// A way that was tried, taken out of the stock again.
+  struct Tried {
+    step::Clearing way;
+    Result<step::MeasuredCut> cut;
+    std::optional<double> seconds;  ///< if it keeps the limits
+    std::vector<Diagnostic> said;
+    step::Stocks::Undone removed;
+  };
+
   /// Rings, or constant engagement where that is worthwhile; of the others, only what is recorded is told.
   Result<step::MeasuredCut> quickest_way(StepDraft& step, std::size_t i, bool inwards,
                                          const std::optional<step::ConstantCut>& other) {
     using step::Clearing;
     const auto before = stocks_.before(step.setup);
-    const auto with = [&](Clearing way) {
-      (void)job_.take_diagnostics();
-      stocks_.put_back(step.setup, before);
+    const auto take = [&](Clearing way) {
       step.constant_engagement = way == Clearing::kConstantEngagement;
       step.inwards = way == Clearing::kInwards;
-      return with_strategy(step, i);
+    };
+    const auto tried = [&](Clearing way) {
+      take(way);
+      auto cut = with_strategy(step, i);
+      const auto seconds = kept_seconds(step, cut);
+      return Tried{way, std::move(cut), seconds, job_.take_diagnostics(),
+                   stocks_.take_out(step.setup, before)};
     };
     step::StrategyChoice choice;
-    const auto lose = [&](Clearing way, const Result<step::MeasuredCut>& t, double best_s) {
-      const auto seconds = kept_seconds(step, t);
-      std::string why = seconds ? (*seconds < best_s ? "saves too little: takes " : "takes ") +
-                                      motion::duration_text(*seconds) + " against " +
-                                      motion::duration_text(best_s)
-                        : t ? excess_text(*t)
-                            : t.error().message;
-      const optimise::CutAnswer cut = t                                               ? t->made.answer
-                                      : other && way == Clearing::kConstantEngagement ? other->answer
-                                                                                      : optimise::CutAnswer{};
-      choice.lost.push_back({step::words_of(way, cut), std::move(why)});
+    const auto lose = [&](const Tried& t, double best_s) {
+      std::string why = t.seconds ? step::slower_text(*t.seconds, best_s)
+                        : t.cut   ? excess_text(*t.cut)
+                                  : t.cut.error().message;
+      const optimise::CutAnswer cut = t.cut ? t.cut->made.answer
+                                      : other && t.way == Clearing::kConstantEngagement
+                                          ? other->answer
+                                          : optimise::CutAnswer{};
+      choice.lost.push_back({step::words_of(t.way, cut), std::move(why)});
     };
-    auto best = with(Clearing::kOutwards);
-    auto best_s = kept_seconds(step, best);
-    Clearing last = choice.way;
-    if (inwards) {
-      auto from_wall = with(last = Clearing::kInwards);
-      const auto seconds = kept_seconds(step, from_wall);
-      if (seconds && (!best_s || *seconds < kWorthwhile * *best_s)) {
-        std::swap(best, from_wall);
-        best_s = seconds;
-        choice.way = Clearing::kInwards;
-      }
-      if (best_s)
-        lose(choice.way == Clearing::kInwards ? Clearing::kOutwards : Clearing::kInwards, from_wall, *best_s);
-    }
+    (void)job_.take_diagnostics();
+    Tried best = tried(Clearing::kOutwards);
+    const auto challenge = [&](Clearing way) {
+      Tried next = tried(way);
+      if (next.seconds && (!best.seconds || step::worthwhile(*next.seconds, *best.seconds)))
+        std::swap(best, next);
+      if (best.seconds) lose(next, *best.seconds);
+    };
+    if (inwards) challenge(Clearing::kInwards);
     if (other) {
-      const double volume = best_s ? best->removed_mm3.value_or(0.0) : 0.0;
+      const double volume = best.seconds ? best.cut->removed_mm3.value_or(0.0) : 0.0;
       const double about = step::estimated_seconds(other->question, other->answer, volume, other->walled);
-      if (best_s && about >= kWorthwhile * *best_s) {
+      if (best.seconds && !step::worthwhile(about, *best.seconds)) {
         choice.lost.push_back({step::words_of(Clearing::kConstantEngagement, other->answer),
-                               "takes about " + motion::duration_text(about) +
-                                   " by its rate and entry against " + motion::duration_text(*best_s)});
+                               step::estimate_text(about, *best.seconds)});
       } else {
-        auto constant = with(last = Clearing::kConstantEngagement);
-        const auto seconds = kept_seconds(step, constant);
-        if (seconds && (!best_s || *seconds < kWorthwhile * *best_s)) {
-          lose(choice.way, best, *seconds);
-          std::swap(best, constant);
-          best_s = seconds;
-          choice.way = Clearing::kConstantEngagement;
-        } else if (best_s) {
-          lose(Clearing::kConstantEngagement, constant, *best_s);
-        }
+        challenge(Clearing::kConstantEngagement);
       }
     }
-    // The same again, from what is remembered: the stock is to be cut by it.
-    if (last != choice.way || !best_s) best = with(choice.way);
-    if (!best) return best;
-    if (best_s)
-      choice.taken = step::words_of(choice.way, best->made.answer) + ": " + motion::duration_text(*best_s);
-    best->strategy = std::move(choice);
-    return best;
+    take(best.way);
+    stocks_.put_in(step.setup, std::move(best.removed));
+    for (Diagnostic& d : best.said) job_.report(std::move(d));
+    if (!best.cut) return std::move(best.cut);
+    choice.way = best.way;
+    if (best.seconds)
+      choice.taken =
+          step::words_of(best.way, best.cut->made.answer) + ": " + motion::duration_text(*best.seconds);
+    best.cut->strategy = std::move(choice);
+    return std::move(best.cut);
   }
 
   /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up

@@ -14,6 +14,7 @@
 #include "planner/door/service/outputs.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/door/service/shop_tools/tool_materials.h"
 #include "planner/files/exchange/conformance/check.h"
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/p21/read/parse.h"
@@ -115,6 +116,8 @@ class Check {
       const model::Plan& plan = plans_[*p.plan];
       p.findings = verify::check_plan(plan, job);
       auto more = beside_the_check(plan);
+      auto other = other_tool_materials(plan, loaded_);
+      std::move(other.begin(), other.end(), std::back_inserter(more));
       std::move(more.begin(), more.end(), std::back_inserter(p.findings));
     } else {
       const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
@@ -338,10 +341,16 @@ class Check {
       auto library = tooling::load_library(*o.tools, job_, counts);
       if (!library) return library.error();
       shop_.cutters = *std::move(library);
+      if (has_plan) loaded_ = shop_.cutters;
     } else if (!has_plan && !shop_.tool_table.empty()) {
       auto table = tooling::read_tool_table(shop_.tool_table, "tool table", job_, counts);
       if (!table) return table.error();
       shop_.cutters = *std::move(table);
+    } else if (has_plan && !shop_.tool_table.empty()) {
+      // What cannot be read of it the check of the table says.
+      Job quiet;
+      if (auto table = tooling::read_tool_table(shop_.tool_table, "tool table", quiet, counts))
+        loaded_ = *std::move(table);
     }
     return std::nullopt;
   }
@@ -369,6 +378,7 @@ class Check {
   std::vector<model::Plan> plans_;
   std::vector<Part> parts_;
   Shop shop_;
+  std::vector<model::Cutter> loaded_;  ///< what a library or tool table beside a plan says of its tools
   CheckResult out_;
 };
 

@@ -13,6 +13,12 @@ void Bans::ban_cutter(const Member& m, const std::string& chain, std::size_t ste
   cutters_.emplace(std::tuple(m, chain, step, cutter), why);
 }
 
+void Bans::ask_narrower(const Member& m, const std::string& chain, std::size_t step, double diameter_mm,
+                        const std::string& why) {
+  const auto [at, first] = narrower_.emplace(std::tuple(m, chain, step), std::pair(diameter_mm, why));
+  if (!first && diameter_mm < at->second.first) at->second = {diameter_mm, why};
+}
+
 void Bans::cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why) {
   Thinner& t = thinner_[std::tuple(m, chain, step)];
   ++t.times;
@@ -41,9 +47,13 @@ const std::string* Bans::chain_banned(const Member& m, const std::string& chain)
 }
 
 const std::string* Bans::cutter_banned(const Member& m, const std::string& chain, std::size_t step,
-                                       const std::string& cutter) const {
-  const auto at = cutters_.find(std::tuple(m, chain, step, cutter));
-  return at == cutters_.end() ? nullptr : &at->second;
+                                       const model::Cutter& cutter) const {
+  const auto at = cutters_.find(std::tuple(m, chain, step, cutter.id));
+  if (at != cutters_.end()) return &at->second;
+  constexpr double kSameMm = 1e-6;  // of two diameters, written in one list in mm and in another in inches
+  const auto wide = narrower_.find(std::tuple(m, chain, step));
+  const bool too_wide = wide != narrower_.end() && cutter.cutting_diameter_mm > wide->second.first - kSameMm;
+  return too_wide ? &wide->second.second : nullptr;
 }
 
 const Thinner* Bans::thinner(const Member& m, const std::string& chain, std::size_t step) const {

@@ -39,6 +39,9 @@ class Bans {
   void ban_chain(const GivenUp& g) { ban_chain(g.member, g.chain, g.why); }
   void ban_cutter(const Member& m, const std::string& chain, std::size_t step, const std::string& cutter,
                   const std::string& why);
+  /// A cutter of this diameter, mm, leaves material that no wider one reaches: both are banned.
+  void ask_narrower(const Member& m, const std::string& chain, std::size_t step, double diameter_mm,
+                    const std::string& why);
   /// The step's cuts are to be thinner, once more.
   void cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
   /// The check found that the step cuts nothing, where others cut around a boss: it is left out.
@@ -48,7 +51,7 @@ class Bans {
 
   [[nodiscard]] const std::string* chain_banned(const Member& m, const std::string& chain) const;
   [[nodiscard]] const std::string* cutter_banned(const Member& m, const std::string& chain, std::size_t step,
-                                                 const std::string& cutter) const;
+                                                 const model::Cutter& cutter) const;
   [[nodiscard]] const Thinner* thinner(const Member& m, const std::string& chain, std::size_t step) const;
   [[nodiscard]] const std::string* cuts_nothing(const Member& m, const std::string& chain,
                                                 std::size_t step) const;
@@ -57,6 +60,7 @@ class Bans {
  private:
   std::map<std::pair<Member, std::string>, std::string> chains_;
   std::map<std::tuple<Member, std::string, std::size_t, std::string>, std::string> cutters_;
+  std::map<std::tuple<Member, std::string, std::size_t>, std::pair<double, std::string>> narrower_;
   std::map<std::tuple<Member, std::string, std::size_t>, Thinner> thinner_;
   std::map<std::tuple<Member, std::string, std::size_t>, std::string> nothing_;
   std::map<AnyRef, LeftOut> left_out_;

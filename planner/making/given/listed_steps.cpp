@@ -8,8 +8,10 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/draft/setup_nouns.h"
 #include "planner/making/piece/piece.h"
+#include "planner/making/step/path/job_of.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "rules/rules.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -268,8 +270,9 @@ void mark_open(model::Plan& plan, Reopen reopen, StepDraft& step) {
     const auto* d = object.set() ? ledger.find(object, attribute) : nullptr;
     return d != nullptr && d->pinned;
   };
-  if (op->its_toolpath.set()) {
-    // A path fixes its cutter; feeds may still be chosen.
+  if (step::has_given_path(plan, step)) {
+    // A path of the file fixes its cutter; feeds may still be chosen. One that planning computed is computed
+    // again.
     step.open_tool = !m.holds<model::MachiningTool>(op->its_tool);
   } else {
     step.open_tool = reopen >= Reopen::kTools || !m.holds<model::MachiningTool>(op->its_tool) ||
@@ -298,7 +301,7 @@ void mark_open(model::Plan& plan, Reopen reopen, StepDraft& step) {
       const auto* d = ledger.find(op->its_technology, name);
       if (d == nullptr) continue;
       if (d->state != model::DecisionState::kBound) return false;
-      if (d->binder != model::Binder::kGiven && d->binder != model::Binder::kOperator) return false;
+      if (model::by_planning(d)) return false;
     }
     return true;
   };

@@ -10,6 +10,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/cutter/measured_length.h"
+#include "planner/model/plan/cutter/sized_name.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
@@ -81,6 +82,25 @@ bool does_as_much(const Cutter& loaded, const Cutter& planned) {
          !more("shank_diameter_mm", loaded.shank_diameter_mm, planned.shank_diameter_mm);
 }
 
+/// The planned tool as it is loaded under its number, smaller by wear or a regrind, if one is: a mill whose
+/// path the measured diameter offsets. Holes have the size of their drill, so that another one is another
+/// tool.
+const Cutter* worn(const std::vector<Cutter>& library, const Cutter& planned) {
+  constexpr double kWorn = 0.05;        // of the diameter: what regrinding takes. Default, unsourced.
+  constexpr double kMeasuredMm = 0.05;  // larger by runout. Default, unsourced.
+  if (planned.pocket <= 0 || !model::has(planned.cutter_class, model::CutterTrait::kEndMill)) return nullptr;
+  for (const Cutter& c : library) {
+    if (!c.loaded || !c.table_line || c.pocket != planned.pocket) continue;
+    const double less = planned.cutting_diameter_mm - c.cutting_diameter_mm;
+    Cutter as_planned = c;
+    as_planned.cutting_diameter_mm = planned.cutting_diameter_mm;
+    const bool near = less <= kWorn * planned.cutting_diameter_mm && less >= -kMeasuredMm;
+    if (near && same_tool(as_planned, planned) && does_as_much(c, planned) && model::offset_fault(c).empty())
+      return &c;
+  }
+  return nullptr;
+}
+
 /// What the plan took a tool to be whose file does not say it: its speeds are for that.
 void take_assumed(const std::vector<model::AssumedToolMaterial>& assumed, Cutter& c) {
   if (!tooling::material_is_assumed(c)) return;
@@ -145,32 +165,41 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
     auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, job, plan.cutters);
     if (!wanted) return tl::unexpected(wanted.error());
     take_assumed(assumed, *wanted);
-    if (const Cutter* there = loaded_like(library, *wanted)) {
-      if (!seen.insert(wanted->id).second) continue;
-      const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
-      if (std::any_of(merged.begin(), merged.end(), same_pocket))
-        continue;  // the same tool under another name
-      Cutter c = *wanted;
-      c.pocket = there->pocket;
-      c.loaded = true;
-      if (there->substrate == c.substrate && states(*there, "substrate")) state_material(*there, c);
-      take_length(*there, c);
-      if (std::string fault = model::offset_fault(c); !fault.empty()) {
-        return fail({.code = "LATE-TOOL",
-                     .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +
-                                "' has no length that can be used: " + fault,
-                     .file = plan.file_name,
-                     .path = c.id,
-                     .hint = "measure it and enter its length; where offsets count from a reference tool, "
-                             "say length_offsets: reference under the machine's control"});
-      }
-      merged.push_back(std::move(c));
-      continue;
+    const Cutter* there = loaded_like(library, *wanted);
+    const bool has_worn = there == nullptr && (there = worn(library, *wanted)) != nullptr;
+    if (there == nullptr || has_worn) {
+      plan.ledger.reopen({r, "its_tool"});
+      const std::string what = there == nullptr
+                                   ? " is not in the magazine; re-opened"
+                                   : " measures " + trimmed(there->cutting_diameter_mm, 3) + " mm as T" +
+                                         std::to_string(there->pocket) + "; its path is made anew";
+      reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
+                         std::string(model::to_text(wanted->cutter_class)) + " " +
+                         trimmed(wanted->cutting_diameter_mm, 3) + " mm)" + what);
     }
-    plan.ledger.reopen({r, "its_tool"});
-    reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
-                       std::string(model::to_text(wanted->cutter_class)) + " " +
-                       trimmed(wanted->cutting_diameter_mm, 3) + " mm) is not in the magazine; re-opened");
+    if (there == nullptr || !seen.insert(wanted->id).second) continue;
+    const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
+    if (std::any_of(merged.begin(), merged.end(), same_pocket)) continue;  // the same tool under another name
+    // The table knows pocket and sizes; class, flutes and tool material are the plan's.
+    Cutter c = *wanted;
+    c.pocket = there->pocket;
+    c.loaded = true;
+    if (has_worn) {
+      c.cutting_diameter_mm = there->cutting_diameter_mm;
+      c.id = model::name_with_size(wanted->id, c.cutting_diameter_mm);
+    }
+    if (there->substrate == c.substrate && states(*there, "substrate")) state_material(*there, c);
+    take_length(*there, c);
+    if (std::string fault = model::offset_fault(c); !fault.empty()) {
+      return fail({.code = "LATE-TOOL",
+                   .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +
+                              "' has no length that can be used: " + fault,
+                   .file = plan.file_name,
+                   .path = c.id,
+                   .hint = "measure it and enter its length; where offsets count from a reference tool, "
+                           "say length_offsets: reference under the machine's control"});
+    }
+    merged.push_back(std::move(c));
   }
   // Loaded cutters that the plan did not name stay as the table describes them; a name counts once: what has
   // that of a tool of the plan gets one of its own.

@@ -14,6 +14,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/cutter/stated.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/needed.h"
 #include "tooling/selection/select.h"
@@ -296,8 +297,7 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
 bool take_recorded(const model::Plan& plan, const Choice& choice, const StepDraft& step,
                    model::Cutter& cutter) {
   const auto* d = plan.ledger.find(step.operation, "its_tool");
-  if (d == nullptr || d->binder == model::Binder::kGiven || d->binder == model::Binder::kOperator)
-    return false;
+  if (!model::by_planning(d)) return false;
   const auto named = [&](const model::Cutter& c) { return c.id == cutter.id; };
   const auto it = std::find_if(choice.recorded.begin(), choice.recorded.end(), named);
   constexpr double kSame = 1e-6;  // mm

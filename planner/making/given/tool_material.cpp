@@ -7,6 +7,7 @@
 
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "tooling/library/cutters/complete.h"
 
 namespace capstan::given {
@@ -20,8 +21,7 @@ double given_rpm(const model::Plan& plan, AnyRef technology, double diameter_mm)
   const auto* t = plan.model.get<model::MillingTechnology>(technology);
   if (t == nullptr) return 0.0;
   const auto given = [&](const char* attribute) {
-    const auto* d = plan.ledger.find(technology, attribute);
-    return d == nullptr || d->binder == model::Binder::kGiven || d->binder == model::Binder::kOperator;
+    return !model::by_planning(plan.ledger.find(technology, attribute));
   };
   // Of both the spindle's is used, as reading says.
   if (t->spindle && (given("spindle") || (t->cutspeed && given("cutspeed")))) return std::abs(*t->spindle);

@@ -10,7 +10,8 @@
 #include "planner/making/piece/piece.h"
 #include "planner/model/plan/proposal.h"
 
-// Which chain of a proposal is taken.
+// Which chain of a proposal is taken: the rules' order says what is good practice, the estimates of time what
+// would be absurd.
 
 namespace capstan::propose {
 
@@ -30,8 +31,10 @@ struct Chosen {
   std::vector<model::Selection> tools;                      ///< one per step
 };
 
-/// Chooses the first chain that was not tried in vain and finds a cutter for every step; gives the reasons
-/// against the others. `steps` are those of the plan so far, `used` the cutters in use.
+/// Chooses the first chain that was not tried in vain and finds a cutter for every step; of pockets and slots
+/// another where that is decisively quicker by the estimate that also ranks cutters, tool changes included.
+/// Gives the reasons against the others, with their estimated times. `steps` are those of the plan so far,
+/// `used` the cutters in use.
 [[nodiscard]] Chosen choose(const Choice& choice, const model::Proposal& p, const model::FeatureShape& shape,
                             const draft::Member& member, const std::vector<draft::StepDraft>& steps,
                             const std::vector<std::string>& used, std::vector<model::Rejected>& rejected,
@@ -40,11 +43,5 @@ struct Chosen {
 /// A chain by its steps: "centre + drill + ream [hole.ream.it7]".
 [[nodiscard]] std::string chain_text(const std::vector<model::ProposedStep>& chain,
                                      const model::FeatureShape& shape);
-/// Estimated time of the chains after the chosen one, compared with it, by the estimate that also ranks
-/// cutters.
-[[nodiscard]] std::vector<model::Rejected> alternatives(const Choice& choice, const model::Proposal& p,
-                                                        const model::FeatureShape& shape,
-                                                        const Chosen& chosen,
-                                                        const std::vector<std::string>& used);
 
 }  // namespace capstan::propose

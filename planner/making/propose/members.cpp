@@ -26,6 +26,11 @@ model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std
                               const std::vector<model::Selection>& chosen) {
   model::ProposedStep step = chain[at];
   if (at == 0 || chosen[at - 1].ranked.empty()) return step;
+  // The cutter that left the rest is known, where its largest was only bounded.
+  if (step.rest_of_diameter_mm > 0.0) {
+    const double wide = chosen[at - 1].ranked.front().cutter.cutting_diameter_mm;
+    step.rest_of_diameter_mm = std::min(step.rest_of_diameter_mm, wide);
+  }
   step.start_diameter_mm =
       step::opened_by(step.start_diameter_mm, chain[at - 1], chosen[at - 1].ranked.front().cutter);
   return step;

@@ -17,7 +17,7 @@ void members_in_order(std::vector<draft::StepDraft>& steps, const std::vector<st
                       const std::vector<std::size_t>& second);
 
 /// Step `at` of a chain, starting from the hole of the drill that was chosen before it, if the requirement
-/// left its size open.
+/// left its size open; of rest machining, with the diameter that was chosen for the step before.
 [[nodiscard]] model::ProposedStep as_opened(const std::vector<model::ProposedStep>& chain, std::size_t at,
                                             const std::vector<model::Selection>& chosen);
 

@@ -381,8 +381,6 @@ class Proposer {
         out_.drafts.needed.push_back(std::move(n));
       return {};
     }
-    for (model::Rejected& r : alternatives(choice_, p, s, chosen, out_.drafts.used))
-      rejected.push_back(std::move(r));
     std::vector<std::size_t> made;
     std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
     std::optional<ProbingDraft> probing;

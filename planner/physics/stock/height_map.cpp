@@ -165,6 +165,19 @@ void put_back(HeightMap& map, const Patch& patch) {
   rows(patch.share, map.share);
 }
 
+void exchange(HeightMap& map, Patch& patch) {
+  const auto rows = [&](std::vector<float>& a, std::vector<float>& b) {
+    for (int y = 0; y < patch.ny; ++y) {
+      const auto row = a.begin() + static_cast<std::ptrdiff_t>(y) * patch.nx;
+      std::swap_ranges(row, row + patch.nx,
+                       b.begin() + static_cast<std::ptrdiff_t>(map.index(patch.x0, patch.y0 + y)));
+    }
+  };
+  rows(patch.top, map.top);
+  rows(patch.low, map.low);
+  rows(patch.share, map.share);
+}
+
 double volume(const HeightMap& map) {
   double sum = 0.0;
   for (std::size_t i = 0; i < map.cells(); ++i) {

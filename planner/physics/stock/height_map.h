@@ -83,6 +83,8 @@ struct Patch {
 [[nodiscard]] Patch patch_of(const HeightMap& map, geometry::Vec2 lo, geometry::Vec2 hi);
 /// Needs  a patch of this map.
 void put_back(HeightMap& map, const Patch& patch);
+/// As `put_back`; the patch then has the columns as they were.
+void exchange(HeightMap& map, Patch& patch);
 
 [[nodiscard]] double volume(const HeightMap& map);  ///< mm3
 /// Height of the stock at a point, the mean of its cell; the floor outside.

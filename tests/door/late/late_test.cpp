@@ -64,6 +64,12 @@ std::string texts(Job& job) {
   return out;
 }
 
+double machining_s(const model::Plan& plan) {
+  double out = 0.0;
+  for (const auto& s : plan.steps) out += s.cutting_s + s.rapid_s;
+  return out;
+}
+
 TEST(Late, BindsWithWhatTheMagazineHoldsAndNothingElse) {
   Job job;
   const auto bound = bind(plate(), shop(kMagazine), {.deadline = std::chrono::seconds(20)}, job);
@@ -294,32 +300,113 @@ TEST(Late, IsLateWhenTheImprovementOverranTheDeadline) {
   EXPECT_FALSE(bound->improved);
 }
 
-TEST(Late, APlanThatHoldsThePathOfAToolThatIsNotLoadedIsRefused) {
-  // Planned whole with the magazine, then brought to a machine on which T7 is missing.
+/// A plan with all its paths, as it comes to a machine, and the tool table that it was made for.
+struct Brought {
+  model::Plan plan;
+  std::string table;
+  double machining_s = 0.0;
+};
+Brought brought(const std::string& part, pipeline::Format format) {
   Job job;
-  const auto whole = bind(plate(), shop(kMagazine), {.deadline = std::nullopt}, job);
-  ASSERT_TRUE(whole) << to_text(whole.error());
-  const model::Plan* planned = &whole->plan;
-  const auto mill = std::find_if(planned->cutters.begin(), planned->cutters.end(),
-                                 [](const auto& c) { return c.pocket == 7; });
-  ASSERT_NE(mill, planned->cutters.end());
+  pipeline::Inputs in = shop({});
+  auto read = pipeline::read_plan(testing::slurp(part), part, job);
+  EXPECT_TRUE(read) << to_text(read.error());
+  auto planned = read ? pipeline::bind(*std::move(read), in, {}, job) : Result<model::Plan>();
+  EXPECT_TRUE(planned) << to_text(planned.error());
+  auto text = pipeline::write_plan(*planned, format, job);
+  EXPECT_TRUE(text);
+  auto again = pipeline::read_plan(*text, part, job);
+  EXPECT_TRUE(again) << to_text(again.error());
+  return {*std::move(again), controls::linuxcnc::write_tool_table(*planned), machining_s(*planned)};
+}
+
+std::string without(const std::string& table, int tool) {
+  std::string out;
+  std::istringstream lines(table);
+  for (std::string one; std::getline(lines, one);)
+    if (!one.starts_with("T" + std::to_string(tool) + " ")) out += one + "\n";
+  return out;
+}
+
+TEST(Late, WhateverToolIsMissingNoStepUsesIt) {
+  const std::string part = capstan::testing::source_dir() + "/examples/bracket.p21";
   for (const auto format : {pipeline::Format::kAp238, pipeline::Format::kJson}) {
-    const auto text = pipeline::write_plan(*planned, format, job);
-    ASSERT_TRUE(text);
-    auto brought = pipeline::read_plan(*text, "plate", job);
-    ASSERT_TRUE(brought) << to_text(brought.error());
-    pipeline::Inputs in = shop(kMagazine);
-    std::erase_if(in.library, [](const auto& c) { return c.pocket == 7; });
-    Job said;
+    const Brought early = brought(part, format);
+    const int tools = static_cast<int>(std::count(early.table.begin(), early.table.end(), '\n'));
+    ASSERT_GT(tools, 5);
+    int replaced = 0;
+    for (int missing = 1; missing <= tools; ++missing) {
+      Job job;
+      const auto bound =
+          bind(early.plan, shop_of(without(early.table, missing)), {.deadline = std::nullopt}, job);
+      if (!bound) {
+        EXPECT_EQ(bound.error().code, "LATE-OPEN") << missing << ": " << to_text(bound.error());
+        continue;
+      }
+      ++replaced;
+      EXPECT_TRUE(bound->plan.unplanned.empty()) << missing;
+      EXPECT_FALSE(bound->reopened.empty()) << missing;
+      for (const model::StepResult& step : bound->plan.steps) {
+        const model::Cutter* c = model::find_cutter(bound->plan, step.cutter_id);
+        ASSERT_NE(c, nullptr) << missing;
+        EXPECT_NE(c->pocket, missing) << step.cutter_id;
+      }
+      const std::string program =
+          pipeline::write_plan(bound->plan, pipeline::Format::kLinuxCnc, job).value_or("");
+      EXPECT_EQ(program.find("T" + std::to_string(missing) + " "), std::string::npos) << missing;
+    }
+    EXPECT_GT(replaced, 0);
+  }
+}
+
+TEST(Late, APlanWithTheFilesOwnPathOfAToolThatIsNotLoadedIsRefused) {
+  for (const auto format : {pipeline::Format::kAp238, pipeline::Format::kJson}) {
+    Brought early = brought(kPlate, format);
+    const auto entries = early.plan.ledger.entries();
+    for (const auto& [key, decision] : entries) {
+      if (key.attribute != "its_toolpath") continue;
+      model::Decision given = decision;
+      given.binder = model::Binder::kGiven;
+      early.plan.ledger.set(key, given);
+    }
+    const model::Cutter* mill = model::find_cutter(early.plan, early.plan.steps.front().cutter_id);
+    ASSERT_NE(mill, nullptr);
+    const std::string id = mill->id;
+    Job job;
+    const auto bound =
+        bind(early.plan, shop_of(without(early.table, mill->pocket)), {.deadline = std::nullopt}, job);
     const std::string form = format == pipeline::Format::kJson ? "JSON" : "AP238";
-    const auto bound = bind(*std::move(brought), std::move(in), {.deadline = std::nullopt}, said);
     ASSERT_FALSE(bound) << form;
     EXPECT_EQ(bound.error().code, "LATE-TOOL") << form << ": " << to_text(bound.error());
-    EXPECT_NE(bound.error().message.find("'" + mill->id + "' of step '" + bound.error().path + "'"),
+    EXPECT_NE(bound.error().message.find("'" + id + "' of step '" + bound.error().path + "'"),
               std::string::npos)
         << bound.error().message;
     EXPECT_FALSE(bound.error().path.empty());
   }
+}
+
+TEST(Late, AWornMillKeepsWhatIsKnownOfItAndItsPathTakesTheMeasuredDiameter) {
+  const Brought early =
+      brought(capstan::testing::source_dir() + "/examples/bracket.p21", pipeline::Format::kJson);
+  const auto pocket = std::find_if(early.plan.cutters.begin(), early.plan.cutters.end(), [](const auto& c) {
+    return c.cutter_class == model::CutterClass::kEndmill && c.cutting_diameter_mm >= 8.0;
+  });
+  ASSERT_NE(pocket, early.plan.cutters.end());
+  const double worn = pocket->cutting_diameter_mm - 0.05;
+  const std::string number = "T" + std::to_string(pocket->pocket) + " ";
+  std::string table = early.table;
+  const auto at = table.find("D+", table.find(number)) + 2;
+  table.replace(at, table.find(' ', at) - at, std::to_string(worn));
+  Job job;
+  const auto bound = bind(early.plan, shop_of(table), {.deadline = std::nullopt}, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  const model::Cutter* now = cutter_of(bound->plan, pocket->pocket);
+  ASSERT_NE(now, nullptr);
+  EXPECT_NEAR(now->cutting_diameter_mm, worn, 1e-9);
+  EXPECT_EQ(now->teeth, pocket->teeth);
+  EXPECT_EQ(now->substrate, pocket->substrate);
+  EXPECT_EQ(now->maximum_depth_of_cut_mm, pocket->maximum_depth_of_cut_mm);
+  EXPECT_NEAR(bound->machining_s, early.machining_s, 0.05 * early.machining_s);
 }
 
 TEST(Late, ReopensAToolThatIsNotInTheMagazine) {

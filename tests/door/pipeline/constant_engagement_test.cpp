@@ -256,6 +256,7 @@ TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
   rings.cutmode = model::CutmodeType::kClimb;
   const auto made = plan.model.add(rings);
   plan.model.get<model::Two5dMillingOperation>(operation)->its_machining_strategy = made;
+  plan.ledger.set({operation, "its_machining_strategy"}, {});  // bound, by the file
   const auto kept = bound(read(written(plan, Format::kIso14649)), in, 1, {.reopen = Reopen::kTools});
   ASSERT_FALSE(kept.steps.empty());
   const auto* o = kept.model.get<model::Two5dMillingOperation>(roughing(kept));

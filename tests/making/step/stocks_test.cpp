@@ -79,5 +79,40 @@ TEST(Stocks, CellsFollowTheSetUpWhereAnotherTryOrdersSetUpsAnew) {
   EXPECT_DOUBLE_EQ(turned.cell(true), coarse);
 }
 
+/// A slot of 10 mm along x at this y, 5 mm deep.
+model::CutterPath slot(double y) {
+  model::CutterPath path;
+  path.start({-10, y, -5});
+  path.line({110, y, -5}, model::MoveRole::kCut);
+  return path;
+}
+
+TEST(Stocks, WhatIsTakenOutAndPutInIsAsIfItHadBeenCut) {
+  const SmallestCutters known;
+  Try once(known, false), again(known, false);
+  model::Cutter mill;
+  mill.cutting_diameter_mm = 10.0;
+  mill.maximum_depth_of_cut_mm = 20.0;
+  const auto cut = [&](Try& t, double y) { return t.stocks.measure(0, slot(y), mill)->removed_mm3; };
+  for (Try* t : {&once, &again}) {
+    t->step(false, 10.0);
+    (void)cut(*t, 20.0);
+  }
+  const auto before = again.stocks.before(0);
+  (void)cut(again, 25.0);
+  (void)cut(again, 60.0);
+  auto undone = again.stocks.take_out(0, before);
+  EXPECT_EQ(stock::volume(again.stocks.of(0)), stock::volume(once.stocks.of(0))) << "as before the two";
+  EXPECT_GT(cut(again, 24.0), 0.0);  // another try, wound back
+  again.stocks.put_back(0, before);
+  again.stocks.put_in(0, std::move(undone));
+  (void)cut(once, 25.0);
+  (void)cut(once, 60.0);
+  EXPECT_EQ(again.stocks.of(0).top, once.stocks.of(0).top);
+  EXPECT_EQ(cut(again, 22.0), cut(once, 22.0)) << "of the exact stock, too";
+  again.stocks.put_back(0, before);
+  EXPECT_GT(stock::volume(again.stocks.of(0)), stock::volume(once.stocks.of(0))) << "it can be undone again";
+}
+
 }  // namespace
 }  // namespace capstan::step

@@ -59,7 +59,9 @@ constexpr Handbook kHandbook[] = {{"C45", "carbon steel, 180 to 200 HB", 2.24},
                                   {"42CrMo4", "4140, 200 to 220 HB", 1.97},
                                   {"42CrMo4+QT", "4140, 280 to 300 HB", 2.38},
                                   {"AISI 303", "303, 200 HB", 2.07},
-                                  {"EN AW-6061", "6061", 0.9}};
+                                  {"AISI 304", "304, 125 HB", 2.07},
+                                  {"EN AW-6061", "6061", 0.9},
+                                  {"EN AW-7075", "7075, 150 HB", 0.9}};
 struct FeedFactor {
   double fz_mm, c;
 };
@@ -125,6 +127,31 @@ std::vector<PowerRow> power_rows() {
   return out;
 }
 
+namespace {
+
+/// "Mitsubishi 17 of 24, ...": rows within the bound, by source.
+std::string of_each_source(const std::vector<PowerRow>& rows) {
+  std::string out;
+  for (const char* source : {"Mitsubishi", "Tungaloy", "Machinery's Handbook"}) {
+    const auto [within, all] = rows_within(rows, source);
+    out += (out.empty() ? "" : ", ") + std::string(source) + " " + std::to_string(within) + " of " +
+           std::to_string(all);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::pair<int, int> rows_within(const std::vector<PowerRow>& rows, const std::string& source) {
+  int within = 0, all = 0;
+  for (const PowerRow& r : rows) {
+    if (r.source != source) continue;
+    ++all;
+    if (r.within()) ++within;
+  }
+  return {within, all};
+}
+
 Comparison power() {
   Comparison out{.name = "power"};
   const std::vector<PowerRow> rows = power_rows();
@@ -134,7 +161,7 @@ Comparison power() {
   int within = 0;
   double least = 1e300, most = 0.0;
   for (const PowerRow& r : rows) {
-    if (std::abs(r.ratio() - 1.0) <= kPowerBound) ++within;
+    if (r.within()) ++within;
     least = std::min(least, r.ratio());
     most = std::max(most, r.ratio());
     table.rows.push_back({r.source, r.row, r.material, shortest(r.fz_mm), fixed(r.fz_mm * kTeeth * rpm(), 0),
@@ -145,7 +172,7 @@ Comparison power() {
                  " of it";
   out.text = "The cut: an end mill of " + shortest(kDiameterMm) + " mm, four teeth, " + shortest(kDepthMm) +
              " mm deep, " + shortest(kWidthMm) + " mm wide, " + shortest(kSpeedMMin) + " m/min.\n\n" +
-             markdown(table) + "\n" + out.headline + ".\n";
+             markdown(table) + "\n" + out.headline + ": " + of_each_source(rows) + ".\n";
   return out;
 }
 

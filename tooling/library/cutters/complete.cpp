@@ -5,6 +5,8 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "tooling/library/cutters/edges.h"
+#include "tooling/library/cutters/generic.h"
 #include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {
@@ -134,6 +136,64 @@ Speed speed_of_like(const Cutter* like, const std::string& material) {
   return {};
 }
 
+/// As kCoated, of a bare edge of cobalt steel.
+constexpr std::string_view kCobalt = "(cobalt";
+
+/// The speed that a stated grade gives to a preset for a bare edge: the factor of `edges` in the preset's
+/// group times its speed, and where it has none times the card's for the material. Said in the source; also
+/// where `edges` has no more for the group than the bare edge.
+class ByGrade {
+ public:
+  explicit ByGrade(const Cutter& c) : c_(c), grade_(grade_of(c)) {
+    const auto at = shipped_edges().find(edge_of(grade_, c));
+    if (at != shipped_edges().end()) edge_ = &at->second;
+  }
+
+  void apply(model::CuttingPreset& p) const {
+    if (edge_ == nullptr) return;
+    const model::WorkMaterial* m = material(p.material_group);
+    const std::string group = m != nullptr ? m->iso_group : p.material_group;
+    const auto times = edge_->over_bare.find(group);
+    if (times == edge_->over_bare.end()) return;
+    if (times->second == 1.0) {
+      p.source += " (as bare: no figure for " + grade_.said + " in group " + group + ")";
+      return;
+    }
+    const std::string factor = trimmed(times->second, 3) + " " +
+                               std::string(grade_.coated ? kCoated : kCobalt) + ", as '" + grade_.said +
+                               "' says: " + edge_->source + ")";
+    const double card = m == nullptr                             ? 0.0
+                        : c_.substrate == model::Substrate::kHss ? m->vc_hss_m_min
+                                                                 : m->vc_carbide_m_min;
+    if (p.vc_m_min > 0.0) {
+      p.vc_m_min = rounded(times->second * p.vc_m_min, 3);
+    } else if (card > 0.0) {
+      p.vc_m_min = rounded(times->second * card, 3);
+      p.source = "vc: " + std::string(kMaterialsSpeed) + "; " + p.source;
+    } else {
+      return;
+    }
+    if (const auto fz_at = p.source.find("; fz: "); m == nullptr && fz_at != std::string::npos) {
+      p.source.insert(fz_at, ", " + factor);
+    } else if (p.source.starts_with("vc: ")) {
+      p.source.insert(4, factor + " x ");
+    }
+  }
+
+ private:
+  static const model::WorkMaterial* material(const std::string& id) {
+    static const auto materials = shipped_materials();
+    if (!materials) return nullptr;
+    for (const model::WorkMaterial& m : *materials)
+      if (m.id == id) return &m;
+    return nullptr;
+  }
+
+  const Cutter& c_;
+  Grade grade_;
+  const Edge* edge_ = nullptr;
+};
+
 void fill_feeds(Cutter& c, const Cutter& g, const std::vector<Cutter>& generic, Filler& f) {
   // A smaller tooth allows less; a larger one is not given more.
   const double scale = std::min(1.0, c.cutting_diameter_mm / g.cutting_diameter_mm);
@@ -164,14 +224,15 @@ void fill_feeds(Cutter& c, const Cutter& g, const std::vector<Cutter>& generic, 
   }
   const Cutter* same_material = c.substrate == g.substrate ? &g : nearest_of_material(c, generic);
   const std::size_t stated = c.presets.size();
+  const ByGrade by_grade(c);
   for (model::CuttingPreset p : g.presets) {
     const auto end = c.presets.begin() + static_cast<std::ptrdiff_t>(stated);
     if (std::any_of(c.presets.begin(), end,
                     [&](const auto& o) { return o.material_group == p.material_group; }))
       continue;
     p.fz_mm = rounded(p.fz_mm * scale, 5);
-    // The edge is not stated to be coated. Of another tool material the speed is that of its like; where
-    // there is none, the work material's own is taken.
+    // What the generic edge is faster by is taken back. Of another tool material the speed is that of its
+    // like; where there is none, the work material's own is taken. Then what is stated of the edge counts.
     if (c.substrate == g.substrate) {
       as_bare(p);
     } else {
@@ -180,6 +241,7 @@ void fill_feeds(Cutter& c, const Cutter& g, const std::vector<Cutter>& generic, 
       if (const auto fz_at = p.source.find("; fz: "); fz_at != std::string::npos)
         p.source = like.vc_m_min > 0.0 ? like.source + p.source.substr(fz_at) : p.source.substr(fz_at + 2);
     }
+    by_grade.apply(p);
     p.source += " (as " + g.id + (own.empty() ? "" : "; its own values are for " + own + " only") + ")";
     c.presets.push_back(std::move(p));
   }

@@ -13,6 +13,9 @@ namespace capstan::tooling {
 /// diameter, and records this in `sources`; stated values stay. Lengths stay consistent with stated ones:
 /// flutes and usable length within the stick-out, the stick-out within the length to the gage line.
 ///
+/// Speeds are those of a bare edge, of plain HSS or of carbide, times what `edges.h` gives for the grade that
+/// the cutter's words state; a group without a figure stays bare, and its preset says so.
+///
 /// Whether it cuts to the centre and how steeply it may ramp are not taken over: an unnamed end mill is held
 /// not to cut to the centre and to ramp at model::kUsualRampRad.
 void complete(model::Cutter& c, const std::vector<model::Cutter>& generic);

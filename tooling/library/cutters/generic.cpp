@@ -12,6 +12,7 @@
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/cutters/edges.h"
 #include "tooling/shop/data/data.h"
 #include "tooling/shop/data/tree.h"
 #include "tooling/shop/material/iso_groups.h"
@@ -90,12 +91,6 @@ struct Feeds {
   std::string source;  ///< that of all feeds, where the entry has none of its own
 };
 
-/// Speed of an edge relative to a bare one of its substrate, by group.
-struct Edge {
-  std::map<std::string, double> over_bare = {};
-  std::string source = {};
-};
-
 struct Holding {
   Law clamped, holder;
   double gage_length = 0.0;
@@ -116,24 +111,8 @@ struct Reader {
   std::map<std::string, Feeds> feeds;
   std::vector<Cutter> cutters;
   std::vector<std::uint64_t> lines;
-  std::map<std::string, Edge> edges = {};
+  Edges edges = {};
 };
-
-void read_edges(const Node& node, Fields top, Reader& r) {
-  for (const auto& [name, child] : node.entries) {
-    (void)top.child(name, true);
-    Fields f = top.below(name, child);
-    Edge& edge = r.edges[name];
-    edge.source = f.source();
-    for (const IsoGroup& g : kIsoGroups) {
-      const std::string group(g.letter);
-      edge.over_bare[group] = f.number(group);
-      if (f.has(group) && !(edge.over_bare[group] > 0.0))
-        f.fault("DATA-RANGE", "an edge's speed over a bare one's is above 0", group, f.line_of(group));
-    }
-    f.finish();
-  }
-}
 
 void read_holding(Fields top, Reader& r) {
   r.holding.clamped = read_law(top, "clamped_length");
@@ -415,7 +394,7 @@ Result<std::vector<Cutter>> expand_series(const Node& root, const std::string& f
   if (top.text("capstan_cutter_series") != "1")
     top.fault("DATA-VERSION", "not a table of cutter series of version 1", "capstan_cutter_series", 1);
   if (const Node* n = top.child("holding", true)) read_holding(top.below("holding", *n), r);
-  if (const Node* n = top.child("edges", false)) read_edges(*n, top.below("edges", *n), r);
+  if (const Node* n = top.child("edges", false)) r.edges = read_edges(*n, top.below("edges", *n));
   if (const Node* n = top.child("feeds", true)) read_feeds(*n, top.below("feeds", *n), r);
   if (const Node* list = top.child("series", true)) {
     for (const Node& n : list->items) {

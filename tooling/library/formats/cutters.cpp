@@ -79,15 +79,6 @@ constexpr std::array kFields{
     FieldOf{"RUNOUT", &Cutter::runout_mm},
 };
 
-bool yes(std::string_view text) {
-  const std::string t = lower_text(trimmed_text(text));
-  return t == "true" || t == "yes" || t == "1" || t == "y" || t == "ja";
-}
-
-std::string words_of(const Property& p) {
-  return std::string(to_text(p.state)) + ": " + (p.source.empty() ? p.symbol : p.source);
-}
-
 void set_source(Cutter& c, std::string_view field, std::string text) {
   std::erase_if(c.sources, [field](const auto& s) { return s.first == field; });
   c.sources.emplace_back(field, std::move(text));
@@ -353,7 +344,13 @@ class Maker {
       if (!hard && !steel) continue;
       c.substrate = hard ? model::Substrate::kCarbide : model::Substrate::kHss;
       substrate = words_of(*p);
+      if (steel && !hard && t != "hss") substrate += ", " + p->text;  // "HSS-E": its grade
       break;
+    }
+    // A coating belongs to the edge's grade: `grade_of` reads it here.
+    if (const Property* p = text("COATING"); p != nullptr && substrate != kSubstrateUnstated) {
+      const std::string t = lower_text(p->text);
+      if (!t.empty() && t != "none" && t != "no" && t != "-") substrate += ", coating " + p->text;
     }
     c.sources.emplace_back("substrate", substrate);
     if (const auto* p = text("HAND"))

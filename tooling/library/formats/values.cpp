@@ -217,6 +217,15 @@ Result<Property> property_from(std::string_view symbol, std::string_view text, s
                   .source = std::string(source)};
 }
 
+std::string words_of(const Property& p) {
+  return std::string(to_text(p.state)) + ": " + (p.source.empty() ? p.symbol : p.source);
+}
+
+bool yes(std::string_view text) {
+  const std::string t = lower_text(trimmed_text(text));
+  return t == "true" || t == "yes" || t == "1" || t == "y" || t == "ja";
+}
+
 Property text_property(std::string_view symbol, std::string_view text, std::string_view source) {
   return {.symbol = std::string(symbol),
           .number = std::nullopt,

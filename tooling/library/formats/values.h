@@ -55,6 +55,10 @@ struct Place {
 [[nodiscard]] Result<Property> property_from(std::string_view symbol, std::string_view text,
                                              std::string_view unit, std::string_view source,
                                              const Place& place, bool decimal_comma = false);
+/// What a value's record says of its origin: "stated: of sheet 3"; its symbol where it names no source.
+[[nodiscard]] std::string words_of(const Property& p);
+/// Whether a text means yes, in English or German.
+[[nodiscard]] bool yes(std::string_view text);
 /// A text or code.
 [[nodiscard]] Property text_property(std::string_view symbol, std::string_view text, std::string_view source);
 /// A number of ours (mm, rad), spelled in `unit`.

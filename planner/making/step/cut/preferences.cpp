@@ -1,6 +1,7 @@
 #include "planner/making/step/cut/preferences.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/surroundings.h"
@@ -15,6 +16,11 @@ using model::TypeId;
 
 /// The allowance that roughing leaves on walls and floors for the finishing pass, mm. Default, unsourced.
 constexpr double kLeftOnWalls = 0.5;
+/// An island that ends this far below the top or less stands to the top, mm.
+constexpr double kTopMm = 1e-6;
+/// The least share of a step's whole volume that is estimated: where allowances leave next to nothing, the
+/// ways in and out still take time. Default, unsourced.
+constexpr double kLeastShare = 0.05;
 
 double perimeter(const geometry::Region& area) {
   double out = 0.0;
@@ -22,6 +28,27 @@ double perimeter(const geometry::Region& area) {
     for (std::size_t i = 0; i < loop.size(); ++i) out += norm(loop[(i + 1) % loop.size()] - loop[i]);
   }
   return out;
+}
+
+/// The area at a feature's bottom without the islands that stand to its top.
+geometry::Region cut_area(const FeatureShape& s) {
+  geometry::Region area = s.area;
+  for (const model::Island& i : s.islands) {
+    if (i.top_z_mm > -kTopMm) area = geometry::subtract(area, i.area);
+  }
+  return area;
+}
+
+/// Area that a roughing step cuts between upright walls, its allowance left out, mm2: of rest machining what
+/// the wider cutter before left.
+double rough_mm2(const model::ProposedStep& step, const FeatureShape& s) {
+  constexpr double kChord = 0.01;
+  const geometry::Region area = cut_area(s);
+  const double whole = geometry::area(area) - step.allowance_side_mm * perimeter(area);
+  const double wide = step.rest_of_diameter_mm;
+  if (!(wide > 0.0)) return whole;
+  const geometry::Region stood = geometry::offset(area, -0.5 * wide - step.allowance_side_mm, kChord);
+  return whole - geometry::area(geometry::offset(stood, 0.5 * wide, kChord));
 }
 
 /// Area of what faces upwards, projected.
@@ -60,6 +87,8 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
   if (model::has(step.operation, model::OperationTrait::kFinishes)) {  // planes have returned
     p.width_mm = kLeftOnWalls;
     p.depth_mm = depth;
+    const bool floor = step.operation == TypeId::kBottomAndSideFinishMilling && !s.through;
+    if (floor && s.kind != ShapeKind::kHole) p.floor_mm2 = geometry::area(cut_area(s));
     p.volume_mm3 = perimeter(s.area) * depth * kLeftOnWalls;
     return p;
   }
@@ -67,6 +96,13 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
     return p;  // chamfers, rounds, threads: a small volume that is not estimated
   p.depth_mm = depth;
   p.volume_mm3 = geometry::area(s.area) * depth;
+  p.roughs = model::has(step.operation, model::OperationTrait::kRoughs);
+  const bool upright = std::abs(s.slope_rad) < 1e-6 && s.slot_profile.empty();
+  if (p.roughs && model::has(s.kind, model::ShapeTrait::kWalled) && s.kind != ShapeKind::kHole && upright) {
+    p.walled = !(step.rest_of_diameter_mm > 0.0);  // a rest is entered from beside it
+    p.depth_mm = std::max(kLeastShare * depth, depth - step.allowance_bottom_mm);
+    p.volume_mm3 = std::max(kLeastShare * geometry::area(s.area), rough_mm2(step, s)) * p.depth_mm;
+  }
   if (s.kind == ShapeKind::kHole) {
     constexpr double kQuarterPi = 0.78539816339744831;
     const double d = s.diameter.nominal_mm, hole = step.start_diameter_mm;

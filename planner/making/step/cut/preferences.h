@@ -7,8 +7,8 @@
 namespace capstan::step {
 
 /// Volume, depth and length of cut of a proposed step, for tool selection. Computed from the feature's
-/// geometry; rest machining and islands are not subtracted, so that the volume is never too small. `batch`:
-/// pieces.
+/// geometry; between upright walls without what rest machining, allowances and islands to the top leave.
+/// `batch`: pieces.
 [[nodiscard]] tooling::Preferences preferences_of(const piece::Piece& piece, int batch,
                                                   const model::ProposedStep& step,
                                                   const model::FeatureShape& shape);

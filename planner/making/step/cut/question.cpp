@@ -15,6 +15,7 @@
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/plan/borne_feed.h"
 #include "planner/model/plan/cutter/ramp.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/stability.h"
@@ -223,9 +224,7 @@ bool feed_by_planning(const PlanSoFar& p, const StepDraft& step) {
   if (!technology.set()) return false;
   for (const char* name : {"feedrate", "feedrate_per_tooth"}) {
     const auto* d = p.plan.ledger.find(technology, name);
-    if (d != nullptr && d->state == model::DecisionState::kBound && d->binder != model::Binder::kGiven &&
-        d->binder != model::Binder::kOperator)
-      return true;
+    if (model::by_planning(d) && d->state == model::DecisionState::kBound) return true;
   }
   return false;
 }

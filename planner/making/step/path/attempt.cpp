@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/said_before.h"
 #include "planner/ground/memo/remembered.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/cut_samples.h"
@@ -13,7 +14,6 @@
 #include "planner/making/step/path/surface.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
-#include "planner/making/step/said_before.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/range/columns_agree.h"

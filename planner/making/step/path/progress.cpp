@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/step/middle_of_tolerance.h"
 #include "planner/making/step/path/freeform.h"
@@ -74,14 +75,20 @@ void Progress::prepare(const StepDraft& step, const stock::HeightMap& map, toolp
 }
 
 /// Sets whether the step cuts the rest of an earlier step, and whether a later step will cut its rest. A
-/// proposed step carries this flag; for a step from the file it is read from the nouns.
+/// proposed step carries this flag, and roughing's rest is also cut by a finish with a smaller cutter; for a
+/// step from the file it is read from the nouns.
 void Progress::take_rest(const StepDraft& step, toolpath::PathJob& job) const {
   const bool area = job.shape.kind == ShapeKind::kPocket || job.shape.kind == ShapeKind::kSlot;
   if (!area || !model::has(job.cutter.cutter_class, model::CutterTrait::kEndMill)) return;
   if (step.proposed) {
+    const bool roughs = model::has(step.operation.type, model::OperationTrait::kRoughs);
     const auto after = [&](const StepDraft& s) {
-      return s.feature == step.feature && s.proposal.rest_of_diameter_mm > 0.0 &&
-             s.operation.type == step.operation.type;
+      if (s.feature != step.feature) return false;
+      const bool finishes = s.member == step.member && s.in_chain > step.in_chain &&
+                            model::has(s.operation.type, model::OperationTrait::kFinishes) &&
+                            s.cutter.cutting_diameter_mm < step.cutter.cutting_diameter_mm;
+      return (roughs && finishes) ||
+             (s.proposal.rest_of_diameter_mm > 0.0 && s.operation.type == step.operation.type);
     };
     job.rest_follows =
         step.proposal.rest_of_diameter_mm == 0.0 && std::any_of(p_.steps.begin(), p_.steps.end(), after);

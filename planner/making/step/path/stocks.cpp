@@ -92,6 +92,26 @@ void Stocks::put_back(std::size_t setup, const Before& before) {
   exact_[setup]->put_back(before.exact);
 }
 
+Stocks::Undone Stocks::take_out(std::size_t setup, const Before& before) {
+  auto& patches = patches_[setup];
+  Undone out;
+  while (patches.size() > before.patches) {
+    stock::exchange(*maps_[setup], patches.back());
+    out.patches.push_back(std::move(patches.back()));
+    patches.pop_back();
+  }
+  out.exact = exact_[setup]->take_out(before.exact);
+  return out;
+}
+
+void Stocks::put_in(std::size_t setup, Undone undone) {
+  for (auto p = undone.patches.rbegin(); p != undone.patches.rend(); ++p) {
+    stock::exchange(*maps_[setup], *p);
+    patches_[setup].push_back(std::move(*p));
+  }
+  exact_[setup]->put_in(std::move(undone.exact));
+}
+
 void Stocks::keep(std::size_t setup) {
   patches_[setup].clear();
   if (exact_[setup]) exact_[setup]->forget();

@@ -65,6 +65,14 @@ class Stocks {
   [[nodiscard]] Before before(std::size_t setup);
   /// Needs  what `before` gave for this set-up since the last `keep`.
   void put_back(std::size_t setup, const Before& before);
+  /// As `put_back`; gives what was undone, so that `put_in` can do it again without cutting.
+  struct Undone {
+    std::vector<stock::Patch> patches;  ///< of the map after its cuts, youngest first
+    stock::PlanarStock::Undone exact;
+  };
+  [[nodiscard]] Undone take_out(std::size_t setup, const Before& before);
+  /// Needs  the stock of this set-up as `take_out` left it.
+  void put_in(std::size_t setup, Undone undone);
   /// Makes the cuts so far in a set-up permanent.
   void keep(std::size_t setup);
 

@@ -8,6 +8,8 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/by_planning.h"
+#include "planner/physics/motion/time.h"
 
 // Rings take wide cuts and begin each level with a slot, at which corners and bending hold depth and feed.
 // Constant engagement takes narrow ones as deep as the edge is long. At equal force rings remove more per
@@ -26,6 +28,9 @@ using model::Model;
 using model::Ref;
 
 constexpr const char* kStrategy = "its_machining_strategy";
+/// Another way is taken where its path takes less than this share of the time: the spindle comes up to its
+/// speed, and its program is longer. Default, unsourced.
+constexpr double kWorthwhile = 0.99;
 
 AnyRef strategy_of(const Model& m, const StepDraft& step) {
   const auto* o = m.get<model::Two5dMillingOperation>(step.operation);
@@ -38,7 +43,7 @@ bool is_free(const model::Plan& plan, const StepDraft& step, AnyRef strategy) {
   const auto* d = plan.ledger.find(step.operation, kStrategy);
   if (d == nullptr || d->pinned) return false;
   if (d->state == model::DecisionState::kOpen) return true;
-  return d->binder != model::Binder::kGiven && d->binder != model::Binder::kOperator;
+  return model::by_planning(d);
 }
 
 /// Whether a strategy is one that rings follow, with the cutter climbing.
@@ -109,6 +114,18 @@ double estimated_seconds(const optimise::CutQuestion& q, const optimise::CutAnsw
   const double slope = std::tan(c.maximum_ramp_angle_rad);
   if (walled && slope > 0.0 && wide > 0.0) out += q.depth_mm / slope / std::min(wide, cut.feed_mm_min);
   return 60.0 * out;
+}
+
+bool worthwhile(double seconds, double than_s) { return seconds < kWorthwhile * than_s; }
+
+std::string slower_text(double seconds, double best_s) {
+  return (seconds < best_s ? "saves too little: takes " : "takes ") + motion::duration_text(seconds) +
+         " against " + motion::duration_text(best_s);
+}
+
+std::string estimate_text(double about_s, double best_s) {
+  return "takes about " + motion::duration_text(about_s) + " by its rate and entry against " +
+         motion::duration_text(best_s);
 }
 
 std::string words_of(Clearing way, const optimise::CutAnswer& cut) {

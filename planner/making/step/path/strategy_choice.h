@@ -49,6 +49,16 @@ struct StrategyChoice {
 [[nodiscard]] double estimated_seconds(const optimise::CutQuestion& question, const optimise::CutAnswer& cut,
                                        double volume_mm3, bool walled);
 
+/// Whether a way is enough quicker than another to be taken in its place.
+[[nodiscard]] bool worthwhile(double seconds, double than_s);
+
+/// Why a way that keeps the limits lost against one that takes `best_s`: "takes 1 min 20 s against 1 min 10
+/// s"
+[[nodiscard]] std::string slower_text(double seconds, double best_s);
+
+/// The same of a way that was only estimated.
+[[nodiscard]] std::string estimate_text(double about_s, double best_s);
+
 /// "constant engagement 1.2 mm wide, 10 mm deep"
 [[nodiscard]] std::string words_of(Clearing way, const optimise::CutAnswer& cut);
 

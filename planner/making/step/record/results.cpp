@@ -8,6 +8,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
 
@@ -102,8 +103,7 @@ bool was_planned(const model::Plan& plan, const StepDraft& step, const char* att
   const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
   if (op == nullptr || !op->its_technology.set()) return false;
   const auto* d = plan.ledger.find(op->its_technology, attribute);
-  return d != nullptr && !d->pinned && d->binder != model::Binder::kGiven &&
-         d->binder != model::Binder::kOperator;
+  return model::by_planning(d) && !d->pinned;
 }
 
 }  // namespace

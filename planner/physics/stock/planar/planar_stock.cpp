@@ -270,6 +270,31 @@ void PlanarStock::put_back(const Mark& mark) {
   lost_ = mark.lost;
 }
 
+PlanarStock::Undone PlanarStock::take_out(const Mark& mark) {
+  Undone out;
+  out.lost_ = lost_;
+  while (changes_.size() > mark.changes) {
+    auto& [tile, before] = changes_.back();
+    std::swap(tiles_[tile], before);
+    out.tiles_.push_back(std::move(changes_.back()));
+    changes_.pop_back();
+  }
+  out.trails_.assign(trails_.begin() + static_cast<std::ptrdiff_t>(mark.trails), trails_.end());
+  put_back(mark);
+  return out;
+}
+
+void PlanarStock::put_in(Undone undone) {
+  ++marks_;
+  for (auto t = undone.tiles_.rbegin(); t != undone.tiles_.rend(); ++t) {
+    std::swap(tiles_[t->first], t->second);
+    tiles_[t->first].noted = marks_;
+    changes_.push_back(std::move(*t));
+  }
+  trails_.insert(trails_.end(), undone.trails_.begin(), undone.trails_.end());
+  lost_ = std::move(undone.lost_);
+}
+
 void PlanarStock::forget() { changes_.clear(); }
 
 double PlanarStock::highest(Vec2 lo, Vec2 hi) const {

@@ -31,6 +31,14 @@ namespace capstan::stock {
 /// Frame  the set-up's, z away from the work.
 /// Units  mm.
 class PlanarStock {
+  static constexpr std::size_t kThinAt = 8;
+  struct Tile {
+    std::vector<std::uint32_t> trails;
+    double highest_mm = 0.0;
+    std::size_t thin_at = kThinAt;  ///< as many trails are looked through for superfluous ones
+    std::uint32_t noted = 0;        ///< the mark since which it is noted as it was
+  };
+
  public:
   /// `tile_mm` 0: a 48th of the longer side, at least 1 mm.
   [[nodiscard]] static PlanarStock from_box(const geometry::Box3& box, double tile_mm = 0.0);
@@ -77,6 +85,16 @@ class PlanarStock {
   [[nodiscard]] Mark mark();
   /// Needs  a mark of this stock, younger than the last `forget`. Marks made after it are void.
   void put_back(const Mark& mark);
+  /// As `put_back`; gives what was undone, so that `put_in` can do it again without cutting.
+  class Undone {
+    friend class PlanarStock;
+    std::vector<std::pair<std::size_t, Tile>> tiles_;  ///< after their changes, youngest first
+    std::vector<Trail> trails_;
+    std::string lost_;
+  };
+  [[nodiscard]] Undone take_out(const Mark& mark);
+  /// Needs  the stock as `take_out` left it.
+  void put_in(Undone undone);
   /// All marks are void; what was noted since is let go.
   void forget();
 
@@ -109,13 +127,6 @@ class PlanarStock {
   [[nodiscard]] std::size_t trail_count() const { return trails_.size(); }
 
  private:
-  struct Tile {
-    std::vector<std::uint32_t> trails;
-    double highest_mm = 0.0;
-    std::size_t thin_at = kThinAt;  ///< as many trails are looked through for superfluous ones
-    std::uint32_t noted = 0;        ///< the mark since which it is noted as it was
-  };
-  static constexpr std::size_t kThinAt = 8;
   PlanarStock() = default;
   void tiles_of(geometry::Vec2 lo, geometry::Vec2 hi, int& x0, int& x1, int& y0, int& y1) const;
   void place(std::uint32_t id, geometry::Vec2 lo, geometry::Vec2 hi);

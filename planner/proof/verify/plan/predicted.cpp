@@ -78,7 +78,8 @@ std::optional<Reference> reference_of(const model::WorkMaterial& m, const model:
     if (p == nullptr) continue;
     out.vc_m_min = p->vc_m_min;
     out.source = (of_its_like ? "that of a cutter like it for " : "the tool's own for ") + p->material_group;
-    if (of_its_like) out.coated = coated;
+    // Where its speed counts a coating already ("1.7 (coated ..."), nothing comes on top.
+    if (of_its_like && p->source.find("(coated") == std::string::npos) out.coated = coated;
     return out;
   }
   if (!(m.vc_hss_m_min > 0.0) && !(m.vc_carbide_m_min > 0.0)) return std::nullopt;

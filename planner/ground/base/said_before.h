@@ -5,7 +5,7 @@
 
 #include "planner/ground/base/job.h"
 
-namespace capstan::step {
+namespace capstan {
 
 /// Reports at the end of a scope what was said before it, whatever ends it.
 class SaidBefore {
@@ -24,4 +24,4 @@ class SaidBefore {
   std::vector<Diagnostic> said_;
 };
 
-}  // namespace capstan::step
+}  // namespace capstan

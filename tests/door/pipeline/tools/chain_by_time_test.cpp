@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <string>
+
+#include "planner/model/nouns/arena/walk.h"
+#include "tests/door/pipeline/block.h"
+#include "tests/support/shop.h"
+
+// Another chain than the rules' first is taken where that is decisively quicker.
+
+namespace capstan::pipeline {
+namespace {
+
+using testing::HasSubstr;
+
+/// In C45. #70 is free for what follows.
+std::string pocket(const std::string& profile, const std::string& bosses, double corner_mm) {
+  return profile + "#80=TOLERANCED_LENGTH_MEASURE(" + std::to_string(corner_mm) +
+         ",$);\n#81=CLOSED_POCKET('P',#4,(),#50,#56,(" + bosses + "),$,#57,$,#80,#70);\n";
+}
+std::string rectangle(double length, double width) {
+  return "#71=TOLERANCED_LENGTH_MEASURE(" + std::to_string(length) + ",$);\n#72=TOLERANCED_LENGTH_MEASURE(" +
+         std::to_string(width) + ",$);\n#70=RECTANGULAR_CLOSED_PROFILE($,#72,#71);\n";
+}
+
+block::Planned planned(const std::string& features) {
+  Inputs in = block::shop();
+  in.material_name = "C45";
+  return block::bound(block::read(features), in);
+}
+
+double cutter_of(const model::Plan& plan, const std::string& id) {
+  for (const auto& s : plan.steps) {
+    if (model::step_id(plan, s) != id) continue;
+    const auto* op = plan.model.get<model::MachiningOperation>(
+        plan.model.at<model::MachiningWorkingstep>(s.step).its_operation);
+    const auto* tool = plan.model.get<model::MachiningTool>(op->its_tool);
+    const model::Cutter* c = model::find_cutter(plan, tool->its_id.value_or(""));
+    return c == nullptr ? 0.0 : c->cutting_diameter_mm;
+  }
+  return 0.0;
+}
+
+/// What the plan says of the chains that it did not take.
+std::string lost_chains(const model::Plan& plan) {
+  std::string out;
+  for (const auto& s : plan.steps) {
+    const auto* d = plan.ledger.find(s.step, "its_operation");
+    if (d == nullptr) continue;
+    for (const auto& r : d->rejected) out += r.what + ": " + r.why + "\n";
+  }
+  return out;
+}
+
+TEST(ChainByTime, RoughsAPocketWideThatHasOneNarrowPlaceAndThatPlaceApart) {
+  // 4 mm between the boss and one wall, 10 mm and more all round else.
+  const auto p = planned(
+      "#73=TOLERANCED_LENGTH_MEASURE(30.,$);\n#74=CIRCULAR_CLOSED_PROFILE($,#73);\n"
+      "#75=CARTESIAN_POINT('',(34.,50.,0.));\n#76=AXIS2_PLACEMENT_3D('',#75,#21,#22);\n"
+      "#77=BOSS('B',#4,(),#76,#56,#74,$);\n" +
+      pocket(rectangle(70, 50), "#77", 5.0));
+  ASSERT_TRUE(p.plan.unplanned.empty()) << p.said;
+  EXPECT_GE(cutter_of(p.plan, "P area_rough"), 6.0);
+  EXPECT_GT(cutter_of(p.plan, "P rest_rough"), 0.0);
+  EXPECT_LE(cutter_of(p.plan, "P rest_rough"), 4.0);
+  EXPECT_THAT(lost_chains(p.plan), HasSubstr("the rules prefer it, but that is decisively longer"));
+}
+
+TEST(ChainByTime, RoughsATinyPocketByAMillWiderThanItsCorners) {
+  const auto p = planned(pocket(rectangle(6, 4), "", 1.0));
+  ASSERT_TRUE(p.plan.unplanned.empty()) << p.said;
+  EXPECT_GT(cutter_of(p.plan, "P area_rough"), 2.0);
+  EXPECT_LE(cutter_of(p.plan, "P area_finish"), 2.0);
+  EXPECT_THAT(p.said, testing::Not(HasSubstr("TPA-REST"))) << "the finish cuts its corners";
+}
+
+TEST(ChainByTime, RoughsATriangleByMoreThanItsSharpestCornerLetsIn) {
+  const auto p =
+      planned(pocket("#71=CARTESIAN_POINT('',(-25.,-15.,0.));\n#72=CARTESIAN_POINT('',(25.,-15.,0.));\n"
+                     "#73=CARTESIAN_POINT('',(0.,20.,0.));\n#74=POLYLINE('',(#71,#72,#73,#71));\n"
+                     "#70=GENERAL_CLOSED_PROFILE($,#74);\n",
+                     "", 2.0));
+  ASSERT_TRUE(p.plan.unplanned.empty()) << p.said;
+  EXPECT_GE(cutter_of(p.plan, "P area_rough"), 5.0);
+}
+
+TEST(ChainByTime, KeepsTheRulesOrderWhereAnotherChainSavesLittle) {
+  const auto p = planned(pocket(rectangle(40, 25), "", 5.0));
+  ASSERT_TRUE(p.plan.unplanned.empty()) << p.said;
+  EXPECT_EQ(cutter_of(p.plan, "P rest_rough"), 0.0);
+  EXPECT_THAT(lost_chains(p.plan), HasSubstr("the rules prefer the chain taken"));
+}
+
+}  // namespace
+}  // namespace capstan::pipeline
