@@ -45,6 +45,17 @@ Inputs shop(const ShopFiles& names) {
   return in ? *std::move(in) : Inputs{};
 }
 
+constexpr double kMill = 5.0;  // mm
+
+/// The weak machine with one size of end mill, in mm: among several, a narrower one may rough as quickly.
+Inputs weak_with(double diameter_mm) {
+  Inputs in = shop(weak());
+  std::erase_if(in.library, [&](const model::Cutter& k) {
+    return k.cutter_class != model::CutterClass::kEndmill || k.cutting_diameter_mm != diameter_mm;
+  });
+  return in;
+}
+
 model::Plan read(const std::string& text, const std::string& name = "part.p21") {
   Job job;
   auto plan = read_plan(text, name, job);
@@ -94,7 +105,7 @@ const model::Decision* decided(const model::Plan& plan) {
 }
 
 TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTheRings) {
-  const auto plan = bound(read(deeper()), shop(weak()));
+  const auto plan = bound(read(pocket()), weak_with(kMill));
   ASSERT_TRUE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
@@ -200,7 +211,7 @@ TEST(RingsInwardsPlanned, PassTheCheckRoundWideCorners) {
 }
 
 TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
-  const auto plan = bound(read(deeper()), shop(weak()));
+  const auto plan = bound(read(pocket()), weak_with(kMill));
   ASSERT_TRUE(constant(plan));
   const auto& step = plan.steps.front();
   double entering = 0.0, cutting = 0.0;
@@ -214,8 +225,8 @@ TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
 }
 
 TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
-  const Inputs in = shop(weak());
-  const auto plan = bound(read(deeper()), in);
+  const Inputs in = weak_with(kMill);
+  const auto plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const model::CutterPath& path = *plan.steps.front().path;
   for (const auto& [format, name] : {std::pair(Format::kJson, "p.json"), std::pair(Format::kAp238, "p.stpnc"),
@@ -236,20 +247,20 @@ TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
 }
 
 TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
-  Inputs in = shop(weak());
-  const std::string one = written(bound(read(deeper()), in), Format::kJson);
-  EXPECT_EQ(written(bound(read(deeper()), in, 2), Format::kJson), one);
+  Inputs in = weak_with(kMill);
+  const std::string one = written(bound(read(pocket()), in), Format::kJson);
+  EXPECT_EQ(written(bound(read(pocket()), in, 2), Format::kJson), one);
   in.memo = std::make_shared<memo::Memo>(0);  // keeps nothing
-  EXPECT_EQ(written(bound(read(deeper()), in), Format::kJson), one);
+  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
   in.memo = std::make_shared<memo::Memo>();
-  EXPECT_EQ(written(bound(read(deeper()), in), Format::kJson), one);
-  EXPECT_EQ(written(bound(read(deeper()), in), Format::kJson), one);
+  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
+  EXPECT_EQ(written(bound(read(pocket()), in), Format::kJson), one);
 }
 
 // A plan whose strategy the operator states, rings, with the technology open again.
 TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
-  const Inputs in = shop(weak());
-  model::Plan plan = bound(read(deeper()), in);
+  const Inputs in = weak_with(kMill);
+  model::Plan plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const auto operation = roughing(plan);
   model::ContourParallel rings;

@@ -229,6 +229,7 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
   const model::Ramp ramp = model::ramp_of(job.cutter, p.plan.material);
   job.ramp_angle_rad = ramp.angle_rad;
   job.ramp_depth_mm = ramp.slot_depth_mm;
+  job.digit_mm = std::pow(10.0, -p.plan.machine.control.decimals);
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
   job.constant_engagement = step.constant_engagement.value_or(engages_constantly(p.plan, step));

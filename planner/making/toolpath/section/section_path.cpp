@@ -291,7 +291,10 @@ class SectionCutter {
                               " may neither ramp nor plunge from pass to pass",
                    .path = task_.shape.name});
     }
-    const bool ramps = fall > 1e-9 && most > 0.0 && (t.closed || fall <= length * std::tan(most));
+    const Descent descent(usual_ramp_rad(task_), task_.digit_mm);
+    const double round_mm = descent.of(t);
+    const bool ramps =
+        fall > 1e-9 && round_mm > 0.0 && (t.closed || fall <= Descent(most, task_.digit_mm).of(t));
     if (!ramps) {
       if (fall > 1e-9 && !task_.cutter.centre_cutting)
         return fail({.code = "TPA-ENTRY",
@@ -302,22 +305,20 @@ class SectionCutter {
       return {};
     }
     if (!t.closed) {
-      writer_.follow_down(t, z, MoveRole::kRamp);
+      writer_.follow_down(t, z, descent, MoveRole::kRamp);
       writer_.follow(reversed(t), z, MoveRole::kCut);
       return {};
     }
-    const double run = fall / std::tan(usual_ramp_rad(task_));
     const double top = writer_.at().z;
-    const int rounds = std::min(1000, static_cast<int>(std::floor(run / length)));
-    for (int i = 1; i <= rounds; ++i)
-      writer_.follow_down(t, top - fall * (i * length / run), MoveRole::kRamp);
-    const Spot down = snapped(t, at_length(t, run - rounds * length));
+    const int rounds = std::min(1000, static_cast<int>(std::floor(fall / round_mm)));
+    for (int i = 1; i <= rounds; ++i) writer_.follow_down(t, top - i * round_mm, descent, MoveRole::kRamp);
+    const Spot down = snapped(t, at_length(t, descent.length_for(t, fall - rounds * round_mm)));
     const double rest = length_to(t, down);
     if (rest > 1e-6 && rest < length - 1e-6) {
-      writer_.follow_down(part_of(t, 0.0, rest), z, MoveRole::kRamp);
+      writer_.follow_down(part_of(t, 0.0, rest), z, descent, MoveRole::kRamp);
       writer_.follow(begun_at(t, down), z, MoveRole::kCut);
     } else {
-      if (rest > 1e-6) writer_.follow_down(t, z, MoveRole::kRamp);
+      if (rest > 1e-6) writer_.follow_down(t, z, descent, MoveRole::kRamp);
       writer_.descend(z, writer_.at().z);
       writer_.follow(t, z, MoveRole::kCut);
     }

@@ -247,7 +247,8 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   const Vec2 other{d.point.x - r, d.point.y};
   const double floor = bore_floor(level, d.point, r);
   const double depth = level.from_mm + gap(level) - floor;
-  const double half_pitch = kPi * r * std::tan(angle);
+  const double half_pitch = Descent(angle, task.digit_mm).of(kPi * r);
+  if (half_pitch <= 0.0) return std::nullopt;
   const int halves = static_cast<int>(std::min(std::ceil(depth / half_pitch), 2.0 * kMostTurns + 1.0));
   if (halves > 2 * kMostTurns) return std::nullopt;
   // The ring must be reached from the helix without leaving the centres.
@@ -287,32 +288,36 @@ std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track
   }
   const bool zigzag = !track.closed || task.approach.kind == Approach::Kind::kZigzag;
   const double floor = zigzag ? level.z_mm : slot_floor(level);
-  const double run = (level.from_mm + gap(level) - floor) / std::tan(angle);
-  if (run / length > kMostTurns) return std::nullopt;
+  const Descent descent(angle, task.digit_mm);
+  const double depth = level.from_mm + gap(level) - floor;
+  const double round_mm = descent.of(track);
+  if (depth > kMostTurns * round_mm) return std::nullopt;
   go_above(level, track.start);
   writer.descend(level.from_mm + gap(level), level.from_mm + gap(level));
   const double top = writer.at().z;
   if (zigzag) {
-    double leg = std::min(length, std::max(4.0 * radius_mm, run / 40.0));
+    double leg = std::min(length, std::max(4.0 * radius_mm, depth / std::tan(angle) / 40.0));
     if (task.approach.kind == Approach::Kind::kZigzag && task.approach.width_mm > 0.0)
       leg = std::min(length, task.approach.width_mm);
-    int n = std::max(2, static_cast<int>(std::ceil(run / leg)));
-    n += n % 2;
     const Track there = part_of(track, 0.0, leg);
     const Track back = reversed(there);
+    const double legs = std::ceil(depth / descent.of(there));
+    if (!(legs <= 2.0 * kMostTurns)) return std::nullopt;
+    int n = std::max(2, static_cast<int>(legs));
+    n += n % 2;
     for (int i = 1; i <= n; ++i) {
       const double z = i == n ? level.z_mm : top - (top - level.z_mm) * i / n;
-      writer.follow_down(i % 2 == 1 ? there : back, z, MoveRole::kRamp);
+      writer.follow_down(i % 2 == 1 ? there : back, z, descent, MoveRole::kRamp);
     }
     return track;
   }
-  const int rounds = static_cast<int>(std::floor(run / length));
+  const int rounds = static_cast<int>(std::floor(depth / round_mm));
   for (int i = 1; i <= rounds; ++i) {
-    writer.follow_down(track, top - (top - floor) * (i * length / run), MoveRole::kRamp);
+    writer.follow_down(track, top - i * round_mm, descent, MoveRole::kRamp);
   }
-  const double rest = run - rounds * length;
+  const double rest = descent.length_for(track, depth - rounds * round_mm);
   const Track last = part_of(track, 0.0, rest);
-  if (rest > 1e-6 && !last.segments.empty()) writer.follow_down(last, floor, MoveRole::kRamp);
+  if (rest > 1e-6 && !last.segments.empty()) writer.follow_down(last, floor, descent, MoveRole::kRamp);
   const Track round = begun_at(track, at_length(track, rest));
   if (floor < level.z_mm - kSameHeight) {
     writer.follow(round, floor, MoveRole::kCut);
