@@ -45,14 +45,11 @@ Inputs shop(const ShopFiles& names) {
   return in ? *std::move(in) : Inputs{};
 }
 
-constexpr double kMill = 5.0;  // mm
-
-/// The weak machine with one size of end mill, in mm: among several, a narrower one may rough as quickly.
-Inputs weak_with(double diameter_mm) {
+/// The weak machine with one end mill of 5 mm and two teeth: of several, another is chosen by its estimated
+/// time, and a narrower or a finer one roughs as quickly by rings.
+Inputs weak_with_one_mill() {
   Inputs in = shop(weak());
-  std::erase_if(in.library, [&](const model::Cutter& k) {
-    return k.cutter_class != model::CutterClass::kEndmill || k.cutting_diameter_mm != diameter_mm;
-  });
+  std::erase_if(in.library, [](const model::Cutter& k) { return k.id != "generic/endmill_2f_short/5"; });
   return in;
 }
 
@@ -105,7 +102,7 @@ const model::Decision* decided(const model::Plan& plan) {
 }
 
 TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTheRings) {
-  const auto plan = bound(read(pocket()), weak_with(kMill));
+  const auto plan = bound(read(pocket()), weak_with_one_mill());
   ASSERT_TRUE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
@@ -211,7 +208,7 @@ TEST(RingsInwardsPlanned, PassTheCheckRoundWideCorners) {
 }
 
 TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
-  const auto plan = bound(read(pocket()), weak_with(kMill));
+  const auto plan = bound(read(pocket()), weak_with_one_mill());
   ASSERT_TRUE(constant(plan));
   const auto& step = plan.steps.front();
   double entering = 0.0, cutting = 0.0;
@@ -225,7 +222,7 @@ TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
 }
 
 TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
-  const Inputs in = weak_with(kMill);
+  const Inputs in = weak_with_one_mill();
   const auto plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const model::CutterPath& path = *plan.steps.front().path;
@@ -247,7 +244,7 @@ TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
 }
 
 TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
-  Inputs in = weak_with(kMill);
+  Inputs in = weak_with_one_mill();
   const std::string one = written(bound(read(pocket()), in), Format::kJson);
   EXPECT_EQ(written(bound(read(pocket()), in, 2), Format::kJson), one);
   in.memo = std::make_shared<memo::Memo>(0);  // keeps nothing
@@ -259,7 +256,7 @@ TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
 
 // A plan whose strategy the operator states, rings, with the technology open again.
 TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
-  const Inputs in = weak_with(kMill);
+  const Inputs in = weak_with_one_mill();
   model::Plan plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const auto operation = roughing(plan);

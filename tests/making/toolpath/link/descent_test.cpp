@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -39,12 +40,12 @@ double steepest(const model::CutterPath& path) {
 
 /// A ring of 40 x 25 mm whose corners are rounded by arcs of 0.002 to 0.8 mm, at places of many digits.
 Track ring() {
-  Track t{.start = {1.0 / 3.0, std::sqrt(2.0)}, .closed = true};
+  Track t{.start = {1.0 / 3.0, std::sqrt(2.0)}, .segments = {}, .closed = true};
   Vec2 at = t.start;
   double bearing = 0.1;
   for (int side = 0; side < 4; ++side) {
     at = at + (side % 2 == 0 ? 40.0 : 25.0) * Vec2{std::cos(bearing), std::sin(bearing)};
-    t.segments.push_back({.to = at});
+    t.segments.push_back({.to = at, .centre = {}});
     for (const double piece : {0.002, 0.01, 0.03, 0.1, 0.3, 0.8}) {
       const double turn = std::numbers::pi / 12.0, radius = piece / turn;
       const Vec2 centre = at + radius * Vec2{-std::sin(bearing), std::cos(bearing)};
@@ -53,7 +54,7 @@ Track ring() {
       t.segments.push_back({.to = at, .centre = centre, .bend = Bend::kCcw});
     }
   }
-  t.segments.push_back({.to = t.start});
+  t.segments.push_back({.to = t.start, .centre = {}});
   return t;
 }
 
