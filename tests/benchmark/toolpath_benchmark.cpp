@@ -37,7 +37,7 @@ void ten_rings(benchmark::State& state) {
   std::vector<toolpath::Ring> all;
   for (auto _ : state) {
     const auto centres = toolpath::inset(pocket, 3.0, toolpath::kWallChord);
-    all = toolpath::rings(centres, 2.0);
+    all = toolpath::rings(centres, 2.0, 2.0);
     benchmark::DoNotOptimize(all.data());
   }
   double worst = 0.0;

@@ -46,10 +46,7 @@ constexpr int kMostThinner = 3;
 constexpr double kThinnerAim = 0.9;      // default, unsourced
 constexpr double kThinnerUnknown = 0.5;  // if no formula gives the excess; default, unsourced
 constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
-/// Constant engagement is taken where its path takes less than this share of the rings' time: the spindle
-/// comes up to its speed, and its program is longer. Default, unsourced.
-constexpr double kWorthwhile = 0.99;
-constexpr double kThinnest = 0.02;  // of the cut that keeps the limits off the path; default, unsourced
+constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
 
 /// Depth and width of a cut, for people.
 std::string sizes(const optimise::CutAnswer& a) {
@@ -259,16 +256,19 @@ class PathMaker {
     return step::seconds_of(plan_.machine, *tried->path, tried->feeds.schedule);
   }
 
-  /// Tries one of the candidates: rings, and where the step may have it and it could be quicker constant
-  /// engagement; takes the quicker of those that keep the limits. Only that one is removed from the stock.
+  /// Tries one of the candidates: rings outwards, and where the step may have them and they could be quicker
+  /// rings inwards and constant engagement; takes the quickest of those that keep the limits. Only that one
+  /// is removed from the stock.
   Result<step::MeasuredCut> with_cutter(StepDraft& step, std::size_t i) {
     step.constant_engagement.reset();
+    step.inwards.reset();
     const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
     if (candidate != nullptr) step.cutter = candidate->cutter;
     const auto other = step::constant_cut(p_, step, candidate, means_);
-    if (!other) return with_strategy(step, i);
+    const bool inwards = step::rings_inwards(p_, step, means_);
+    if (!other && !inwards) return with_strategy(step, i);
     const SaidBefore before(job_);
-    return quicker_strategy(step, i, *other);
+    return quickest_way(step, i, inwards, other);
   }
 
   /// How long it takes, if it keeps the limits.
@@ -277,59 +277,71 @@ class PathMaker {
     return step::seconds_of(plan_.machine, *t->path, t->feeds.schedule);
   }
 
-  /// Rings, or constant engagement where that is worthwhile; of the other, only what is recorded is told.
-  Result<step::MeasuredCut> quicker_strategy(StepDraft& step, std::size_t i, const step::ConstantCut& other) {
+  /// A way that was tried, taken out of the stock again.
+  struct Tried {
+    step::Clearing way;
+    Result<step::MeasuredCut> cut;
+    std::optional<double> seconds;  ///< if it keeps the limits
+    std::vector<Diagnostic> said;
+    step::Stocks::Undone removed;
+  };
+
+  /// Rings, or constant engagement where that is worthwhile; of the others, only what is recorded is told.
+  Result<step::MeasuredCut> quickest_way(StepDraft& step, std::size_t i, bool inwards,
+                                         const std::optional<step::ConstantCut>& other) {
+    using step::Clearing;
     const auto before = stocks_.before(step.setup);
-    const auto with = [&](bool constant_engagement) {
-      (void)job_.take_diagnostics();
-      stocks_.put_back(step.setup, before);
-      step.constant_engagement = constant_engagement;
-      return with_strategy(step, i);
+    const auto take = [&](Clearing way) {
+      step.constant_engagement = way == Clearing::kConstantEngagement;
+      step.inwards = way == Clearing::kInwards;
     };
-    auto rings = with(false);
-    const auto of_rings = kept_seconds(step, rings);
-    const double volume = of_rings ? rings->removed_mm3.value_or(0.0) : 0.0;
-    const double about = step::estimated_seconds(other.question, other.answer, volume, other.walled);
+    const auto tried = [&](Clearing way) {
+      take(way);
+      auto cut = with_strategy(step, i);
+      const auto seconds = kept_seconds(step, cut);
+      return Tried{way, std::move(cut), seconds, job_.take_diagnostics(),
+                   stocks_.take_out(step.setup, before)};
+    };
     step::StrategyChoice choice;
-    if (of_rings && about >= kWorthwhile * *of_rings) {
-      choice.lost.push_back({step::words_of(true, other.answer),
-                             "takes about " + motion::duration_text(about) +
-                                 " by its rate and entry against " + motion::duration_text(*of_rings)});
-      rings->strategy = std::move(choice);
-      return rings;
-    }
-    // Set aside, not made again, if the other does not win.
-    auto said_of_rings = job_.take_diagnostics();
-    auto cut_by_rings = stocks_.take_out(step.setup, before);
-    auto constant = with(true);
-    const auto of_constant = kept_seconds(step, constant);
-    if (of_constant && (!of_rings || *of_constant < kWorthwhile * *of_rings)) {
-      choice.constant_engagement = true;
-      choice.taken = step::words_of(true, constant->made.answer) + ": " + motion::duration_text(*of_constant);
-      if (of_rings) {
-        choice.lost.push_back({step::words_of(false, rings->made.answer),
-                               "takes " + motion::duration_text(*of_rings) + " against " +
-                                   motion::duration_text(*of_constant)});
-      } else {
-        choice.lost.push_back({"rings", rings ? excess_text(*rings) : rings.error().message});
-      }
-      constant->strategy = std::move(choice);
-      return constant;
-    }
+    const auto lose = [&](const Tried& t, double best_s) {
+      std::string why = t.seconds ? step::slower_text(*t.seconds, best_s)
+                        : t.cut   ? excess_text(*t.cut)
+                                  : t.cut.error().message;
+      const optimise::CutAnswer cut = t.cut ? t.cut->made.answer
+                                      : other && t.way == Clearing::kConstantEngagement
+                                          ? other->answer
+                                          : optimise::CutAnswer{};
+      choice.lost.push_back({step::words_of(t.way, cut), std::move(why)});
+    };
     (void)job_.take_diagnostics();
-    stocks_.put_back(step.setup, before);
-    stocks_.put_in(step.setup, std::move(cut_by_rings));
-    step.constant_engagement = false;
-    for (auto& d : said_of_rings) job_.report(std::move(d));
-    if (!rings) return rings;
-    std::string why = constant ? excess_text(*constant) : constant.error().message;
-    if (of_constant && of_rings)
-      why = (*of_constant < *of_rings ? "saves too little: takes " : "takes ") +
-            motion::duration_text(*of_constant) + " against " + motion::duration_text(*of_rings);
-    choice.lost.push_back(
-        {step::words_of(true, constant ? constant->made.answer : other.answer), std::move(why)});
-    rings->strategy = std::move(choice);
-    return rings;
+    Tried best = tried(Clearing::kOutwards);
+    const auto challenge = [&](Clearing way) {
+      Tried next = tried(way);
+      if (next.seconds && (!best.seconds || step::worthwhile(*next.seconds, *best.seconds)))
+        std::swap(best, next);
+      if (best.seconds) lose(next, *best.seconds);
+    };
+    if (inwards) challenge(Clearing::kInwards);
+    if (other) {
+      const double volume = best.seconds ? best.cut->removed_mm3.value_or(0.0) : 0.0;
+      const double about = step::estimated_seconds(other->question, other->answer, volume, other->walled);
+      if (best.seconds && !step::worthwhile(about, *best.seconds)) {
+        choice.lost.push_back({step::words_of(Clearing::kConstantEngagement, other->answer),
+                               step::estimate_text(about, *best.seconds)});
+      } else {
+        challenge(Clearing::kConstantEngagement);
+      }
+    }
+    take(best.way);
+    stocks_.put_in(step.setup, std::move(best.removed));
+    for (Diagnostic& d : best.said) job_.report(std::move(d));
+    if (!best.cut) return std::move(best.cut);
+    choice.way = best.way;
+    if (best.seconds)
+      choice.taken =
+          step::words_of(best.way, best.cut->made.answer) + ": " + motion::duration_text(*best.seconds);
+    best.cut->strategy = std::move(choice);
+    return std::move(best.cut);
   }
 
   /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/making/draft/candidates.h"
 #include "planner/ground/geometry/placement.h"
+#include "planner/making/draft/candidates.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/cutter.h"
@@ -52,13 +52,13 @@ struct StepDraft {
   std::vector<model::FeatureShape> shapes;  ///< workpiece coordinates; more than one for patterns
   std::string no_shape;                     ///< why `shapes` is empty
   model::Cutter cutter;
-  bool proposed = false;                     ///< made by rules in this run
-  Member member = {};                        ///< when proposed: what its chain is for,
-  std::string chain = {};                    ///< which chain that is (key_of),
-  std::size_t in_chain = 0;                  ///< and its place in it
-  model::ProposedStep proposal;              ///< when proposed
-  double start_in_chain_mm = 0.0;            ///< of its proposal, before the drill ahead of it was known
-  Candidates candidates;                     ///< when the cutter was selected in this run, best first
+  bool proposed = false;           ///< made by rules in this run
+  Member member = {};              ///< when proposed: what its chain is for,
+  std::string chain = {};          ///< which chain that is (key_of),
+  std::size_t in_chain = 0;        ///< and its place in it
+  model::ProposedStep proposal;    ///< when proposed
+  double start_in_chain_mm = 0.0;  ///< of its proposal, before the drill ahead of it was known
+  Candidates candidates;           ///< when the cutter was selected in this run, best first
   std::vector<model::Rejected> rejected_tools;
   bool open_technology = false;  ///< feed or speed to be chosen
   bool keep_speed = false;       ///< of an open technology: the stated speed stays, the feed is chosen for it
@@ -66,6 +66,8 @@ struct StepDraft {
   bool open_tool = false;
   /// Of a try at its path: passes of constant engagement, or rings; unset: as its strategy says.
   std::optional<bool> constant_engagement = {};
+  /// Of a try at its path: rings from the wall inwards, or outwards; unset: as its strategy says.
+  std::optional<bool> inwards = {};
   std::vector<std::size_t> after;            ///< indices of the steps that must come before; chain order
   std::string unreadable = {};               ///< what its file states wrongly of it or its feature: not made
   std::optional<ProbingDraft> probing = {};  ///< measured right before this step, if it can be

@@ -108,6 +108,7 @@ struct PathJob {
   /// Slope of the ways into the solid where `approach` states none, rad; 0: model::kUsualRampRad. Never
   /// steeper than the cutter may.
   double ramp_angle_rad = 0.0;
+  double digit_mm = 0.0001;  ///< to which the program rounds coordinates
   /// Deepest bore along a helix, mm: levels below the first are entered through it. 0: as deep as a level.
   double ramp_depth_mm = 0.0;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -437,12 +438,13 @@ TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {
       m.at<model::MillingTechnology>(at).spindle.reset();
     }
     plan.ledger = model::Ledger{};
+    std::set<model::AnyRef> scaled;  // equal points of a file are one
     for (const auto at : m.all(model::TypeId::kCutterLocationTrajectory)) {
       const auto* line = m.get<model::Polyline>(m.at<model::Trajectory>(at).cross_section_area_parameters);
       if (line == nullptr) continue;
       for (const auto p : line->points.items) {
         auto& c = m.at<model::CartesianPoint>(p).coordinates.items;
-        if (c.size() == 7) c[4] *= factor;
+        if (c.size() == 7 && scaled.insert(p).second) c[4] *= factor;
       }
     }
     return plan;

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "planner/door/pipeline/pipeline.h"
@@ -10,8 +12,9 @@
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
 
-// Rings or constant engagement: the quicker is planned, the other stands beside it, and a plan that is read
-// again keeps what was chosen. examples/reference_pocket.p21: 60 x 40 x 10 mm, corners of 6 mm.
+// Rings outwards or inwards, or constant engagement: the quickest is planned, the others stand beside it, and
+// a plan that is read again keeps what was chosen. examples/reference_pocket.p21: 60 x 40 x 10 mm, corners of
+// 6 mm.
 
 namespace capstan::pipeline {
 namespace {
@@ -42,6 +45,14 @@ Inputs shop(const ShopFiles& names) {
   return in ? *std::move(in) : Inputs{};
 }
 
+/// The weak machine with one end mill of 5 mm and two teeth: of several, another is chosen by its estimated
+/// time, and a narrower or a finer one roughs as quickly by rings.
+Inputs weak_with_one_mill() {
+  Inputs in = shop(weak());
+  std::erase_if(in.library, [](const model::Cutter& k) { return k.id != "generic/endmill_2f_short/5"; });
+  return in;
+}
+
 model::Plan read(const std::string& text, const std::string& name = "part.p21") {
   Job job;
   auto plan = read_plan(text, name, job);
@@ -50,6 +61,15 @@ model::Plan read(const std::string& text, const std::string& name = "part.p21") 
 }
 
 std::string pocket() { return testing::slurp(testing::source_dir() + "/examples/reference_pocket.p21"); }
+
+/// The same pocket, 12 mm deep.
+std::string deeper() {
+  std::string text = pocket();
+  const std::string floor = "(0.,0.,-10.)";
+  const auto at = text.find(floor);
+  EXPECT_NE(at, std::string::npos);
+  return at == std::string::npos ? text : text.replace(at, floor.size(), "(0.,0.,-12.)");
+}
 
 model::Plan bound(model::Plan plan, const Inputs& in, unsigned threads = 1, const Policy& policy = {}) {
   Job job;
@@ -82,7 +102,7 @@ const model::Decision* decided(const model::Plan& plan) {
 }
 
 TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTheRings) {
-  const auto plan = bound(read(pocket()), shop(weak()));
+  const auto plan = bound(read(pocket()), weak_with_one_mill());
   ASSERT_TRUE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
@@ -90,9 +110,10 @@ TEST(ConstantEngagementPlanned, StandsAsAnExplicitStrategyWithItsTimeAndThatOfTh
   const model::Reason& why = plan.ledger.reason(d->reason);
   EXPECT_EQ(why.id, "path.constant_engagement");
   EXPECT_THAT(why.text, HasSubstr("constant engagement "));
-  ASSERT_EQ(d->rejected.size(), 1u);
-  EXPECT_THAT(d->rejected[0].what, HasSubstr("rings "));
-  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+  ASSERT_EQ(d->rejected.size(), 2u);
+  EXPECT_THAT(d->rejected[0].what, HasSubstr("rings from the wall inwards "));
+  EXPECT_THAT(d->rejected[1].what, HasSubstr("rings "));
+  EXPECT_THAT(d->rejected[1].why, HasSubstr(" against "));
 }
 
 TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThemWithItsTime) {
@@ -100,9 +121,9 @@ TEST(ConstantEngagementPlanned, IsNotTakenWhereRingsAreQuickerAndStandsBesideThe
   ASSERT_FALSE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
-  ASSERT_EQ(d->rejected.size(), 1u);
-  EXPECT_THAT(d->rejected[0].what, HasSubstr("constant engagement "));
-  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+  ASSERT_EQ(d->rejected.size(), 2u);
+  EXPECT_THAT(d->rejected[1].what, HasSubstr("constant engagement "));
+  EXPECT_THAT(d->rejected[1].why, HasSubstr(" against "));
 }
 
 TEST(ConstantEngagementPlanned, SaysWhyItHasNoPathWhereThereIsNone) {
@@ -118,13 +139,76 @@ TEST(ConstantEngagementPlanned, SaysWhyItHasNoPathWhereThereIsNone) {
   ASSERT_FALSE(constant(plan));
   const auto* d = decided(plan);
   ASSERT_NE(d, nullptr);
-  ASSERT_EQ(d->rejected.size(), 1u);
-  EXPECT_THAT(d->rejected[0].what, HasSubstr("constant engagement "));
-  EXPECT_THAT(d->rejected[0].why, HasSubstr("no path of constant engagement: a round leads"));
+  ASSERT_EQ(d->rejected.size(), 2u);
+  EXPECT_THAT(d->rejected[1].what, HasSubstr("constant engagement "));
+  EXPECT_THAT(d->rejected[1].why, HasSubstr("no path of constant engagement: a round leads"));
+}
+
+const model::ContourParallel* rings_of(const model::Plan& plan) {
+  const auto* o = plan.model.get<model::Two5dMillingOperation>(roughing(plan));
+  return o == nullptr ? nullptr : plan.model.get<model::ContourParallel>(o->its_machining_strategy);
+}
+
+TEST(RingsInwardsPlanned, StandAsRingsWithASenseOfRotationAndAreKeptByEachForm) {
+  ShopFiles names;
+  names.machine = "generic_vmc";
+  names.material = "C45";
+  const Inputs in = shop(names);
+  const auto plan = bound(read(deeper()), in);
+  const auto* rings = rings_of(plan);
+  ASSERT_NE(rings, nullptr);
+  ASSERT_TRUE(rings->rotation_direction.set());
+  EXPECT_EQ(rings->rotation_direction.value(), model::RotDirection::kCw);
+  const auto* d = decided(plan);
+  ASSERT_NE(d, nullptr);
+  EXPECT_EQ(plan.ledger.reason(d->reason).id, "path.rings_inwards");
+  ASSERT_FALSE(d->rejected.empty());
+  EXPECT_THAT(d->rejected[0].what, HasSubstr("rings "));
+  EXPECT_THAT(d->rejected[0].why, HasSubstr(" against "));
+  for (const auto& [format, name] : {std::pair(Format::kJson, "p.json"), std::pair(Format::kAp238, "p.stpnc"),
+                                     std::pair(Format::kIso14649, "p.p21")}) {
+    const auto again = bound(read(written(plan, format), name), in);
+    ASSERT_FALSE(again.steps.empty()) << name;
+    ASSERT_NE(rings_of(again), nullptr) << name;
+    EXPECT_TRUE(rings_of(again)->rotation_direction.set()) << name;
+    EXPECT_EQ(again.steps.front().path->size(), plan.steps.front().path->size()) << name;
+  }
+}
+
+// Corners of 18 mm are wider than what the centre of a helix may go round; a ramp along the wall turns round
+// four of them and leaves no core.
+TEST(RingsInwardsPlanned, PassTheCheckRoundWideCorners) {
+  ShopFiles names;
+  names.machine = "generic_vmc";
+  names.material = "C45";
+  Inputs in = shop(names);
+  std::erase_if(in.library, [](const model::Cutter& k) {
+    return k.cutter_class != model::CutterClass::kEndmill || k.cutting_diameter_mm != 10.0;
+  });
+  std::string text = deeper();
+  const std::string corner = "#38=TOLERANCED_LENGTH_MEASURE(6.,#37);";
+  const auto at = text.find(corner);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, corner.size(), "#38=TOLERANCED_LENGTH_MEASURE(18.,#37);");
+  Job job;
+  const auto made = bind_checked(read(text), in, {}, job);
+  ASSERT_TRUE(made) << to_text(made.error());
+  const auto* d = decided(made->plan);
+  ASSERT_NE(d, nullptr);
+  EXPECT_EQ(made->plan.ledger.reason(d->reason).id, "path.rings_inwards");
+  double turned = 0.0;  // of the ramp round centres farther away than the radius
+  const model::CutterPath& p = *made->plan.steps.front().path;
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (p.role[i] != model::MoveRole::kRamp || !model::is_arc(p.kind[i])) continue;
+    const double radius = std::hypot(p.x[i] - p.cx[i], p.y[i] - p.cy[i]);
+    if (radius > 5.0) turned += model::move_length(p, i) / radius;
+  }
+  EXPECT_GT(turned, 2.0 * std::numbers::pi);
+  for (const auto& f : made->findings) EXPECT_NE(f.severity, Severity::kError) << f.message;
 }
 
 TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
-  const auto plan = bound(read(pocket()), shop(weak()));
+  const auto plan = bound(read(pocket()), weak_with_one_mill());
   ASSERT_TRUE(constant(plan));
   const auto& step = plan.steps.front();
   double entering = 0.0, cutting = 0.0;
@@ -138,7 +222,7 @@ TEST(ConstantEngagementPlanned, TurnsFasterInItsNarrowCutsThanWhereItEnters) {
 }
 
 TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
-  const Inputs in = shop(weak());
+  const Inputs in = weak_with_one_mill();
   const auto plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const model::CutterPath& path = *plan.steps.front().path;
@@ -160,7 +244,7 @@ TEST(ConstantEngagementPlanned, IsKeptByEachFormThatAPlanIsReadAgainFrom) {
 }
 
 TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
-  Inputs in = shop(weak());
+  Inputs in = weak_with_one_mill();
   const std::string one = written(bound(read(pocket()), in), Format::kJson);
   EXPECT_EQ(written(bound(read(pocket()), in, 2), Format::kJson), one);
   in.memo = std::make_shared<memo::Memo>(0);  // keeps nothing
@@ -172,7 +256,7 @@ TEST(ConstantEngagementPlanned, IsTheSameToTheByteOnTwoThreadsAndWithAMemo) {
 
 // A plan whose strategy the operator states, rings, with the technology open again.
 TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
-  const Inputs in = shop(weak());
+  const Inputs in = weak_with_one_mill();
   model::Plan plan = bound(read(pocket()), in);
   ASSERT_TRUE(constant(plan));
   const auto operation = roughing(plan);

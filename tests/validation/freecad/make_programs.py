@@ -4,10 +4,11 @@ Pocket Shape (offset pattern) and Adaptive. To be run by FreeCAD without a scree
     cd tests/validation/freecad && freecadcmd make_programs.py        (Debian 12: package freecad, 0.20.2)
 
 The parts are those of rivals.h: a pocket of 60 x 40 mm with corners R6, 10 and 20 mm deep, plain and with a round boss
-of 14 mm in its middle; a 10 mm end mill; 0.3 mm left on walls, 0.2 mm on the floor. Entries at 7 degrees, a helix
-(Adaptive) or a ramp along the first ring (Pocket, with the dressup RampEntry). Step-overs and levels: of 10, 15, 20, 30,
-40, 50 % (Adaptive) and 40, 50, 60 % (Pocket), of 1 and 2, or 1, 2, 3, 4 and 6 levels those that were fastest in
-aluminium and in steel at the limits of the comparison. Feeds are not taken from here: F is a placeholder.
+of 14 mm in its middle; a 10 mm end mill; 0.3 mm left on walls, 0.2 mm on the floor. Entries at 3 and at 5 degrees, a
+helix (Adaptive) or a ramp along the first ring (Pocket, with the dressup RampEntry). Step-overs and levels: of 10, 15,
+20, 30, 40, 50 % (Adaptive) and 40, 50, 60 % (Pocket), of 1 and 2, or 1, 2, 3, 4 and 6 levels those that were fastest
+in aluminium and in steel at the limits of the comparison, with entries at 7 degrees; and Pocket in two and three levels,
+which at lower angles and shallower slots may be faster. Feeds are not taken from here: F is a placeholder.
 """
 import os
 
@@ -21,14 +22,20 @@ import PathScripts.PathPocketShape as PathPocketShape
 from FreeCAD import Vector
 
 LENGTH, WIDTH, CORNER, DIAMETER = 60.0, 40.0, 6.0, 10.0
-ON_WALLS, ON_FLOOR, ANGLE = 0.3, 0.2, 7.0
+ON_WALLS, ON_FLOOR = 0.3, 0.2
+# degrees: what the generic end mills with four and with three flutes bear
+ANGLES = (3, 5)
+# How its pocket operation ramps: "RampMethod1" to and fro along its first sides, at the angle; "Helix" goes down each
+# level in one round of each ring it begins with, whatever the angle, and is too steep but for one part.
+GENTLE_ROUND = (10, 0, "pocket", 60, 1)
 # depth, boss, operation, step-over in percent, levels
 PROGRAMS = [(depth, boss, "pocket", 60, 1) for depth in (10, 20) for boss in (0, 14)] + [
-    (10, 14, "pocket", 60, 6), (20, 14, "pocket", 60, 6),
     (10, 0, "adaptive", 50, 1), (10, 0, "adaptive", 20, 1),
     (10, 14, "adaptive", 50, 1), (10, 14, "adaptive", 20, 1),
     (20, 0, "adaptive", 30, 1), (20, 0, "adaptive", 20, 2),
-    (20, 14, "adaptive", 40, 1), (20, 14, "adaptive", 20, 2)]
+    (20, 14, "adaptive", 40, 1), (20, 14, "adaptive", 20, 2),
+    (10, 0, "pocket", 60, 2), (10, 14, "pocket", 60, 2), (20, 0, "pocket", 60, 2), (20, 14, "pocket", 60, 2),
+    (20, 0, "pocket", 60, 3)]  # beside the boss its third level cuts into it
 
 
 def part_shape(depth, boss):
@@ -42,7 +49,7 @@ def part_shape(depth, boss):
     return part
 
 
-def operation(doc, depth, boss, kind, stepover, levels):
+def operation(doc, depth, boss, kind, stepover, levels, angle, way):
     shape = doc.addObject("Part::Feature", "Part")
     shape.Shape = part_shape(depth, boss)
     doc.recompute()
@@ -66,7 +73,7 @@ def operation(doc, depth, boss, kind, stepover, levels):
     if kind == "adaptive":
         op.StockToLeave, op.Tolerance = ON_WALLS, 0.1
         op.Side, op.OperationType, op.FinishingProfile = "Inside", "Clearing", True
-        op.HelixAngle, op.UseHelixArcs = ANGLE, True
+        op.HelixAngle, op.UseHelixArcs = float(angle), True
         op.KeepToolDownRatio, op.LiftDistance = 3.0, 0.5
         doc.recompute()
         return op
@@ -77,7 +84,7 @@ def operation(doc, depth, boss, kind, stepover, levels):
     RampEntry.ObjectDressup(ramp)
     ramp.Base = op
     job.Proxy.addOperation(ramp, op)
-    ramp.Angle, ramp.Method = ANGLE, "Helix"
+    ramp.Angle, ramp.Method = 90.0 - angle, way  # it is measured from the tool axis
     doc.recompute()
     return ramp
 
@@ -109,9 +116,13 @@ def program(commands):
 
 folder = os.path.join(os.getcwd(), "programs")
 for depth, boss, kind, stepover, levels in PROGRAMS:
-    doc = FreeCAD.newDocument("rival")
-    made = operation(doc, depth, boss, kind, stepover, levels)
-    name = "%s_%d_%d_%d_%d.ngc" % (kind, depth, boss, stepover, levels)
-    with open(os.path.join(folder, name), "w") as f:
-        f.write(program(made.Path.Commands))
-    FreeCAD.closeDocument(doc.Name)
+    ways = [(angle, "RampMethod1", str(angle)) for angle in ANGLES]
+    if (depth, boss, kind, stepover, levels) == GENTLE_ROUND:
+        ways.append((ANGLES[0], "Helix", "round"))
+    for angle, way, ends in ways:
+        doc = FreeCAD.newDocument("rival")
+        made = operation(doc, depth, boss, kind, stepover, levels, angle, way)
+        name = "%s_%d_%d_%d_%d_%s.ngc" % (kind, depth, boss, stepover, levels, ends)
+        with open(os.path.join(folder, kind, name), "w") as f:
+            f.write(program(made.Path.Commands))
+        FreeCAD.closeDocument(doc.Name)

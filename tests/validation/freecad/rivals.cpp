@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
 #include "tests/validation/freecad/foreign_path.h"
@@ -51,24 +54,46 @@ Roughing roughing_of(const model::Plan& plan) {
   return out;
 }
 
-/// "pocket 60 % × 1" of "pocket_10_0_60_1.ngc".
-std::string name_of(const std::string& file) {
-  std::vector<std::string> words(1);
-  for (const char c : file.substr(0, file.find('.'))) {
-    if (c == '_')
-      words.emplace_back();
-    else
-      words.back() += c;
-  }
-  return words.size() == 5 ? words[0] + " " + words[3] + " % × " + words[4] : file;
+/// What "pocket_10_0_60_1_3.ngc" says: operation, depth, boss, step-over, levels.
+struct Recipe {
+  std::string operation;
+  int depth_mm = 0, boss_mm = 0, stepover = 0, levels = 0;
+};
+
+Recipe recipe_of(const std::filesystem::path& file) {
+  Recipe r;
+  std::string words = file.stem().string();
+  std::replace(words.begin(), words.end(), '_', ' ');
+  std::istringstream(words) >> r.operation >> r.depth_mm >> r.boss_mm >> r.stepover >> r.levels;
+  return r;
 }
+
+/// "pocket 60 % × 1"
+std::string name_of(const Recipe& r) {
+  return r.operation + " " + std::to_string(r.stepover) + " % × " + std::to_string(r.levels);
+}
+
+/// How steeply a path goes down into the material, rad; moves shorter than kSlopeMm are rounded too coarsely.
+double steepest_rad(const model::CutterPath& path) {
+  constexpr double kSlopeMm = 1.0;
+  double out = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double fall = path.z[i - 1] - path.z[i], way = model::move_length(path, i);
+    if (path.role[i] == model::MoveRole::kRamp && way > kSlopeMm)
+      out = std::max(out, std::asin(std::clamp(fall / way, -1.0, 1.0)));
+  }
+  return out;
+}
+
+/// By how much FreeCAD misses a slope that it is asked for: chords of its arcs, and of its offsets.
+constexpr double kSlopeMissed = 1.1;
 
 std::vector<std::string> programs_of(const RivalCase& c) {
   std::vector<std::string> out;
-  const std::string middle = "_" + std::to_string(c.depth_mm) + "_" + std::to_string(c.boss_mm) + "_";
-  for (const auto& f :
-       std::filesystem::directory_iterator(testing::source_dir() + "/tests/validation/freecad/programs")) {
-    if (f.path().filename().string().find(middle) != std::string::npos) out.push_back(f.path().string());
+  for (const auto& f : std::filesystem::recursive_directory_iterator(testing::source_dir() +
+                                                                     "/tests/validation/freecad/programs")) {
+    const Recipe r = recipe_of(f.path());
+    if (r.depth_mm == c.depth_mm && r.boss_mm == c.boss_mm && r.levels > 0) out.push_back(f.path().string());
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -135,12 +160,20 @@ Result<Match> match(const RivalCase& c, const std::string& machine) {
   out.step = *ours.first;
   out.ours_s = ours.time_s;
   out.removed_mm3 = ours.removed_mm3;
+  const std::string& chosen = out.ours.steps[out.step].cutter_id;
+  const auto cutter = std::find_if(in->library.begin(), in->library.end(),
+                                   [&](const model::Cutter& k) { return k.id == chosen; });
+  if (cutter == in->library.end()) return fail("VAL-PLAN", "no cutter " + chosen);
+  const model::Ramp may = model::ramp_of(*cutter, out.ours.material);
   for (const std::string& file : programs_of(c)) {
     const auto path = path_of_program(testing::slurp(file), 0.0);
     if (!path) return tl::unexpected(path.error());
+    const Recipe recipe = recipe_of(file);
+    if (steepest_rad(*path) > kSlopeMissed * may.angle_rad) continue;
+    if (static_cast<double>(c.depth_mm) / recipe.levels > may.slot_depth_mm + 1e-9) continue;
     Rival r;
-    r.name = name_of(file.substr(file.rfind('/') + 1));
-    r.adaptive = r.name.starts_with("adaptive");
+    r.name = name_of(recipe);
+    r.adaptive = recipe.operation == "adaptive";
     for (const bool constant : {false, true}) {
       in->constant_feeds = constant;
       auto plan = planned(out, *path, *in);

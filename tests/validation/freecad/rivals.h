@@ -13,7 +13,8 @@
 // the largest that keeps chip, force and deflection within the limits that our own path keeps: once one feed
 // for the whole of its path, which is what FreeCAD's tool controller holds (plunges, ramps and air are
 // forgiven: they have the feeds of the schedule), and once, more generous, our schedule of feeds on its path.
-// Its ramps of 7 degrees are taken as they are, even where the plan's cutter bears less.
+// Of its programs those are compared whose entries are no steeper, and whose levels no deeper, than what our
+// own path keeps to (model::ramp_of).
 
 namespace capstan::validation {
 

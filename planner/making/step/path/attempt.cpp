@@ -240,6 +240,13 @@ std::optional<ConstantCut> constant_cut(const PlanSoFar& p, StepDraft step, cons
   return ConstantCut{std::move(q), *std::move(answer), walled};
 }
 
+bool rings_inwards(const PlanSoFar& p, const StepDraft& step, const Means& means) {
+  if (step.shapes.empty()) return false;
+  auto job = job_of(p, step, step.shapes.front());
+  means.progress.prepare(step, means.stocks.of(step.setup), job);
+  return may_ring_inwards(p, step, job);
+}
+
 MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, PathWithCut made,
                          const Means& means) {
   MeasuredCut out;

@@ -72,6 +72,9 @@ struct ConstantCut {
 [[nodiscard]] std::optional<ConstantCut> constant_cut(const PlanSoFar& p, draft::StepDraft step,
                                                       const model::Candidate* candidate, const Means& means);
 
+/// Whether the step may have rings from the wall inwards beside those outwards.
+[[nodiscard]] bool rings_inwards(const PlanSoFar& p, const draft::StepDraft& step, const Means& means);
+
 /// Measures a path against the stock, which is cut by it, and schedules its feeds. `plan` is that of `p`.
 [[nodiscard]] MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const draft::StepDraft& step,
                                        PathWithCut made, const Means& means);

@@ -229,6 +229,7 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
   const model::Ramp ramp = model::ramp_of(job.cutter, p.plan.material);
   job.ramp_angle_rad = ramp.angle_rad;
   job.ramp_depth_mm = ramp.slot_depth_mm;
+  job.digit_mm = std::pow(10.0, -p.plan.machine.control.decimals);
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);
   job.constant_engagement = step.constant_engagement.value_or(engages_constantly(p.plan, step));
@@ -239,6 +240,11 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
     job.rotation_ccw.reset();
     job.feed_direction.reset();
     job.stepover_left.reset();
+  }
+  // Inwards with the material beside the pass on the right of a climbing right-hand cutter: clockwise.
+  if (step.inwards && !job.constant_engagement) {
+    job.rotation_ccw.reset();
+    if (*step.inwards) job.rotation_ccw = job.climb == (step.cutter.hand == model::Hand::kLeft);
   }
   // The noun's is that of the cutter that the step had: another may be tried.
   if (const auto depth = depth_with_its_cutter(step)) job.cutting_depth_mm = depth;

@@ -83,15 +83,15 @@ void PathWriter::follow(const Track& t, double z_mm, MoveRole why) {
   }
 }
 
-void PathWriter::follow_down(const Track& t, double z_mm, MoveRole why) {
-  const double total = length_of(t);
+void PathWriter::follow_down(const Track& t, double z_mm, const Descent& descent, MoveRole why) {
+  const double total = descent.of(t);
   const double from = at().z;
   double s = 0.0;
   Vec2 last = t.start;
   for (std::size_t i = 0; i < t.segments.size(); ++i) {
     const Segment& seg = t.segments[i];
-    s += length_of(last, seg);
-    const double z = i + 1 == t.segments.size() ? z_mm : from + (z_mm - from) * (s / total);
+    s += descent.of(length_of(last, seg));
+    const double z = s >= total || i + 1 == t.segments.size() ? z_mm : from + (z_mm - from) * (s / total);
     const Vec3 to{seg.to.x, seg.to.y, z};
     if (seg.bend == Bend::kStraight) {
       line(to, why);

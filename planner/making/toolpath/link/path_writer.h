@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "planner/making/toolpath/link/descent.h"
 #include "planner/making/toolpath/path_job.h"
 #include "planner/making/toolpath/region/area/track.h"
 
@@ -28,8 +29,8 @@ class PathWriter {
   void arc(geometry::Vec3 to, geometry::Vec2 centre, bool clockwise, model::MoveRole why);
   /// The whole track at one height; its start is where the cutter is.
   void follow(const Track& t, double z_mm, model::MoveRole why);
-  /// The track while the height falls evenly to z.
-  void follow_down(const Track& t, double z_mm, model::MoveRole why);
+  /// The track while the height falls to z, by each piece in the share that the descent gives it.
+  void follow_down(const Track& t, double z_mm, const Descent& descent, model::MoveRole why);
   void rapid_up(double z_mm);
   void dwell(double seconds);
   /// To the retract plane, straight up.

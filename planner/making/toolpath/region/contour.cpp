@@ -132,6 +132,14 @@ std::vector<Vec2> melted(const LevelCutter& c, const Level& level, const Track& 
   return out;
 }
 
+/// Of the radius to each side of the centre: what a pass is counted on to clear; default, unsourced.
+constexpr double kWithin = 0.99;
+/// Of the radius: a narrower flat is none, and the end's round is what clears.
+constexpr double kLeastFlat = 0.1;
+/// Rings are no farther apart, in widths to one side: corners of a right angle are cleared by steps up to
+/// 1 + sin(45 degrees) of them (rings.h), rounded down.
+constexpr double kWidest = 1.7;
+
 class Contours {
  public:
   Contours(LevelCutter& cutter, const Level& level, const ContourOptions& options)
@@ -141,17 +149,18 @@ class Contours {
 
   Status run() {
     if (o_.wall_only) return walls();
-    // With a step above the radius, stripes would remain between rings; a corner radius narrows the flat part
-    // of the end.
+    // The rings see to it that nothing stays between them; a spiral runs between two of them, where it is
+    // kept to the radius. A corner radius narrows the flat part of the end.
     const double flat = c_.radius_mm - c_.task.cutter.corner_radius_mm;
-    double step = std::min(c_.step_mm, 0.99 * c_.radius_mm);
-    if (flat > 0.1 * c_.radius_mm) step = std::min(step, flat);
+    double cover = kWithin * c_.radius_mm;
+    if (flat > kLeastFlat * c_.radius_mm) cover = std::min(cover, flat);
+    const double step = std::min(c_.step_mm, (o_.spiral ? 1.0 : kWidest) * cover);
     if (step < c_.step_mm - 1e-9) {
       c_.note("TPA-CHANGED", "step-over " + trimmed(step, 2) + " mm instead of " + trimmed(c_.step_mm, 2) +
                                  " mm, or ridges would stay between the rings");
     }
     step_ = step;
-    all_ = c_.rings_of(level_.centres, step);
+    all_ = c_.rings_of(level_.centres, step, cover);
     std::vector<std::size_t> order = inside_out(all_);
     if (o_.outside_in) std::reverse(order.begin(), order.end());
     done_.assign(all_.size(), {});
@@ -274,10 +283,19 @@ class Contours {
         }
       }
     }
+    if (c_.slotted(level_, t)) {
+      c_.go_cleared(level_, t.start);
+      done_[i].push_back(t);
+      return {};
+    }
     const bool leaf = all_[i].children.empty() && !o_.outside_in;
     auto in = c_.enter(level_, t, leaf ? &all_[i].piece : nullptr);
     if (!in) return tl::unexpected(in.error());
-    cut(i, *in);
+    if (c_.slotted(level_, t)) {
+      done_[i].push_back(*in);
+    } else {
+      cut(i, *in);
+    }
     return {};
   }
 

@@ -293,8 +293,9 @@ class SectionCutter {
                    .path = task_.shape.name});
     }
     constexpr int kMostWays = 1000;
-    const double run = most > 0.0 ? fall / std::tan(most) : 0.0;
-    const bool ramps = fall > 1e-9 && most > 0.0 && (t.closed || run <= kMostWays * length);
+    const Descent descent(most, task_.digit_mm);
+    const double way_mm = descent.of(t);
+    const bool ramps = fall > 1e-9 && way_mm > 0.0 && (t.closed || fall <= kMostWays * way_mm);
     if (!ramps) {
       if (fall > 1e-9 && !task_.cutter.centre_cutting)
         return fail({.code = "TPA-ENTRY",
@@ -306,23 +307,22 @@ class SectionCutter {
     }
     const double top = writer_.at().z;
     if (!t.closed) {
-      const int ways = std::max(1, static_cast<int>(std::ceil(run / length - 1e-9)));
+      const int ways = std::max(1, static_cast<int>(std::ceil(fall / way_mm - 1e-9)));
       for (int i = 1; i <= ways; ++i)
-        writer_.follow_down(i % 2 == 1 ? t : reversed(t), i == ways ? z : top - fall * i / ways,
+        writer_.follow_down(i % 2 == 1 ? t : reversed(t), i == ways ? z : top - fall * i / ways, descent,
                             MoveRole::kRamp);
       writer_.follow(ways % 2 == 1 ? reversed(t) : t, z, MoveRole::kCut);
       return {};
     }
-    const int rounds = std::min(kMostWays, static_cast<int>(std::floor(run / length)));
-    for (int i = 1; i <= rounds; ++i)
-      writer_.follow_down(t, top - fall * (i * length / run), MoveRole::kRamp);
-    const Spot down = snapped(t, at_length(t, run - rounds * length));
+    const int rounds = std::min(kMostWays, static_cast<int>(std::floor(fall / way_mm)));
+    for (int i = 1; i <= rounds; ++i) writer_.follow_down(t, top - i * way_mm, descent, MoveRole::kRamp);
+    const Spot down = snapped(t, at_length(t, descent.length_for(t, fall - rounds * way_mm)));
     const double rest = length_to(t, down);
     if (rest > 1e-6 && rest < length - 1e-6) {
-      writer_.follow_down(part_of(t, 0.0, rest), z, MoveRole::kRamp);
+      writer_.follow_down(part_of(t, 0.0, rest), z, descent, MoveRole::kRamp);
       writer_.follow(begun_at(t, down), z, MoveRole::kCut);
     } else {
-      if (rest > 1e-6) writer_.follow_down(t, z, MoveRole::kRamp);
+      if (rest > 1e-6) writer_.follow_down(t, z, descent, MoveRole::kRamp);
       writer_.descend(z, writer_.at().z);
       writer_.follow(t, z, MoveRole::kCut);
     }

@@ -16,6 +16,8 @@ using model::MoveRole;
 
 namespace {
 
+/// Centres of a helix's arcs in a program agree to this, mm: a few of its last digits.
+constexpr double kSameCentre = 0.01;
 constexpr double kWritten = 0.005;  ///< by which a feed may be off through its decimals
 
 bool cuts_to_centre(const model::Cutter& c) {
@@ -46,7 +48,8 @@ bool chose_ramp(const model::Plan& plan, const model::MachiningWorkingstep& ws) 
   const auto* op = plan.model.get<model::Two5dMillingOperation>(ws.its_operation);
   if (op == nullptr) return true;
   if (const auto* r = plan.model.get<model::PlungeRamp>(op->approach)) return !(r->angle.value_or(0.0) > 0.0);
-  if (const auto* h = plan.model.get<model::PlungeHelix>(op->approach)) return !(h->angle.value_or(0.0) > 0.0);
+  if (const auto* h = plan.model.get<model::PlungeHelix>(op->approach))
+    return !(h->angle.value_or(0.0) > 0.0);
   if (const auto* z = plan.model.get<model::PlungeZigzag>(op->approach))
     return !(z->angle.value_or(0.0) > 0.0);
   return true;
@@ -83,6 +86,10 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
     chosen_ramp(m, angle);
   }
   if (!is_arc(m.kind)) return;
+  // A helix turns round one centre; the corners of a ramp along a ring turn round several and leave no core
+  // by it.
+  if (norm(m.centre - helix_centre_) > kSameCentre) helix_turned_ = 0.0;
+  helix_centre_ = m.centre;
   helix_turned_ += sweep_of(m);
   const double helix = norm(xy(m.to) - m.centre);
   if (helix_turned_ > 2.0 * std::numbers::pi - 1e-6 && helix > radius_ + 1e-6) {

@@ -29,8 +29,8 @@ class StepChecks {
   /// Whether it cut anything: known after `run`.
   [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
   /// After `run`: the speed at which an edge in the cut for a quarter turn would wear as the step's edges do,
-  /// and no less than that of its wide cuts, over their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material
-  /// whose speed no heat bounds).
+  /// and no less than that of its wide cuts, over their fastest; 1 where arcs of contact do not count (what
+  /// is no roughing with carbide, a material whose speed no heat bounds).
   [[nodiscard]] double speed_share() const;
   /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
   /// and follows its surface.
@@ -92,9 +92,10 @@ class StepChecks {
   Findings::Where rubbed_ = {};
   bool ramp_chosen_ = false;   ///< by planning: neither the path nor its angle is the file's
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
-  double cut_mm3_ = 0.0;       ///< by the step so far
-  bool met_ = false;           ///< a head that heights do not follow was in material
-  std::size_t mark_;           ///< in `earlier_`, before the step
+  geometry::Vec2 helix_centre_;
+  double cut_mm3_ = 0.0;  ///< by the step so far
+  bool met_ = false;      ///< a head that heights do not follow was in material
+  std::size_t mark_;      ///< in `earlier_`, before the step
   /// The heights before the step, where its cutter is a ring of teeth on a neck: the groove that it makes
   /// takes no more from what is above than the neck does, but heights lose all of it. Null: it is no such
   /// cutter.

@@ -37,10 +37,17 @@ std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Ins
   return out;
 }
 
+/// Whether two tracks are one, piece by piece.
+bool same(const Track& a, const Track& b) {
+  return a.closed == b.closed && a.start == b.start && a.segments.size() == b.segments.size() &&
+         std::equal(a.segments.begin(), a.segments.end(), b.segments.begin(),
+                    [](const Segment& x, const Segment& y) { return x.to == y.to && x.bend == y.bend; });
+}
+
 }  // namespace
 
 HelixRadii helix_radii(const model::Cutter& c) {
-  constexpr double kUsual = 0.9;  // of the flat; default, unsourced
+  constexpr double kUsual = 0.9;                               // of the flat; default, unsourced
   constexpr double kLeast = 0.2, kLeastBesideTheCentre = 0.5;  // of the cutter's radius
   const double radius = 0.5 * c.cutting_diameter_mm;
   const double flat = std::max(radius - c.corner_radius_mm, 0.5 * radius);
@@ -74,11 +81,13 @@ LevelCutter::LevelCutter(const PathJob& t, const WorkArea& a, PathWriter& w, Job
       radius_mm(0.5 * t.cutter.cutting_diameter_mm),
       step_mm(stepover_of(t)) {}
 
-const std::vector<Ring>& LevelCutter::rings_of(const geometry::Region& centres, double apart_mm) {
-  if (centres.loops != ringed_.loops || apart_mm != ringed_apart_mm_) {
-    rings_ = rings(centres, apart_mm);
+const std::vector<Ring>& LevelCutter::rings_of(const geometry::Region& centres, double apart_mm,
+                                               double cover_mm) {
+  if (centres.loops != ringed_.loops || apart_mm != ringed_apart_mm_ || cover_mm != ringed_cover_mm_) {
+    rings_ = rings(centres, apart_mm, cover_mm);
     ringed_ = centres;
     ringed_apart_mm_ = apart_mm;
+    ringed_cover_mm_ = cover_mm;
   }
   return rings_;
 }
@@ -169,13 +178,35 @@ std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& 
   return std::nullopt;
 }
 
-double LevelCutter::bore_floor(const Level& level, Vec2 middle, double radius) const {
-  const double deepest = level.from_mm - std::min(task.ramp_depth_mm, model::reach_of(task.cutter));
+bool LevelCutter::may_go_down_to(const Level& level, double z) const {
+  const double reach = model::reach_of(task.cutter);
+  const double deepest = level.from_mm - std::min(task.ramp_depth_mm, reach);
+  return z >= deepest - kSameHeight && std::max(task.start_z_mm, level.from_mm) - z <= reach;
+}
+
+double LevelCutter::slot_floor(const Level& level) const {
   double out = level.z_mm;
   for (const double z : floors) {
     if (z >= out - kSameHeight) continue;
-    const double top = std::max(task.start_z_mm, level.from_mm);
-    if (z < deepest - kSameHeight || top - z > model::reach_of(task.cutter)) break;
+    if (!may_go_down_to(level, z)) break;
+    const Region there = centres_at(area, task.cutter, z, level.allowance_mm, task.allowance_bottom_mm);
+    if (there.loops != level.centres.loops) break;
+    out = z;
+  }
+  return out;
+}
+
+bool LevelCutter::slotted(const Level& level, const Track& track) const {
+  return std::any_of(slots_.begin(), slots_.end(), [&](const Slot& s) {
+    return s.z_mm <= level.z_mm + kSameHeight && same(s.track, track);
+  });
+}
+
+double LevelCutter::bore_floor(const Level& level, Vec2 middle, double radius) const {
+  double out = level.z_mm;
+  for (const double z : floors) {
+    if (z >= out - kSameHeight) continue;
+    if (!may_go_down_to(level, z)) break;
     const Region there = centres_at(area, task.cutter, z, level.allowance_mm, task.allowance_bottom_mm);
     const bool stays = geometry::contains(there, middle) &&
                        geometry::distance_to_boundary(there, middle) >= radius - kInsideSlack;
@@ -216,7 +247,8 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   const Vec2 other{d.point.x - r, d.point.y};
   const double floor = bore_floor(level, d.point, r);
   const double depth = level.from_mm + gap(level) - floor;
-  const double half_pitch = kPi * r * std::tan(angle);
+  const double half_pitch = Descent(angle, task.digit_mm).of(kPi * r);
+  if (half_pitch <= 0.0) return std::nullopt;
   const int halves = static_cast<int>(std::min(std::ceil(depth / half_pitch), 2.0 * kMostTurns + 1.0));
   if (halves > 2 * kMostTurns) return std::nullopt;
   // The ring must be reached from the helix without leaving the centres.
@@ -254,35 +286,46 @@ std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track
     const auto b = geometry::bounds(box);
     if (std::max(b.hi.x - b.lo.x, b.hi.y - b.lo.y) < radius_mm) return std::nullopt;
   }
-  const double depth = level.from_mm + gap(level) - level.z_mm;
-  const double run = depth / std::tan(angle);
-  if (run / length > kMostTurns) return std::nullopt;
+  const bool zigzag = !track.closed || task.approach.kind == Approach::Kind::kZigzag;
+  const double floor = zigzag ? level.z_mm : slot_floor(level);
+  const Descent descent(angle, task.digit_mm);
+  const double depth = level.from_mm + gap(level) - floor;
+  const double round_mm = descent.of(track);
+  if (depth > kMostTurns * round_mm) return std::nullopt;
   go_above(level, track.start);
   writer.descend(level.from_mm + gap(level), level.from_mm + gap(level));
   const double top = writer.at().z;
-  const bool zigzag = !track.closed || task.approach.kind == Approach::Kind::kZigzag;
   if (zigzag) {
-    double leg = std::min(length, std::max(4.0 * radius_mm, run / 40.0));
+    double leg = std::min(length, std::max(4.0 * radius_mm, depth / std::tan(angle) / 40.0));
     if (task.approach.kind == Approach::Kind::kZigzag && task.approach.width_mm > 0.0)
       leg = std::min(length, task.approach.width_mm);
-    int n = std::max(2, static_cast<int>(std::ceil(run / leg)));
-    n += n % 2;
     const Track there = part_of(track, 0.0, leg);
     const Track back = reversed(there);
+    const double legs = std::ceil(depth / descent.of(there));
+    if (!(legs <= 2.0 * kMostTurns)) return std::nullopt;
+    int n = std::max(2, static_cast<int>(legs));
+    n += n % 2;
     for (int i = 1; i <= n; ++i) {
       const double z = i == n ? level.z_mm : top - (top - level.z_mm) * i / n;
-      writer.follow_down(i % 2 == 1 ? there : back, z, MoveRole::kRamp);
+      writer.follow_down(i % 2 == 1 ? there : back, z, descent, MoveRole::kRamp);
     }
     return track;
   }
-  const int rounds = static_cast<int>(std::floor(run / length));
+  const int rounds = static_cast<int>(std::floor(depth / round_mm));
   for (int i = 1; i <= rounds; ++i) {
-    writer.follow_down(track, top - (top - level.z_mm) * (i * length / run), MoveRole::kRamp);
+    writer.follow_down(track, top - i * round_mm, descent, MoveRole::kRamp);
   }
-  const double rest = run - rounds * length;
+  const double rest = descent.length_for(track, depth - rounds * round_mm);
   const Track last = part_of(track, 0.0, rest);
-  if (rest > 1e-6 && !last.segments.empty()) writer.follow_down(last, level.z_mm, MoveRole::kRamp);
-  return begun_at(track, at_length(track, rest));
+  if (rest > 1e-6 && !last.segments.empty()) writer.follow_down(last, floor, descent, MoveRole::kRamp);
+  const Track round = begun_at(track, at_length(track, rest));
+  if (floor < level.z_mm - kSameHeight) {
+    writer.follow(round, floor, MoveRole::kCut);
+    slots_.push_back({track, floor});
+    const Vec2 here = xy(writer.at());
+    writer.line({here.x, here.y, level.z_mm}, MoveRole::kLink);
+  }
+  return round;
 }
 
 Result<Track> LevelCutter::enter(const Level& level, const Track& track, const Region* leaf) {

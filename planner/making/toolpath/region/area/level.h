@@ -44,12 +44,16 @@ class LevelCutter {
   /// Brings the cutter onto the track at the level's height, by the best legal way: from outside, along a
   /// helix or through the bore of one that went deeper, along a ramp on the track, or straight down. Returns
   /// the track turned so that it begins where the cutter is. `leaf`: the area inside the track, for a helix.
+  /// A ramp along a closed track goes down to several levels at once, as a helix does; then the track is cut
+  /// to the lowest of them at once, and is `slotted` after that.
   /// Fails  TPA-ENTRY.
   Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
+  /// Whether a ramp along this closed track went down to the level or deeper, and all the way round it there.
+  [[nodiscard]] bool slotted(const Level& level, const Track& track) const;
   /// To a place that is cleared down to the level already, and down to it.
   void go_cleared(const Level& level, geometry::Vec2 p);
   /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
-  const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm);
+  const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm, double cover_mm);
   /// A straight cut on the level to p when it stays within the centres.
   bool cut_to(const Level& level, geometry::Vec2 p);
 
@@ -76,6 +80,10 @@ class LevelCutter {
   std::optional<Track> by_bore(const Level& level, const Track& track, geometry::Vec2 middle);
   /// Lowest of `floors` down to which a helix of this radius stays within the centres.
   [[nodiscard]] double bore_floor(const Level& level, geometry::Vec2 middle, double radius) const;
+  /// The same of a ramp along a track of the level.
+  [[nodiscard]] double slot_floor(const Level& level) const;
+  /// Whether one way in may go from the level's material down to z: chips come out, the cutter reaches.
+  [[nodiscard]] bool may_go_down_to(const Level& level, double z) const;
   std::optional<Track> by_ramp(const Level& level, const Track& track);
   [[nodiscard]] double ramp_angle();
   /// Height of the cutter's end over the level's material where it begins to ramp.
@@ -86,8 +94,13 @@ class LevelCutter {
     double z_mm;
   };
   std::vector<Bore> bores_;  ///< made by helices
+  struct Slot {
+    Track track;
+    double z_mm;
+  };
+  std::vector<Slot> slots_;  ///< made by ramps along closed tracks, below the level they began at
   geometry::Region ringed_;  ///< what `rings_` are of
-  double ringed_apart_mm_ = 0.0;
+  double ringed_apart_mm_ = 0.0, ringed_cover_mm_ = 0.0;
   std::vector<Ring> rings_;
 };
 

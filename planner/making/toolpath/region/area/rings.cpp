@@ -11,13 +11,38 @@ namespace capstan::toolpath {
 using geometry::Region;
 using geometry::Vec2;
 
-std::vector<Ring> rings(const Region& centres, double step_mm) {
+namespace {
+
+/// What is left between the ring round `piece` and what comes after it, mm2. Less than this is rounding.
+constexpr double kCrumb = 1e-4;
+
+bool leaves_a_ridge(const Region& piece, const Region& next, double cover_mm) {
+  const Region open = inset(piece, cover_mm, kInnerChord);
+  if (open.empty()) return false;
+  return next.empty() ||
+         geometry::area(geometry::subtract(open, geometry::offset(next, cover_mm, kInnerChord))) > kCrumb;
+}
+
+/// The piece's next inset: the widest of three steps that leaves no ridge.
+Region next_inset(const Region& piece, double step_mm, double cover_mm) {
+  if (step_mm > cover_mm) {
+    for (const double step : {step_mm, 0.5 * (step_mm + cover_mm)}) {
+      Region next = inset(piece, step, kInnerChord);
+      if (!leaves_a_ridge(piece, next, cover_mm)) return next;
+    }
+  }
+  return inset(piece, std::min(step_mm, cover_mm), kInnerChord);
+}
+
+}  // namespace
+
+std::vector<Ring> rings(const Region& centres, double step_mm, double cover_mm) {
   std::vector<Ring> out;
   for (Region& piece : geometry::pieces(centres)) {
     out.push_back({.piece = std::move(piece), .depth = 0, .parent = out.size(), .children = {}});
   }
   for (std::size_t i = 0; i < out.size(); ++i) {  // out grows while it is walked
-    for (Region& piece : geometry::pieces(inset(out[i].piece, step_mm, kInnerChord))) {
+    for (Region& piece : geometry::pieces(next_inset(out[i].piece, step_mm, cover_mm))) {
       // Crumbs of rounding are no rings.
       if (geometry::area(piece) < 1e-6) continue;
       out[i].children.push_back(out.size());

@@ -1,0 +1,132 @@
+#include "planner/making/toolpath/region/area/rings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/making/toolpath/region/area/work_area.h"
+#include "tests/making/toolpath/path_helpers.h"
+
+namespace capstan::toolpath {
+namespace {
+
+using geometry::Region;
+using geometry::Vec2;
+
+constexpr double kRadius = 4.0;
+
+/// A corner of this angle between sides of 100 mm; the third side is far from it.
+Region corner(double angle_rad) {
+  return geometry::clean({{{0, 0}, {100, 0}, {100 * std::cos(angle_rad), 100 * std::sin(angle_rad)}}});
+}
+
+/// Of a cutter's ends along all rings, what lies within 30 mm of the corner and is not cut, mm2.
+double left_in_corner(const Region& centres, const std::vector<Ring>& all) {
+  Region left = geometry::intersect(centres, geometry::disc({0, 0}, 30.0));
+  for (const Ring& r : all) {
+    for (const auto& loop : r.piece.loops) {
+      std::vector<Vec2> line(loop.begin(), loop.end());
+      line.push_back(loop.front());
+      left = geometry::subtract(left, geometry::stroke(line, kRadius, true));
+    }
+  }
+  return geometry::area(left);
+}
+
+TEST(Rings, AreAsWideApartAsACornerBears) {
+  const double right = 0.5 * std::numbers::pi;
+  const Region centres = geometry::rectangle({0, 0}, {100, 100});
+  const double bears = kRadius * (1.0 + std::sin(0.5 * right));  // rings.h
+  for (const double step : {0.98 * bears, 1.1 * bears}) {
+    const auto all = rings(centres, step, kRadius);
+    ASSERT_GE(all.size(), 2U);
+    EXPECT_LT(left_in_corner(centres, all), 0.01) << step;
+    const double apart = geometry::bounds(all[1].piece).lo.y - geometry::bounds(all[0].piece).lo.y;
+    if (step < bears) {
+      EXPECT_NEAR(apart, step, 0.01);
+    } else {
+      EXPECT_LT(apart, bears);
+    }
+  }
+}
+
+TEST(Rings, AreNoFartherApartThanTheyClearInASharpCorner) {
+  const Region centres = corner(std::numbers::pi / 9.0);  // 20 degrees: 1.17 of the radius
+  const auto all = rings(centres, 1.6 * kRadius, kRadius);
+  ASSERT_GE(all.size(), 2U);
+  EXPECT_LT(left_in_corner(centres, all), 0.01);
+}
+
+TEST(Rings, LeaveNothingInTheMiddleOfTheLast) {
+  // Half as wide as 1.5 radii: one inset of the whole step is none, and a strip would stay in the middle.
+  const Region centres = geometry::rectangle({0, 0}, {60, 3.0 * kRadius});
+  EXPECT_EQ(rings(centres, 1.6 * kRadius, kRadius).size(), 2U);
+  EXPECT_EQ(rings(geometry::rectangle({0, 0}, {60, 1.9 * kRadius}), 1.6 * kRadius, kRadius).size(), 1U);
+}
+
+double way_mm(const GeneratedPath& g) {
+  double out = 0.0;
+  for (std::size_t i = 1; i < g.path.size(); ++i) {
+    if (g.path.role[i] == model::MoveRole::kCut) out += model::move_length(g.path, i);
+  }
+  return out;
+}
+
+TEST(Rings, AreFewerWhereTheyMayBeFartherApart) {
+  PathJob t = area_job(geometry::rounded_rectangle({0, 0}, {60, 40}, 6.0), 5.0, 10.0);
+  t.radial_depth_mm = 4.95;
+  Job job;
+  const auto narrow = generate(t, job);
+  t.radial_depth_mm = 6.5;
+  const auto wide = generate(t, job);
+  ASSERT_TRUE(narrow && wide);
+  EXPECT_LT(way_mm(*wide), 0.95 * way_mm(*narrow));
+}
+
+/// From the wall inwards, climbing, in four levels.
+PathJob inwards() {
+  PathJob t = area_job(geometry::rounded_rectangle({0, 0}, {60, 40}, 6.0), 16.0, 10.0);
+  t.axial_depth_mm = 4.0;
+  t.radial_depth_mm = 6.5;
+  t.cutter.usable_length_mm = 30.0;
+  t.rotation_ccw = false;
+  t.climb = true;
+  return t;
+}
+
+TEST(RingsInwards, RampAlongTheWallOnceForAllLevelsThatChipsAllow) {
+  PathJob t = inwards();
+  Job job;
+  for (const auto& [depth_mm, ways] : {std::pair(20.0, 1), std::pair(9.0, 2), std::pair(0.0, 4)}) {
+    t.ramp_depth_mm = depth_mm;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+    int runs = 0;
+    for (std::size_t i = 1; i < g->path.size(); ++i) {
+      if (g->path.role[i] == model::MoveRole::kRamp && g->path.role[i - 1] != model::MoveRole::kRamp) ++runs;
+    }
+    EXPECT_EQ(runs, ways) << depth_mm;
+    HeightMap map({-5, -5}, {65, 45}, 0.25, 0.0);
+    EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty()) << depth_mm;
+    EXPECT_NEAR(map.highest(geometry::rounded_rectangle({0.3, 0.3}, {59.7, 39.7}, 5.7)), -16.0, 1e-4);
+  }
+}
+
+// The slot down to the last level is cut round once; the levels above it begin with the next ring.
+TEST(RingsInwards, CutTheWallsRingOnceForAllLevels) {
+  PathJob t = inwards();
+  t.ramp_depth_mm = 20.0;
+  Job job;
+  const auto once = generate(t, job);
+  t.ramp_depth_mm = 0.0;
+  const auto each = generate(t, job);
+  ASSERT_TRUE(once && each);
+  const double wall_mm = 2.0 * (50.0 + 30.0) - (8.0 - 2.0 * std::numbers::pi) * 1.0;  // corners of 1 mm
+  EXPECT_NEAR(way_mm(*each) - way_mm(*once), 3.0 * wall_mm, 0.1 * wall_mm);
+}
+
+}  // namespace
+}  // namespace capstan::toolpath
