@@ -59,6 +59,15 @@ TEST(ThreadMill, WhoseNeckIsNotStatedCutsWithAllOfItsLength) {
   EXPECT_TRUE(has(with_neck(0.0), "CHK-FLUTE"));
 }
 
+// The check's cells are some tenths of a millimetre: what is thinner falls between them.
+TEST(ThreadMill, WhoseNeckIsThinnerThanTheChecksCellsIsNotCalledGood) {
+  const auto findings = with_neck(0.01);
+  const auto at = std::find_if(findings.begin(), findings.end(),
+                               [](const auto& f) { return f.code == "CHK-NECK-UNDECIDED"; });
+  ASSERT_NE(at, findings.end());
+  EXPECT_TRUE(at->unproved);
+}
+
 model::StepResult& milling_step(model::Plan& plan) {
   return *std::find_if(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
     return model::find_cutter(plan, s.cutter_id)->cutter_class == model::CutterClass::kThreadMill;
@@ -142,7 +151,8 @@ TEST(ThreadMill, ThatGoesStraightDownIntoItsThreadIsFound) {
   model::StepResult& s = milling_step(plan);
   model::CutterPath path = *s.path;
   const auto first = static_cast<std::size_t>(
-      std::find_if(path.kind.begin(), path.kind.end(), [](model::MoveKind k) { return model::is_arc(k); }) - path.kind.begin());
+      std::find_if(path.kind.begin(), path.kind.end(), [](model::MoveKind k) { return model::is_arc(k); }) -
+      path.kind.begin());
   ASSERT_LT(first + 2, path.size());
   path.kind[first + 1] = model::MoveKind::kLine;
   path.x[first + 1] = path.x[first];

@@ -270,6 +270,34 @@ TEST(FormSlot, OfASharpVeeIsRoughedDownToItsAllowance) {
   EXPECT_LE(gouge(t, *thinner, [](double d) { return std::min(d, 10.0); }), -0.2);
 }
 
+// 2 mm deeper at 1.5 degrees take 76 mm of a way; the slot's middle is 40 mm long.
+TEST(FormSlot, TooShortForOneWayDownIsGoneToAndFroAlong) {
+  PathJob t = form_slot(3.0, 0.5 * kPi, 8.0, false);
+  t.operation = TypeId::kBottomAndSideRoughMilling;
+  t.cutter = cutter(model::CutterClass::kEndmill, 5.0, 0.0);
+  t.axial_depth_mm = 2.0;
+  t.allowance_side_mm = 0.2;
+  const double most = 1.5 * kPi / 180.0;
+  t.ramp_angle_rad = t.cutter.maximum_ramp_angle_rad = most;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  int down = 0, turns = 0;
+  double before = 0.0;
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    const double fall = g->path.z[i - 1] - g->path.z[i];
+    if (g->path.kind[i] == MoveKind::kRapid || !(g->path.z[i] < -1e-6) || !(fall > 1e-9)) continue;
+    const double dx = g->path.x[i] - g->path.x[i - 1];
+    EXPECT_LE(std::atan2(fall, std::hypot(dx, g->path.y[i] - g->path.y[i - 1])), most + 1e-6) << i;
+    ++down;
+    turns += dx * before < 0.0 ? 1 : 0;
+    before = dx;
+  }
+  EXPECT_GT(down, 0);
+  EXPECT_GT(turns, 0);
+  EXPECT_LE(gouge(t, *g, rounded_vee(3.0, 0.5 * kPi, 8.0)), 1e-6);
+}
+
 TEST(FormSlot, IsSteppedFinelyByAFlatEndThatFinishes) {
   PathJob t = form_slot(3.0, 0.5 * kPi, 13.0, true);
   t.operation = TypeId::kBottomAndSideFinishMilling;
