@@ -65,9 +65,13 @@ std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, con
   const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const optimise::Options options = options_of(asked.inputs);
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
-  const propose::Choice choice{
-      piece, cutters, asked.bans, options, asked.margin.deviations, required.demands.batch,
-      asked.inputs.cases.get()};
+  const propose::Choice choice{piece,
+                               cutters,
+                               asked.bans,
+                               options,
+                               asked.margin.deviations,
+                               required.demands.batch,
+                               asked.inputs.cases.get()};
   const propose::Sources sources{asked.inputs.rules, required.demands, asked.unreadable, choice,
                                  asked.policy.reopen >= Reopen::kOperations};
   auto made = propose::propose_missing(plan, std::move(drafts), sources, job);
@@ -92,9 +96,8 @@ Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& requi
                              asked.inputs.tool_materials,
                              asked.inputs.cases.get()};
   given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);
-  const bool magazine_known =
-      std::any_of(library.begin(), library.end(), [](const model::Cutter& c) { return c.loaded; });
-  drafts.used = propose::share_tools(plan, drafts.steps, magazine_known, required.demands.batch);
+  drafts.used =
+      propose::share_tools(plan, drafts.steps, propose::magazine_known(library), required.demands.batch);
   given::stand_out_alike(drafts.steps);
   return drafts;
 }

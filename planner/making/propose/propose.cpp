@@ -17,6 +17,7 @@
 #include "planner/making/propose/members.h"
 #include "planner/making/propose/needed.h"
 #include "planner/making/propose/operation_nouns.h"
+#include "planner/making/propose/shared_tools.h"
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -367,9 +368,13 @@ class Proposer {
                                   "; deburr them, or state a chamfer");
     }
     const FeatureShape s = reachable_side(f, given);
-    std::vector<model::Rejected> rejected = p.rejected;
     const Member member{f, s.feature, s.member};
-    const Chosen chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
+    std::vector<model::Rejected> rejected = p.rejected;
+    Chosen chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
+    if (chosen.chain == nullptr && magazine_emptied()) {
+      rejected = p.rejected;
+      chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
+    }
     if (chosen.chain == nullptr) {
       const bool tried = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
         return choice_.bans.chain_banned(member, draft::key_of(chain)) != nullptr;
@@ -427,6 +432,15 @@ class Proposer {
       out_.drafts.steps.push_back(std::move(step));
     }
     return made;
+  }
+
+  /// Shares tools where they fill the magazine; whether that made room.
+  bool magazine_emptied() {
+    const std::size_t before = out_.drafts.used.size();
+    const int pockets = plan_.machine.magazine_pockets;
+    if (pockets < 1 || before < static_cast<std::size_t>(pockets)) return false;
+    out_.drafts.used = share_tools(plan_, out_.drafts.steps, magazine_known(choice_.usable), choice_.batch);
+    return out_.drafts.used.size() < before;
   }
 
   ProbingDraft probing_at(const std::vector<model::ProposedStep>& chain, std::size_t i,

@@ -57,6 +57,7 @@ class Sharer {
     std::vector<std::string> used;
     for (const StepDraft& s : steps_) {
       if (!s.cutter.id.empty()) tooling::use(used, s.cutter.id);
+      if (s.probing && s.probing->probe) tooling::use(used, s.probing->probe->cutter.id);
     }
     return used;
   }
@@ -184,6 +185,10 @@ class Sharer {
 };
 
 }  // namespace
+
+bool magazine_known(const std::vector<model::Cutter>& cutters) {
+  return std::any_of(cutters.begin(), cutters.end(), [](const model::Cutter& c) { return c.loaded; });
+}
 
 std::vector<std::string> share_tools(model::Plan& plan, std::vector<StepDraft>& steps, bool magazine_known,
                                      int batch) {

@@ -62,21 +62,21 @@ TEST_F(CorpusExample2Holes, AreEachPlannedByTheChainThatAMachinistWouldTake) {
   EXPECT_THAT(reasons_unplanned(s.plan), IsEmpty());
   auto chains = made(s.plan);
   // 40 H7 through: drilled in two steps that 48 Nm turn, opened by an end mill, bored. Its edge is
-  // toleranced.
-  EXPECT_THAT(chains["HOLE1[1]"], ElementsAre("centre", "pilot", "pilot", "mill_rough", "bore"));
+  // toleranced. Carbide drills start by their own points: no spot before them up to five diameters.
+  EXPECT_THAT(chains["HOLE1[1]"], ElementsAre("pilot", "pilot", "mill_rough", "bore"));
   EXPECT_THAT(chains["HOLE1[2]"], ElementsAre("countersink_mill"));
   for (const std::string hole : {"HOLE2", "HOLE3"}) {
     EXPECT_THAT(chains[hole + "[1]"], ElementsAre("mill_rough", "mill_finish", "bore")) << "25 IT7 over 15";
-    EXPECT_THAT(chains[hole + "[2]"], ElementsAre("centre", "drill", "ream"));
+    EXPECT_THAT(chains[hole + "[2]"], ElementsAre("drill", "ream"));
     EXPECT_THAT(chains[hole + "[3]"], ElementsAre("countersink_mill", "countersink_mill"));
   }
-  EXPECT_THAT(chains["HOLE4[1]"], ElementsAre("centre", "drill", "ream"));
+  EXPECT_THAT(chains["HOLE4[1]"], ElementsAre("drill", "ream"));
   EXPECT_THAT(chains["HOLE4[2]"], ElementsAre("countersink_mill", "countersink_mill"));
   // 8.3 IT8 has no reamer; the thread's length lies in its core; the cone's foot is wider than the core.
-  EXPECT_THAT(chains["HOLE5[1]"], ElementsAre("centre", "drill", "bore"));
+  EXPECT_THAT(chains["HOLE5[1]"], ElementsAre("drill", "bore"));
   EXPECT_EQ(chains.count("HOLE5[2]"), 0U);
   EXPECT_THAT(chains["HOLE5[3]"], ElementsAre("taper_rough", "countersink_mill", "countersink_mill"));
-  EXPECT_THAT(chains["HOLE6[1]"], ElementsAre("centre", "drill", "ream"));
+  EXPECT_THAT(chains["HOLE6[1]"], ElementsAre("drill", "ream"));
   EXPECT_THAT(chains["HOLE6[2]"], ElementsAre("countersink_mill", "countersink_mill"));
 }
 

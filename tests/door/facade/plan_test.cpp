@@ -18,10 +18,12 @@ using ::testing::HasSubstr;
 const std::string kBracket = capstan::testing::source_dir() + "/examples/bracket.p21";
 
 TEST(Facade, GivesNoProgramThatTheCheckCondemnsUnlessAsked) {
+  // Operations, tools and depths of a strong machine are asked of a weak one.
+  const std::string strong = plan_file(kBracket, {}).json;
   PlanOptions options;
   options.machine = "small_router";
-  options.margin = "careful";
-  const PlanOutput held = plan_file(kBracket, options);
+  options.reopen = "technology";
+  const PlanOutput held = plan_bytes(strong, "strong.json", options);
   ASSERT_TRUE(held.planned);
   EXPECT_FALSE(held.json.empty());
   EXPECT_FALSE(held.iso14649.empty());
@@ -31,7 +33,7 @@ TEST(Facade, GivesNoProgramThatTheCheckCondemnsUnlessAsked) {
   EXPECT_EQ(held.condemned[0].severity, "error");
   EXPECT_FALSE(held.condemned[0].text.empty());
   options.allow_findings = true;
-  const PlanOutput all_the_same = plan_file(kBracket, options);
+  const PlanOutput all_the_same = plan_bytes(strong, "strong.json", options);
   EXPECT_THAT(all_the_same.linuxcnc, HasSubstr("condemned=\""));
   EXPECT_THAT(all_the_same.linuxcnc, HasSubstr("\nM0\n"));
   EXPECT_FALSE(all_the_same.tool_table.empty());

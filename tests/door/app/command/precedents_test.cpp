@@ -25,7 +25,19 @@ class Precedents : public CommandTest {
   void SetUp() override {
     CommandTest::SetUp();
     put("plate.p21", testing::drilled_plate());
-    const Ran r = run("plan plate.p21 --material C45 --reopen all -o plain.json -o plain.ngc");
+    // One drill alone: failures cannot send the hole to another.
+    put("shop.yaml",
+        "capstan_tools: 1\nunit: mm\nsource: a test\ntools:\n"
+        "  - {id: spot, class: spot_drill, substrate: hss, cutting_diameter: 10, shank_diameter: 10, teeth: "
+        "2, "
+        "point_angle_deg: 90, maximum_depth_of_cut: 5, usable_length: 25, stick_out: 40, "
+        "functional_length: 110, centre_cutting: true, pocket: 1}\n"
+        "  - {id: drill, class: twist_drill, substrate: hss, cutting_diameter: 10, shank_diameter: 10, "
+        "teeth: 2, "
+        "point_angle_deg: 118, maximum_depth_of_cut: 87, usable_length: 80, stick_out: 95, "
+        "functional_length: 165, centre_cutting: true, pocket: 2}\n");
+    const Ran r =
+        run("plan plate.p21 --material C45 --reopen all --tools shop.yaml -o plain.json -o plain.ngc");
     ASSERT_LE(r.code, 1) << r.err;
     Job job;
     const auto plan = service::read_plan(slurp(folder_ / "plain.json"), "plain.json", job);
@@ -61,7 +73,8 @@ class Precedents : public CommandTest {
 
   /// Plans with that base; the program.
   std::string program(const std::string& base) {
-    last_ = run("plan plate.p21 --material C45 --reopen all --cases " + base + " -o out.json -o out.ngc");
+    last_ = run("plan plate.p21 --material C45 --reopen all --tools shop.yaml --cases " + base +
+                " -o out.json -o out.ngc");
     EXPECT_LE(last_.code, 1) << last_.err;
     const Ran checked = run("check out.json");
     EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
