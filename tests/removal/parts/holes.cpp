@@ -29,7 +29,7 @@ Part single_holes() {
   d.hole("SPHERICAL", d.placement({36, 10, 0}), 9, 8, d.spherical_bottom(4));
   d.hole("THROUGH", d.placement({49, 10, 0}), 16, 5, d.through_bottom());
   Target t(body(b));
-  t.cut(drilled(8, 10, 6, -8, 118));
+  t.cut(drilled(8, 10, 6, -8, kBluntestDeg), drilled(8, 10, 6, -8, 118));
   t.cut(cylinder(21, 10, 5, -6, kOver));
   t.cut(either({cylinder(36, 10, 4, -5, kOver), sphere({36, 10, -5}, 4)}));
   t.cut(cylinder(49, 10, 2.5, -18, kOver));
@@ -60,7 +60,7 @@ Part compound_holes() {
   t.cut(cone(38, 10, -2, 2.5, 0.2, 4.7));
   t.cut(cylinder(24, 25, 7, -3, kOver));
   t.cut(cylinder(24, 25, 5, -7, kOver));
-  t.cut(drilled(24, 25, 4, -12, 118));
+  t.cut(drilled(24, 25, 4, -12, kBluntestDeg), drilled(24, 25, 4, -12, 118));
   return {"compound_holes", d.text(), b, t};
 }
 
@@ -73,7 +73,7 @@ Part threaded_hole() {
   d.thread("M6", at, 12, core, 6, 1);
   Target t(body(b));
   // The flanks lie anywhere between core and 6 mm; a tap runs on by its chamfer.
-  t.cut(drilled(12, 12, 5, -17, 118),
+  t.cut(drilled(12, 12, 5, -17, kBluntestDeg),
         either({drilled(12, 12, 5.1, -17, 118), cylinder(12, 12, 3.05, -16, kOver)}));
   return {"threaded_hole", d.text(), b, t};
 }
@@ -116,8 +116,8 @@ Part holes_near_walls() {
   d.hole("ON LAND", d.placement({41, 20, 0}), 12, 5, d.conical_bottom(118));
   Target t(body(b));
   t.cut(prism(rounded_rectangle(7, 8, 37, 32, 4), -10, kOver));
-  t.cut(drilled(33, 20, 5, -18, 118, -9));
-  t.cut(drilled(41, 20, 5, -12, 118));
+  t.cut(drilled(33, 20, 5, -18, kBluntestDeg, -9), drilled(33, 20, 5, -18, 118, -9));
+  t.cut(drilled(41, 20, 5, -12, kBluntestDeg), drilled(41, 20, 5, -12, 118));
   return {"holes_near_walls", d.text(), b, t};
 }
 

@@ -25,8 +25,10 @@ Part tight_holes() {
   t.cut(cone(16, 20, -0.5, 8, 0.2, 8.7));
   t.cut(cone(42, 20, -0.5, 5, 0.2, 5.7));
   t.cut(cylinder(42, 20, 4.15, -20, 2));
-  // 120 degrees: 4.15 / tan 60 below the full diameter.
-  t.cut(cone(42, 20, -20 - 2.39600, 0, -19.99, 4.15 + 0.01 * 1.73205));
+  // 120 degrees: 4.15 / tan 60 below the full diameter; 4.15 / tan 70 where the bluntest drill makes it.
+  static_assert(kBluntestDeg == 140.0);
+  t.cut(cone(42, 20, -20 - 1.51048, 0, -19.99, 4.15 + 0.01 * 2.74748),
+        cone(42, 20, -20 - 2.39600, 0, -19.99, 4.15 + 0.01 * 1.73205));
   return {"tight_holes", d.text(), b, t};
 }
 

@@ -36,8 +36,11 @@ void Maker::hole(const std::string& name) {
     case 2: {
       drawing_.hole(name, at(dx, dy), deep, d, drawing_.conical_bottom(118), 0, tolerance);
       bored(x, y, d, -deep, kOver, tolerance);
-      const double tip = d / 2 / std::tan(59 * kDeg);
-      return target_.cut(cone(x, y, -deep - tip, 0, -deep + 0.01, d / 2 * (1 + 0.01 / tip)));
+      const auto point = [&](double angle_deg) {
+        const double tip = d / 2 / std::tan(angle_deg / 2 * kDeg);
+        return cone(x, y, -deep - tip, 0, -deep + 0.01, d / 2 * (1 + 0.01 / tip));
+      };
+      return target_.cut(point(kBluntestDeg), point(118));
     }
     default:
       drawing_.hole(name, at(dx, dy), deep + d / 2, d, drawing_.spherical_bottom(d / 2), 0, 0.1);
@@ -83,14 +86,15 @@ void Maker::thread(const std::string& name) {
   const auto core = drawing_.hole_of(name + " CORE", at(), deep, drawing_.length(s.core, 0.15, 0.05),
                                      drawing_.conical_bottom(118));
   drawing_.thread(name, at(), full, core, s.major, s.pitch);
-  const double tip = s.core / 2 / std::tan(59 * kDeg);
-  const auto drilled = [&](double more) {
+  const auto drilled = [&](double more, double angle_deg) {
+    const double tip = s.core / 2 / std::tan(angle_deg / 2 * kDeg);
     return either({cylinder(x_, y_, s.core / 2 + more, -deep, kOver),
                    cone(x_, y_, -deep - tip, more, -deep + 0.01, s.core / 2 * (1 + 0.01 / tip) + more)});
   };
   // The flanks lie anywhere between core and major diameter; a tap runs on by its chamfer.
-  target_.cut(drilled(-0.025),
-              either({drilled(0.075), cylinder(x_, y_, s.major / 2 + 0.05, -full - 3.5 * s.pitch, kOver)}));
+  target_.cut(
+      drilled(-0.025, kBluntestDeg),
+      either({drilled(0.075, 118), cylinder(x_, y_, s.major / 2 + 0.05, -full - 3.5 * s.pitch, kOver)}));
   for (const char* of : {"", " CORE"}) keep_field(name + of);
 }
 

@@ -83,8 +83,11 @@ void Maker::nested(const std::string& name) {
     const Point q = seen(copies[i].x - off * c, copies[i].y - off * s, outer);
     bored(p.x, p.y, d, -height_ - kOver, kOver, 0.1);
     bored(q.x, q.y, e, -deep, kOver, 0.1);
-    const double tip = e / 2 / std::tan(59 * kDeg);
-    target_.cut(cone(q.x, q.y, -deep - tip, 0, -deep + 0.01, e / 2 * (1 + 0.01 / tip)));
+    const auto point = [&](double angle_deg) {
+      const double tip = e / 2 / std::tan(angle_deg / 2 * kDeg);
+      return cone(q.x, q.y, -deep - tip, 0, -deep + 0.01, e / 2 * (1 + 0.01 / tip));
+    };
+    target_.cut(point(kBluntestDeg), point(118));
   }
   for (const char* of : {"", " THROUGH", " BLIND", " PAIR"}) keep_field(name + of);
 }

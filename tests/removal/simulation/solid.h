@@ -45,6 +45,10 @@ using Depth2 = std::function<double(double, double)>;
 /// Turned about the upright line through x, y, counter-clockwise.
 [[nodiscard]] Depth rotated(Depth a, double x, double y, double angle_rad);
 
+/// The bluntest drill for a conical bottom, whole angle: what it leaves in the point may stay
+/// (rules/data/hole.yaml, bluntest_deg).
+inline constexpr double kBluntestDeg = 140.0;
+
 /// The wanted part: a block with hollows. Between the least and the most of a hollow either is right.
 class Target {
  public:
