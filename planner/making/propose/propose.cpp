@@ -371,7 +371,7 @@ class Proposer {
     const Member member{f, s.feature, s.member};
     std::vector<model::Rejected> rejected = p.rejected;
     Chosen chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
-    if (chosen.chain == nullptr && magazine_emptied()) {
+    if (chosen.chain == nullptr && room_made_for(p)) {
       rejected = p.rejected;
       chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
     }
@@ -434,11 +434,13 @@ class Proposer {
     return made;
   }
 
-  /// Shares tools where they fill the magazine; whether that made room.
-  bool magazine_emptied() {
+  /// Shares tools where the magazine may be too small for a chain; whether that made room.
+  bool room_made_for(const model::Proposal& p) {
     const std::size_t before = out_.drafts.used.size();
+    std::size_t longest = 0;
+    for (const auto& chain : p.chains) longest = std::max(longest, chain.size());
     const int pockets = plan_.machine.magazine_pockets;
-    if (pockets < 1 || before < static_cast<std::size_t>(pockets)) return false;
+    if (pockets < 1 || before + longest <= static_cast<std::size_t>(pockets)) return false;
     out_.drafts.used = share_tools(plan_, out_.drafts.steps, magazine_known(choice_.usable), choice_.batch);
     return out_.drafts.used.size() < before;
   }
