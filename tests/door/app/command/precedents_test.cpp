@@ -28,7 +28,7 @@ class Precedents : public CommandTest {
     // One drill alone: failures cannot send the hole to another.
     put("shop.yaml",
         "capstan_tools: 1\nunit: mm\nsource: a test\ntools:\n"
-        "  - {id: spot, class: spot_drill, substrate: hss, cutting_diameter: 10, shank_diameter: 10, teeth: "
+        "  - {id: spot, class: spotdrill, substrate: hss, cutting_diameter: 10, shank_diameter: 10, teeth: "
         "2, "
         "point_angle_deg: 90, maximum_depth_of_cut: 5, usable_length: 25, stick_out: 40, "
         "functional_length: 110, centre_cutting: true, pocket: 1}\n"
