@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,17 @@ struct FileKind {
   std::string_view media;   ///< media type (RFC 6838)
 };
 
+/// What a control is able to do with a program: its conformance profile. `suitability.h` holds plans against
+/// it.
+struct Conformance {
+  bool arcs = true;                  ///< in the XY plane
+  bool helices = true;               ///< arcs that also go up or down
+  bool rigid_tapping = true;         ///< turns and feed of a tap are kept together, back as well
+  bool path_tolerance = true;        ///< a program may say how far corners are rounded
+  int largest_tool_number = 0;       ///< 0: not limited
+  std::size_t look_ahead_moves = 0;  ///< it is ready to stop within so many moves; 0: not limited
+};
+
 /// One control that programs are written for: what it is, what its files hold and who writes them. How it
 /// follows a path is in ground/vocabulary/path_following.h, for timing and feeds need it; who reads its
 /// programs back for the check in proof/verify/program/readers.cpp.
@@ -27,6 +39,7 @@ struct Dialect {
   std::string_view name;                           ///< for people
   FileKind program, tool_table;                    ///< `tool_table` is empty for a control that reads none
   std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
+  Conformance conformance;
   /// The plan as one program. `condemned` (model::condemned): why it must not be run; the program says so and
   /// stops before each condemned step.
   Result<std::string> (*write_program)(const model::Plan& plan, Job& job,

@@ -28,7 +28,7 @@ double moving_s(const Record& r) {
 
 std::string ini_value(const std::string& section, const std::string& key) {
   std::istringstream lines(
-      testing::slurp(capstan::testing::source_dir() + "/tests/linuxcnc/machine/machine.ini"));
+      testing::slurp(capstan::testing::source_dir() + "/examples/linuxcnc/machine/machine.ini"));
   std::string in;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("[")) in = line;

@@ -25,14 +25,16 @@ std::string_view word(std::string_view& text) {
   return out;
 }
 
-// "number x y z speed line" per row. A gap in the numbers is time that nobody saw.
+}  // namespace
+
+// "number x y z speed line rpm tool mark" per row. A gap in the numbers is time that nobody saw.
 std::string read_samples(std::string_view text, Record& out) {
   double expected = -1.0;
   while (!text.empty()) {
     const auto end = std::min(text.find('\n'), text.size());
     std::string_view row = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    double values[6] = {};
+    double values[9] = {};
     for (double& v : values) {
       const auto number = parse_double(word(row));
       if (!number) return "samples were lost";
@@ -45,11 +47,12 @@ std::string read_samples(std::string_view text, Record& out) {
     out.z_mm.push_back(values[3]);
     out.speed_mm_s.push_back(values[4]);
     out.line.push_back(static_cast<int>(values[5]));
+    out.rpm.push_back(values[6]);
+    out.tool.push_back(static_cast<int>(values[7]));
+    out.mark.push_back(static_cast<int>(values[8]));
   }
   return out.size() == 0 ? "there are no samples" : "";
 }
-
-}  // namespace
 
 Record run(const Order& order) {
   const testing::ScratchFolder folder;
@@ -60,11 +63,11 @@ Record run(const Order& order) {
     return out;
   }
   // The system's own Python: LinuxCNC's module is built for that one.
-  std::string command =
-      "/usr/bin/python3 " +
-      capstan::testing::source_dir() + "/tests/linuxcnc/run.py --clock " CAPSTAN_FAST_CLOCK " --program " +
-      quoted(folder.file("program.ngc")) + " --tools " + quoted(folder.file("tools.tbl")) + " --samples " +
-      quoted(folder.file("samples.txt")) + " --rate " + trimmed(order.rate, 3);
+  std::string command = "/usr/bin/python3 " + capstan::testing::source_dir() +
+                        "/tests/linuxcnc/run.py --clock " CAPSTAN_FAST_CLOCK " --program " +
+                        quoted(folder.file("program.ngc")) + " --tools " + quoted(folder.file("tools.tbl")) +
+                        " --samples " + quoted(folder.file("samples.txt")) + " --rate " +
+                        trimmed(order.rate, 3);
   for (const std::string& o : order.offsets) command += " --offset " + quoted(o);
   command += " > " + quoted(folder.file("said.txt")) + " 2>&1 < /dev/null";
   const int status = std::system(command.c_str());

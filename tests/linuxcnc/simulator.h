@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace capstan::linuxcnc {
@@ -18,6 +19,9 @@ struct Record {
   std::vector<double> x_mm, y_mm, z_mm;  ///< of the machine, at the spindle's nose
   std::vector<double> speed_mm_s;        ///< along the path; 0 where it stands
   std::vector<int> line;                 ///< of the program, from 1
+  std::vector<double> rpm;               ///< of the spindle as it turns
+  std::vector<int> tool;                 ///< in the spindle; 0: none
+  std::vector<int> mark;                 ///< set by who runs the machine, to tell runs from each other
   std::string absent;                    ///< why there is no LinuxCNC to ask; empty: there is
   std::string failed;                    ///< why the program did not run to its end; empty: it did
   [[nodiscard]] std::size_t size() const { return line.size(); }
@@ -25,6 +29,9 @@ struct Record {
 
 /// Seconds between two entries of a record. Source: SERVO_PERIOD of machine/machine.ini.
 inline constexpr double kServoPeriod = 0.001;
+
+/// Adds what simulated.py sampled, a row per servo period, to `out`; why it cannot be used, or nothing.
+[[nodiscard]] std::string read_samples(std::string_view text, Record& out);
 
 /// Runs the program on LinuxCNC without a screen (run.py) and waits for its end. One at a time on a computer:
 /// others wait. Leaves no process, file or shared memory behind.

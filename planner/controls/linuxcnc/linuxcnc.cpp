@@ -43,6 +43,9 @@ constinit const Dialect kDialect{
     .program = {"linuxcnc", ".ngc", "text/x-gcode"},
     .tool_table = {"linuxcnc_tools", ".tbl", "text/plain"},
     .work_offsets = kWorkOffsets,
+    // Source: LinuxCNC 2.9, its manual: G2, G3, G33.1, G64 P; tool table, T 0 to 99999; [TRAJ]
+    // ARC_BLEND_OPTIMIZATION_DEPTH, 50 by default.
+    .conformance = {.largest_tool_number = 99999, .look_ahead_moves = 50},
     .write_program = &write_program,
     .write_tool_table = &write_tool_table,
 };

@@ -1,6 +1,10 @@
 #include "planner/door/pipeline/program_check.h"
 
+#include <iterator>
+#include <utility>
+
 #include "planner/controls/controls.h"
+#include "planner/controls/suitability.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::pipeline {
@@ -13,6 +17,8 @@ std::vector<model::Finding> findings_of(const Checked& checked, Job& job, Checke
   const model::Plan& plan = checked.plan;
   std::vector<model::Finding> out = checked.findings;
   if (plan.steps.empty()) return out;
+  auto unsuited = controls::suitability(plan);
+  std::move(unsuited.begin(), unsuited.end(), std::back_inserter(out));
   const auto program = controls::write_program(plan, job);
   if (!program) {
     model::Finding f;

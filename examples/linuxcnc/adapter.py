@@ -1,0 +1,312 @@
+#!/usr/bin/python3
+"""Stands between LinuxCNC and Capstan: binds each workingstep for the machine as it is when its turn comes.
+
+A program calls M101 P<n>; ask.py hands the question on to this process, which reads the live tool table and work offset,
+has the planner (binder.py) bind the plan before a deadline, checks what comes back, writes the subroutine of that workingstep
+to a temporary file, syncs it, renames it, and remembers its hash and the machine's state. M102 P<n> fails unless file and
+state are still those. Any doubt is a refusal with its reason on the screen: the program ends, and the machine stands as it
+stood while it waited, retracted and with its spindle stopped.
+
+Watchdog: a planner that does not answer within its deadline and `--grace` is killed. ask.py watches this process.
+Restart: `journal.jsonl` has what was cut, line by line; M101 P0 says which workingstep is the next one.
+"""
+import argparse
+import datetime
+import hashlib
+import json
+import os
+import pathlib
+import re
+import select
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+
+import linuxcnc
+
+import program as programs
+from program import Refused
+
+SOCKET = 'capstan.socket'
+LOADED = 'loaded.tbl'
+SCREEN = 220  # characters of a message that LinuxCNC's screen takes (256 with its own words)
+
+
+class Planner:
+    """The planner's process: begun when it is needed, killed when it is late, never waited for."""
+
+    def __init__(self, command):
+        self.command, self.process = command, None
+
+    def end(self):
+        if self.process:
+            self.process.kill()
+            self.process.wait()
+            self.process = None
+
+    def ask(self, request, seconds):
+        if self.process is None or self.process.poll() is not None:
+            self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        try:
+            self.process.stdin.write((json.dumps(request) + '\n').encode())
+            self.process.stdin.flush()
+            return json.loads(self.answer(seconds))
+        except (OSError, ValueError) as error:
+            self.end()
+            raise Refused('the planner ended before it answered') from error
+
+    def answer(self, seconds):
+        end, text = time.monotonic() + seconds, b''
+        while not text.endswith(b'\n'):
+            left = end - time.monotonic()
+            if left <= 0.0 or not select.select([self.process.stdout], [], [], left)[0]:
+                self.end()
+                raise Refused(f'the planner did not answer within {seconds:g} s and was ended')
+            part = os.read(self.process.stdout.fileno(), 65536)
+            if not part:
+                raise ValueError('no answer')
+            text += part
+        return text
+
+
+class Machine:
+    """LinuxCNC as it is now."""
+
+    def __init__(self, ini):
+        nml = linuxcnc.ini(ini).find('EMC', 'NML_FILE')
+        if nml:
+            linuxcnc.nmlfile = os.path.abspath(nml)
+        self.table_file = linuxcnc.ini(ini).find('EMCIO', 'TOOL_TABLE')
+        self.stat, self.command = linuxcnc.stat(), linuxcnc.command()
+
+    def say(self, text):
+        self.command.error_msg(text[:SCREEN])
+
+    def state(self, measured):
+        """Tools by number (Z, D in mm), work offset and axis limits in mm."""
+        s = self.stat
+        s.poll()
+        if abs(s.linear_units - 1.0) > 1e-9:
+            raise Refused('the machine is not in millimetres; this adapter knows no other unit')
+        if s.g5x_index != 1 or any(s.g92_offset) or s.rotation_xy != 0.0:
+            raise Refused(f'work offset {s.g5x_index} with G92 {list(s.g92_offset)} and rotation {s.rotation_xy} is '
+                          'active; expected the first one, G54, with neither')
+        # The first row is the tool in the spindle.
+        tools = {t.id: {'z': round(t.zoffset, 6), 'd': round(measured.get(t.id, t.diameter), 6)}
+                 for t in s.tool_table[1:] if t.id > 0}
+        limits = {name: (s.axis[i]['min_position_limit'], s.axis[i]['max_position_limit'])
+                  for i, name in enumerate('XYZ')}
+        return {'tools': tools, 'offset': [round(v, 6) for v in s.g5x_offset[:3]], 'limits': limits}
+
+    def standing(self):
+        """Fails while the spindle turns."""
+        self.stat.poll()
+        if self.stat.spindle[0]['enabled']:
+            raise Refused('the spindle turns; a workingstep is bound while it stands')
+
+    def comments(self):
+        """What the tool table's file says of each tool beside its numbers: what kind of tool it is."""
+        out = {}
+        for line in pathlib.Path(self.table_file).read_text().splitlines():
+            number = re.match(r'T(\d+)\b', line)
+            if number:
+                pocket = re.search(r'\bP(\d+)\b', line.split(';')[0])
+                out[int(number[1])] = (pocket[1] if pocket else number[1], line.partition(';')[2])
+        return out
+
+
+def written(path, text):
+    """The whole file or none: temporary, synced, renamed, and the folder synced."""
+    temporary = f'{path}.tmp'
+    try:
+        with open(temporary, 'w') as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.rename(temporary, path)
+        folder = os.open('.', os.O_RDONLY)
+        os.fsync(folder)
+        os.close(folder)
+    except OSError as error:
+        pathlib.Path(temporary).unlink(missing_ok=True)
+        raise Refused(f'{path} cannot be written: {error.strerror}') from error
+
+
+def tell_program(first, steps):
+    """What the running program reads with M66 E0 and E1: inputs of the control that nothing else drives."""
+    for number, value in ((0, first), (1, steps)):
+        subprocess.run(['halcmd', 'setp', f'motion.analog-in-{number:02}', str(value)], check=True,
+                       stdin=subprocess.DEVNULL)
+
+
+class Journal:
+    """What was bound, cut and refused, one line each; what was cut survives a restart."""
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+        self.cut = {}
+        if self.path.exists():
+            for line in self.path.read_text().splitlines():
+                try:
+                    entry = json.loads(line)
+                except ValueError:
+                    continue  # the power went while it was written
+                if entry['event'] == 'cut':
+                    self.cut[entry['step']] = entry['lines_sha256']
+
+    def add(self, event, **what):
+        now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec='milliseconds')
+        with open(self.path, 'a') as file:
+            file.write(json.dumps({'time': now, 'event': event, **what}) + '\n')
+            file.flush()
+            os.fsync(file.fileno())
+        if event == 'cut':
+            self.cut[what['step']] = what['lines_sha256']
+
+
+class Adapter:
+    def __init__(self, options):
+        self.options = options
+        self.machine = Machine(options.ini)
+        self.planner = Planner(options.planner)
+        self.journal = Journal(options.journal)
+        self.measured, self.material = {}, options.material
+        self.bound = {}  # n -> (program, step, state, hash)
+
+    def plan(self, state):
+        comments = self.machine.comments()
+        rows = [f'T{t} P{comments.get(t, (t, ""))[0]} Z{v["z"]:+.6f} D{v["d"]:+.6f} ;{comments.get(t, (t, ""))[1]}'
+                for t, v in sorted(state['tools'].items())]
+        written(LOADED, '\n'.join(rows) + '\n')
+        options = {'machine': self.options.machine, 'tools': LOADED}
+        if self.material:
+            options['material'] = self.material
+        request = {'plan': self.options.plan, 'options': options, 'deadline_ms': int(1000 * self.options.deadline)}
+        return programs.of_answer(self.planner.ask(request, self.options.deadline + self.options.grace))
+
+    def bind(self, n):
+        self.machine.standing()
+        state = self.machine.state(self.measured)
+        plan = self.plan(state)
+        for step in plan.steps:
+            if step.n in self.journal.cut and step.sha256 != self.journal.cut[step.n]:
+                raise Refused(f'workingstep {step.n} was cut otherwise than this plan has it: plan the rest anew')
+        tell_program(first=1 + len(self.journal.cut), steps=len(plan.steps))
+        if n == 0:
+            return
+        if not 1 <= n <= len(plan.steps):
+            raise Refused(f'there is no workingstep {n}')
+        step = plan.steps[n - 1]
+        programs.check_tools(plan, step, state['tools'])
+        programs.check_travel(step, state['offset'], state['tools'][step.tool]['z'], state['limits'])
+        text = plan.subroutine(step, self.binding(state))
+        written(f'{programs.FIRST + n}.ngc', text)
+        self.bound[n] = (step, state, programs.END.search(text)[1])
+        self.journal.add('bound', step=n, id=step.id, tool=step.tool, file_sha256=self.bound[n][2],
+                         material=self.material, **state)
+
+    def binding(self, state):
+        """Names the machine's state and the moment: two bindings have different subroutines."""
+        seen = hashlib.sha256(json.dumps([state, self.material, self.measured]).encode()).hexdigest()
+        return f'state={seen[:16]} at={time.time_ns()}'
+
+    def check(self, n):
+        if n not in self.bound:
+            raise Refused(f'workingstep {n} was not bound')
+        _, state, expected = self.bound[n]
+        name = f'{programs.FIRST + n}.ngc'
+        try:
+            programs.check_text(pathlib.Path(name).read_text(), expected)
+        except Refused as error:
+            raise Refused(f'{name}: {error}') from error
+        if self.machine.state(self.measured) != state:
+            raise Refused(f'{name}: tool table or work offset changed since it was bound')
+
+    def done(self, n):
+        if n not in self.bound:
+            raise Refused(f'workingstep {n} was not bound')
+        step = self.bound.pop(n)[0]
+        s = self.machine.stat
+        s.poll()
+        self.journal.add('cut', step=n, id=step.id, lines_sha256=step.sha256, tool_in_spindle=s.tool_in_spindle,
+                         position_mm=[round(v, 6) for v in s.actual_position[:3]],
+                         following_error_max_mm=[s.joint[i]['ferror_highmark'] for i in range(s.joints)])
+
+    def answer(self, words):
+        verb, numbers = words[0], words[1:]
+        if verb == 'material':
+            self.material = numbers[0]
+            self.journal.add('material', name=self.material)
+        elif verb == 'measured':
+            self.measured[int(float(numbers[0]))] = float(numbers[1])
+            self.journal.add('measured', tool=int(float(numbers[0])), diameter_mm=float(numbers[1]))
+        elif verb in ('bind', 'check', 'done'):
+            getattr(self, verb)(int(float(numbers[0])))
+        else:
+            raise Refused(f'nobody knows what {verb} is')
+
+    def serve(self):
+        pathlib.Path(SOCKET).unlink(missing_ok=True)
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as door:
+            door.bind(SOCKET)
+            os.chmod(SOCKET, 0o600)
+            door.listen()
+            while True:
+                with door.accept()[0] as caller:
+                    self.one(caller)
+
+    def one(self, caller):
+        uid = struct.unpack('3i', caller.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, 12))[1]
+        caller.settimeout(5.0)
+        words = []
+        try:
+            if uid not in (0, os.geteuid()):
+                return
+            words = caller.makefile().readline(200).split()
+            self.answer(words)
+            reply = 'ok'
+        except (Refused, OSError, IndexError, ValueError, KeyError,
+                subprocess.CalledProcessError) as error:
+            reply = str(error) if isinstance(error, Refused) else f'{type(error).__name__}: {error}'
+            reply = ' '.join(reply.split())
+            try:
+                self.journal.add('refused', question=words, why=reply)
+            except OSError:
+                pass  # the disk is full, which the reply says
+            self.machine.say('capstan: ' + reply)
+        try:
+            caller.sendall((reply + '\n').encode())
+        except OSError:
+            pass  # who asked waits no longer
+
+
+def main():
+    here = pathlib.Path(__file__).resolve().parent
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--ini', required=True, help="LinuxCNC's ini file")
+    parser.add_argument('--plan', required=True, help='the plan with open decisions, as any form that Capstan reads')
+    parser.add_argument('--machine', required=True, help="Capstan's machine: a file or the id of a built-in one")
+    parser.add_argument('--library', default='libcapstan_late.so.0')
+    parser.add_argument('--material', help="instead of the plan's")
+    parser.add_argument('--deadline', type=float, default=10.0, help='seconds for one binding')
+    parser.add_argument('--grace', type=float, default=2.0, help='seconds after it until the planner is killed')
+    parser.add_argument('--memory', help='MB that planning may take')
+    parser.add_argument('--journal', default='journal.jsonl')
+    parser.add_argument('--planner', nargs=argparse.REMAINDER, help='last: another planner, asked as binder.py is')
+    options = parser.parse_args()
+    if not options.planner:
+        options.planner = [sys.executable, str(here / 'binder.py'), options.library,
+                           *([options.memory] if options.memory else [])]
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    adapter = Adapter(options)
+    try:
+        adapter.serve()
+    finally:
+        adapter.planner.end()
+
+
+if __name__ == '__main__':
+    main()

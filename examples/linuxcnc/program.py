@@ -1,0 +1,139 @@
+"""A program that Capstan wrote, cut into one subroutine per workingstep.
+
+Each subroutine begins and ends as the whole program does: retracted, spindle and coolant off; between are the lines of its
+workingstep as they were checked. What the whole program had done before (the tool, the spindle at speed) is said again
+where the workingstep's own lines do not. The last line has the SHA-256 of all lines before it: a file without it is cut
+short, one that does not fit it was altered.
+"""
+import hashlib
+import math
+import re
+
+STEP = re.compile(r'\(CAPSTAN STEP id="(?P<id>[^"]*)" n=(?P<n>\d+) tool=(?P<tool>\d+) ')
+TOOL = re.compile(r'\(CAPSTAN TOOL T(?P<t>\d+) H(?P<h>\d+) length=(?P<length>[\d.]+) diameter=(?P<diameter>[\d.]+) ')
+END = re.compile(r'\(CAPSTAN END sha256=([0-9a-f]{64})\)\n\Z')
+FIRST = 1000  # subroutine 1000 + n is of workingstep n
+TABLE_DECIMALS_MM = 1e-6  # numbers in a program's header are as exact as those of the tool table
+
+
+class Refused(Exception):
+    """What must not be cut, and why."""
+
+
+def digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+class Step:
+    def __init__(self, match, lines):
+        self.id, self.n, self.tool = match['id'], int(match['n']), int(match['tool'])
+        self.lines = lines
+        self.sha256 = digest('\n'.join(lines))
+
+
+class Program:
+    """Workingsteps in order, what stands before the first and after the last, and the tools, by number."""
+
+    def __init__(self, text):
+        lines = text.splitlines()
+        begins = [i for i, line in enumerate(lines) if STEP.match(line)]
+        if not begins or lines.count('(end)') != 1:
+            raise Refused('the program has no workingstep, or no end')
+        if sum(line.startswith('(CAPSTAN SETUP ') for line in lines) != 1:
+            raise Refused('the plan has more than one set-up; this adapter stays in one')
+        end = lines.index('(end)')
+        self.tools = {int(m['t']): m for m in map(TOOL.match, lines) if m}
+        self.head = [line for line in lines[:begins[0]] if line and not line.startswith('(')]
+        self.tail = [line for line in lines[end + 1:] if line and line != 'M2']
+        self.steps = [Step(STEP.match(lines[at]), [line for line in lines[at:to] if line])
+                      for at, to in zip(begins, begins[1:] + [end])]
+        if [s.n for s in self.steps] != list(range(1, len(self.steps) + 1)):
+            raise Refused('the workingsteps of the program are not numbered in order')
+        self.dwell = next((line for line in lines if line.startswith('G4 ')), None)
+
+    def before(self, step):
+        """The tool in the spindle and the spindle at speed, where the step's lines count on both."""
+        if any(' M6' in line for line in step.lines):
+            return []
+        speed = next((line for line in step.lines if re.match(r'S[\d.]+ M[34]\b', line)), None)
+        if speed is None:
+            raise Refused(f'workingstep {step.n} states no spindle speed')
+        return [f'T{step.tool} M6', speed] + ([self.dwell] if self.dwell else [])
+
+    def subroutine(self, step, binding):
+        """The file that LinuxCNC calls, with the mark of the binding that it came from."""
+        name = f'o{FIRST + step.n}'
+        body = '\n'.join([f'(CAPSTAN BINDING {binding})', f'{name} sub', *self.head, *self.before(step), *step.lines,
+                          *self.tail, f'{name} endsub', '']) + '\n'
+        return body + f'(CAPSTAN END sha256={digest(body)})\n'
+
+
+def of_answer(answer):
+    """The program of the planner's answer (binder.py), where it is one to be cut."""
+    lines = answer['message'].splitlines()
+    if answer['code'] != 0 or not answer['program']:
+        errors = [line for line in lines if 'error: ' in line]
+        raise Refused(errors[0].partition('error: ')[2] if errors else f'no program (code {answer["code"]})')
+    # What the check only warns of is for somebody to decide, and nobody is asked here.
+    doubts = [line for line in lines if 'warning: ' in line and '[CHK-' in line]
+    if doubts:
+        raise Refused(doubts[0].partition('warning: ')[2])
+    return Program(answer['program'])
+
+
+def check_text(text, expected):
+    """Fails unless a subroutine is whole, unaltered, and the one that was bound."""
+    mark = END.search(text)
+    if not mark:
+        raise Refused('it has no end mark: it is cut short')
+    if digest(text[:mark.start()]) != mark[1]:
+        raise Refused('its lines are not those that its end mark was made for: it was altered')
+    if mark[1] != expected:
+        raise Refused('it was not bound now: it is stale')
+
+
+def check_tools(program, step, table):
+    """Fails unless the step uses one tool, loaded, with its own offset, as long and wide as the table says."""
+    numbers = set()
+    for line in step.lines:
+        if not line.startswith('('):
+            numbers.update(int(n) for n in re.findall(r'[TH](\d+)', line))
+    for number in numbers | {step.tool}:
+        stated, loaded = program.tools.get(number), table.get(number)
+        if number != step.tool or stated is None or int(stated['h']) != number:
+            raise Refused(f'workingstep {step.n} is of T{step.tool}, but names {number}')
+        if loaded is None:
+            raise Refused(f'T{number} is not in the tool table')
+        for what, is_mm in (('length', loaded['z']), ('diameter', loaded['d'])):
+            if abs(float(stated[what]) - is_mm) > TABLE_DECIMALS_MM:
+                raise Refused(f'T{number} has {what} {is_mm} mm, the program takes it for {stated[what]} mm')
+
+
+def reach(step):
+    """Least and greatest X, Y, Z in the work offset, mm, without retracts; an arc counts as its whole circle."""
+    at = dict.fromkeys('XYZ')
+    box = {axis: [] for axis in at}
+    for line in step.lines:
+        if line.startswith('(') or 'G53' in line:
+            continue
+        words = {letter: float(value) for letter, value in re.findall(r'([XYZIJ])(-?[\d.]+)', line)}
+        for axis, offset in (('X', 'I'), ('Y', 'J')):
+            if re.match(r'G[23]\b', line) and at[axis] is not None:
+                centre = at[axis] + words.get(offset, 0.0)
+                radius = math.hypot(words.get('I', 0.0), words.get('J', 0.0))
+                box[axis] += [centre - radius, centre + radius]
+        for axis in at:
+            if axis in words:
+                at[axis] = words[axis]
+                box[axis].append(words[axis])
+    return {axis: (min(values), max(values)) for axis, values in box.items() if values}
+
+
+def check_travel(step, offset, length, limits):
+    """Fails when an axis would leave its travel: limits by axis in machine coordinates, mm."""
+    shift = {'X': offset[0], 'Y': offset[1], 'Z': offset[2] + length}
+    for axis, (low, high) in reach(step).items():
+        least, most = limits[axis]
+        if low + shift[axis] < least or high + shift[axis] > most:
+            raise Refused(f'{axis} would go from {low + shift[axis]:.3f} to {high + shift[axis]:.3f} mm on the machine, '
+                          f'its travel is {least} to {most} mm: move the work offset or the piece')

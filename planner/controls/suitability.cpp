@@ -1,0 +1,166 @@
+#include "planner/controls/suitability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "planner/controls/controls.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/order/step_ids.h"
+
+// A control keeps a programmed feed only while it could still stop within the moves that it has looked at:
+// v^2 <= 2 a s, s the length of the next moves, a the least acceleration of the axes that move (LinuxCNC:
+// "Trajectory Control", naive cam and blend look-ahead). It takes at least one block time for each move, so
+// that a shorter one is slower than planned.
+
+namespace capstan::controls {
+namespace {
+
+using model::CutterPath;
+using model::Finding;
+using model::MoveKind;
+using model::StepResult;
+
+// A feed or a time is missed when it is missed by more than this share: less is rounding.
+constexpr double kMissed = 0.01;  // default, unsourced
+constexpr int kProperty = 33;     // the program says what the plan does
+
+/// Of one kind of finding in one step: where it is worst, and how often it is there.
+struct Worst {
+  long move = -1;
+  double by = 0.0;
+  std::size_t count = 0;
+  void see(std::size_t at, double how_bad) {
+    ++count;
+    if (move < 0 || how_bad > by) {
+      move = static_cast<long>(at);
+      by = how_bad;
+    }
+  }
+};
+
+class Suitability {
+ public:
+  Suitability(const model::Plan& plan, const Conformance& control) : plan_(plan), can_(control) {}
+
+  std::vector<Finding> all() {
+    const std::vector<std::string> ids = model::step_ids(plan_);
+    for (const model::Cutter& c : plan_.cutters) {
+      if (can_.largest_tool_number > 0 && c.pocket > can_.largest_tool_number)
+        add("FIT-TOOL-NUMBER", Severity::kError, {}, -1,
+            "T" + std::to_string(c.pocket) + " of cutter " + c.id +
+                " is more than the control's largest tool number, " +
+                std::to_string(can_.largest_tool_number));
+    }
+    for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
+      const StepResult& step = plan_.steps[i];
+      if (!step.path) continue;
+      kinds(step, ids[i]);
+      tolerance(step, ids[i]);
+      times(step, ids[i]);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void add(const char* code, Severity severity, const std::string& step, long move, std::string message) {
+    out_.push_back({.property = kProperty,
+                    .code = code,
+                    .severity = severity,
+                    .step = step,
+                    .move = move,
+                    .message = std::move(message)});
+  }
+  void add(const char* code, Severity severity, const std::string& step, const Worst& w,
+           const std::string& message) {
+    if (w.count > 0)
+      add(code, severity, step, w.move,
+          message + (w.count > 1 ? "; " + std::to_string(w.count - 1) + " more such moves" : std::string()));
+  }
+
+  void kinds(const StepResult& step, const std::string& id) {
+    const CutterPath& path = *step.path;
+    Worst arcs, helices, taps;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const bool arc = model::is_arc(path.kind[i]);
+      if (arc && !can_.arcs) arcs.see(i, 0.0);
+      if (arc && can_.arcs && !can_.helices && path.z[i] != path.z[i - 1]) helices.see(i, 0.0);
+      if (path.role[i] == model::MoveRole::kTap && !can_.rigid_tapping) taps.see(i, 0.0);
+    }
+    add("FIT-ARC", Severity::kError, id, arcs, "the control knows no arcs, and the path has one");
+    add("FIT-HELIX", Severity::kError, id, helices, "the control knows no helices, and the path has one");
+    add("FIT-TAP", Severity::kError, id, taps,
+        "the control does not keep spindle and feed together for tapping");
+  }
+
+  void tolerance(const StepResult& step, const std::string& id) {
+    const double own = plan_.machine.control.path_tolerance_mm;
+    const double asked = step.contour_tolerance_mm > 0.0 ? step.contour_tolerance_mm : own;
+    const double last = std::pow(10.0, -plan_.machine.control.decimals);
+    if (!can_.path_tolerance && asked != own) {
+      add("FIT-TOLERANCE", Severity::kWarning, id, -1,
+          "the step may be rounded by " + shortest(asked) + " mm; the control rounds each by " +
+              shortest(own) + " mm");
+    } else if (asked > 0.0 && asked < last) {
+      add("FIT-TOLERANCE", Severity::kWarning, id, -1,
+          "the step may be rounded by " + shortest(asked) +
+              " mm, less than the last decimal of the program, " + shortest(last) +
+              " mm: give the control's numbers more decimals");
+    }
+  }
+
+  double feed_of(const StepResult& step, std::size_t move) const {
+    return (step.schedule ? step.schedule->feed_mm_min[move] : step.feed_mm_min) / 60.0;
+  }
+
+  void times(const StepResult& step, const std::string& id) {
+    const CutterPath& path = *step.path;
+    const double block_s = plan_.machine.control.block_time_s;
+    double acceleration = plan_.machine.axes[0].acceleration_mm_s2;
+    for (const auto& axis : plan_.machine.axes)
+      acceleration = std::min(acceleration, axis.acceleration_mm_s2);
+    Worst blocks, ahead;
+    double sum_mm = 0.0;  // of the moves (i, end), at most as many as it looks ahead
+    std::size_t end = 1;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      if (end < i) end = i;
+      while (can_.look_ahead_moves > 0 && end < path.size() && end - i < can_.look_ahead_moves)
+        sum_mm += model::move_length(path, end++);
+      const double length = model::move_length(path, i);
+      if (path.kind[i] != MoveKind::kRapid && path.kind[i] != MoveKind::kDwell && length > 0.0) {
+        const double v = feed_of(step, i);
+        if (length < (1.0 - kMissed) * v * block_s) blocks.see(i, v * block_s / length);
+        // The path's last moves end in a stop that is in sight.
+        const double stop_mm = acceleration > 0.0 ? 0.5 * v * v / acceleration : 0.0;
+        if (can_.look_ahead_moves > 0 && end < path.size() && sum_mm < (1.0 - kMissed) * stop_mm)
+          ahead.see(i, stop_mm / sum_mm);
+      }
+      if (end > i) sum_mm = std::max(0.0, sum_mm - length);
+    }
+    add("FIT-BLOCK-TIME", Severity::kNote, id, blocks,
+        "a move is " + trimmed(blocks.by, 2) +
+            " times shorter than the feed covers in the control's block time, " + shortest(block_s) +
+            " s: it is slower than planned");
+    add("FIT-LOOK-AHEAD", Severity::kNote, id, ahead,
+        "the feed wants a way " + trimmed(ahead.by, 2) + " times as long to stop as the " +
+            std::to_string(can_.look_ahead_moves) +
+            " moves that the control looks ahead: it is slower than planned");
+  }
+
+  const model::Plan& plan_;
+  const Conformance& can_;
+  std::vector<Finding> out_;
+};
+
+}  // namespace
+
+std::vector<Finding> suitability(const model::Plan& plan, const Conformance& control) {
+  return Suitability(plan, control).all();
+}
+
+std::vector<Finding> suitability(const model::Plan& plan) {
+  const Dialect* dialect = find_dialect(plan.machine.control.dialect);
+  return dialect != nullptr ? suitability(plan, dialect->conformance) : std::vector<Finding>{};
+}
+
+}  // namespace capstan::controls
