@@ -23,8 +23,8 @@ extern "C" {
 typedef struct capstan_late capstan_late;
 
 /* Counts what was added to this interface; what was there stays. 2: options by name, progress, stop, formats
- * by name. */
-#define CAPSTAN_LATE_INTERFACE 2
+ * by name. 3: capstan_late_changes; options "may" and "time". */
+#define CAPSTAN_LATE_INTERFACE 3
 /* Of the library that is linked. */
 CAPSTAN_LATE_API unsigned capstan_late_interface(void);
 
@@ -52,7 +52,8 @@ CAPSTAN_LATE_API capstan_late* capstan_late_open(const char* machine, const char
 
 /* The same in steps: a session without a shop (NULL only when there is no memory), its options one by one,
  * and (if wished, so that the first bind need not) the shop opened. The options are those of `capstan bind`
- * without their dashes: "machine", "tools", "workholding", "general-tolerance", "cases", ...; a flag such as
+ * without their dashes: "machine", "tools", "workholding", "general-tolerance", "cases", "may" (what the
+ * control may decide, e.g. "feeds,tools"), "time" (for the record), ...; a flag such as
  * "allow-findings" takes "yes" or "no". An option set later opens the shop anew at the next call. Without
  * "tools" the plan's own tools count as loaded. */
 CAPSTAN_LATE_API capstan_late* capstan_late_create(void);
@@ -85,6 +86,10 @@ CAPSTAN_LATE_API const char* capstan_late_output(capstan_late* session, capstan_
 
 /* The same by the format's name: "iso14649", "ap238", "json", "linuxcnc", "linuxcnc_tools". */
 CAPSTAN_LATE_API const char* capstan_late_output_as(capstan_late* session, const char* format, size_t* size);
+
+/* What changed against the plan that was brought, for the operator's screen: sentences, one a line; empty where
+ * nothing did. NULL when there is no bound plan. It is valid until the next bind or close. */
+CAPSTAN_LATE_API const char* capstan_late_changes(const capstan_late* session);
 
 /* Code and diagnostics (lines of text) of the last call. Never NULL. */
 CAPSTAN_LATE_API capstan_late_code capstan_late_status(const capstan_late* session);

@@ -80,7 +80,7 @@ ALLOWED = {
     "grid": GROUND + " nouns plan verify",
     "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared grid",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
-    "late": MODEL + " given pipeline",
+    "late": MODEL + " motion given pipeline",
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",

@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "planner/door/late/kept.h"
+#include "planner/door/late/record.h"
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/said_before.h"
@@ -14,10 +16,11 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/decision/by_planning.h"
 
-// A fallback first, whatever it takes; then an improvement on the rest of the time. Each answer passes the
-// same three questions: is anything open, is every cutter in the magazine, does the check condemn it. Where
-// an operation finds no loaded cutter, and planning chose all operations, they are chosen once more from what
-// is loaded: another chain may do without.
+// A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
+// takes; then an improvement on the rest of the time. Each answer passes the same four questions: is anything
+// open, is every cutter in the magazine, may it be decided here, does the check condemn it. Where an
+// operation finds no loaded cutter, and planning chose all operations, they are chosen once more from what is
+// loaded: another chain may do without.
 
 namespace capstan::late {
 namespace {
@@ -103,36 +106,65 @@ void tell_late(LateOutcome& out, const LatePolicy& policy, TimePoint began, Job&
              "the deadline of " + ms(*policy.deadline) + " is past: a checked plan took " + ms(passed));
 }
 
+/// What comes of a plan that is checked, with its program; a fault where it is condemned. `checking` is what
+/// both checks took.
+Result<LateOutcome> judged(pipeline::Checked made, const pipeline::Inputs& inputs, const LatePolicy& policy,
+                           Duration& checking, Job& job) {
+  LateOutcome out;
+  const auto check_start = job.now();
+  out.findings = pipeline::findings_of(made, job, &out.program, inputs.proofs.get());
+  poll();  // a check that was stopped proves nothing, whatever findings are allowed
+  checking = made.checking + (job.now() - check_start);
+  out.condemned = model::condemned(made.plan, out.findings);
+  if (!out.condemned.empty() && (!policy.allow_findings || model::never_written(out.condemned))) {
+    return fail(
+        {.code = "LATE-UNSAFE",
+         .message = "the plan does not pass the check: " + model::text_of(made.plan, out.condemned.front()),
+         .file = made.plan.file_name,
+         .path = out.condemned.front().step,
+         .hint = "retract and stop; nothing may be cut from this plan"});
+  }
+  out.of_plan = std::move(made.findings);
+  out.plan = std::move(made.plan);
+  out.fallback_s = out.machining_s = machining_s(out.plan);
+  return out;
+}
+
+/// The plan as it was brought, checked with the tools as they are; nothing where it is not bound to its end,
+/// or does not hold any more. What is not given says nothing.
+std::optional<LateOutcome> still_holds(const model::Plan& plan, const pipeline::Inputs& inputs,
+                                       const std::function<Status(const model::Plan&)>& acceptable,
+                                       const LatePolicy& policy, Duration& checking, Job& job) {
+  const std::vector<Diagnostic> said = job.diagnostics();
+  auto as_brought = as_it_is(plan, inputs, job);
+  if (as_brought && acceptable(*as_brought)) {
+    LatePolicy strict = policy;
+    strict.allow_findings = false;
+    auto out = judged(pipeline::checked(*std::move(as_brought), job, inputs.proofs.get()), inputs, strict,
+                      checking, job);
+    if (out) {
+      out->kept = true;
+      return *std::move(out);
+    }
+  }
+  (void)job.take_diagnostics();
+  for (const Diagnostic& d : said) job.report(d);
+  return std::nullopt;
+}
+
 /// The fallback: everything, on a small budget, and checked. Steps that the check condemns are planned again
 /// while half of the time is left. `checking` is what one check takes. A stop leaves it.
 Result<LateOutcome> fallback(const model::Plan& plan, const pipeline::Inputs& inputs,
                              const std::function<Status(const model::Plan&)>& acceptable,
                              const LatePolicy& policy, pipeline::Reopen reopen, TimePoint began,
                              Duration& checking, Job& job) {
-  LateOutcome out;
   std::optional<TimePoint> half;
   if (policy.deadline) half = began + *policy.deadline / 2;
   const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
   auto made = pipeline::bind_checked(plan, inputs, policy_of(reopen), job, {half, acceptable});
   job.evaluation_budget = budget;
   if (!made) return tl::unexpected(made.error());
-  const auto check_start = job.now();
-  out.findings = pipeline::findings_of(*made, job, &out.program);
-  poll();  // a check that was stopped proves nothing, whatever findings are allowed
-  checking = made->checking + (job.now() - check_start);
-  out.condemned = model::condemned(made->plan, out.findings);
-  if (!out.condemned.empty() && (!policy.allow_findings || model::never_written(out.condemned))) {
-    return fail(
-        {.code = "LATE-UNSAFE",
-         .message = "the plan does not pass the check: " + model::text_of(made->plan, out.condemned.front()),
-         .file = made->plan.file_name,
-         .path = out.condemned.front().step,
-         .hint = "retract and stop; nothing may be cut from this plan"});
-  }
-  out.of_plan = std::move(made->findings);
-  out.plan = std::move(made->plan);
-  out.fallback_s = out.machining_s = machining_s(out.plan);
-  return out;
+  return judged(*std::move(made), inputs, policy, checking, job);
 }
 
 /// Plans again with the whole budget; takes the plan into `out` if it is whole, checked, in time and faster.
@@ -144,9 +176,9 @@ void improve(LateOutcome& out, model::Plan plan, const pipeline::Inputs& inputs,
   const double t = machining_s(*better);
   const bool faster = t < out.fallback_s || !out.condemned.empty();
   if (!faster) return;
-  pipeline::Checked checked = pipeline::checked(*std::move(better), trial);
+  pipeline::Checked checked = pipeline::checked(*std::move(better), trial, inputs.proofs.get());
   pipeline::CheckedProgram program;
-  auto findings = pipeline::findings_of(checked, trial, &program);
+  auto findings = pipeline::findings_of(checked, trial, &program, inputs.proofs.get());
   if (!model::condemned(checked.plan, findings).empty()) return;
   if (policy.deadline && job.now() > began + *policy.deadline) return;
   for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
@@ -159,6 +191,16 @@ void improve(LateOutcome& out, model::Plan plan, const pipeline::Inputs& inputs,
   out.machining_s = t;
 }
 
+/// What is told of an answer, and recorded in it.
+void finish(LateOutcome& out, const model::Plan& brought, const pipeline::Inputs& inputs,
+            const std::vector<std::string>& reopened, const LatePolicy& policy, TimePoint began, Job& job) {
+  out.reopened = reopened;
+  out.changes = changes(brought, out.plan);
+  out.words = words_of(out.changes, out.reopened, brought, out.plan);
+  record(out.plan, brought, inputs, out.reopened, policy.time);
+  tell_late(out, policy, began, job);
+}
+
 }  // namespace
 
 Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
@@ -166,11 +208,14 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   const std::vector<model::Cutter> magazine = inputs.library;
   // The improvement repeats most of the fallback.
   if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
+  if (!inputs.proofs) inputs.proofs = std::make_shared<memo::Memo>();
+  const model::Plan brought = plan;
   auto reopened = given::match_loaded(plan, inputs.library, job);
   if (!reopened) return tl::unexpected(reopened.error());
   const auto acceptable = [&](const model::Plan& made) -> Status {
     if (auto ok = nothing_open(made); !ok) return ok;
-    return only_loaded(made, magazine);
+    if (auto ok = only_loaded(made, magazine); !ok) return ok;
+    return within_policy(brought, made, policy.may);
   };
   Duration checking{};
   auto reopen = pipeline::Reopen::kNothing;
@@ -180,6 +225,16 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
         [&]() -> Result<LateOutcome> { return tl::unexpected(pipeline::stopped_planning(plan)); });
   };
   const SaidBefore before(job);
+  const auto as_brought = [&]() -> std::optional<LateOutcome> {
+    if (!reopened->empty()) return std::nullopt;
+    return stoppable(
+        job, [&] { return still_holds(plan, inputs, acceptable, policy, checking, job); },
+        [] { return std::optional<LateOutcome>(); });
+  };
+  if (auto holds = as_brought()) {
+    finish(*holds, brought, inputs, *reopened, policy, began, job);
+    return *std::move(holds);
+  }
   auto out = fallen_back();
   const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
   if (nothing_fits && !reopened->empty() && planning_chose_all(plan)) {
@@ -193,10 +248,11 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
     } else {
       (void)job.take_diagnostics();
       for (Diagnostic& d : said) job.report(std::move(d));
+      // It can be made, but not by what may be decided here.
+      if (anew.error().code == "LATE-POLICY" || anew.error().code == "LATE-PINNED") out = std::move(anew);
     }
   }
   if (!out) return out;
-  out->reopened = *std::move(reopened);
 
   // The improvement: only in the time left, with twice the time of one check in reserve.
   std::optional<TimePoint> until;
@@ -222,7 +278,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
         },
         nothing_more);
   }
-  tell_late(*out, policy, began, job);
+  finish(*out, brought, inputs, *reopened, policy, began, job);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/door/late/changes.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/job.h"
@@ -26,32 +27,44 @@ struct LatePolicy {
   std::uint32_t budget = 2000;
   /// Give also a plan that the check condemns; `LateOutcome::condemned` then says why. Never in a control.
   bool allow_findings = false;
+  /// What may be decided at the machine; another plan is refused (LATE-POLICY).
+  Decisions may = Decisions::all();
+  /// When this is, as the caller tells it: for the record. Empty: no time is recorded.
+  std::string time = {};
 };
 
 /// Result of late binding. It never contains a condemned plan, unless the policy allows it.
 struct LateOutcome {
   model::Plan plan;
   std::vector<std::string> reopened;           ///< what the machine's state re-opened, one sentence each
+  std::vector<Change> changes;                 ///< against the plan that was brought, in the order of steps
+  std::string words;                           ///< the same for a screen (words_of)
   std::vector<model::Finding> findings;        ///< notes and warnings; no errors
   std::vector<model::Finding> of_plan;         ///< those of them that are of the plan, not of its program
   pipeline::CheckedProgram program;            ///< that of the plan, with its own findings
   std::vector<model::Condemnation> condemned;  ///< empty, unless the policy allows findings
+  bool kept = false;                           ///< the plan that was brought stands: nothing was bound
   bool improved = false;                       ///< false: the fallback
   bool late = false;                           ///< the deadline was past when the plan was there
   double fallback_s = 0.0, machining_s = 0.0;  ///< machining time of the fallback, and of what is given
 };
 
 /// Binds at the machine the decisions that a plan leaves open, with the tools in the magazine
-/// (`inputs.library`, Cutter::pocket > 0). First it makes a checked fallback on a small budget; then, while
-/// the deadline allows, an improvement, which is used only if it passes the check and is faster.
+/// (`inputs.library`, Cutter::pocket > 0). Where all of the plan is bound, and still holds with the tools as
+/// they are measured, it is checked and given as it is. Else it makes a checked fallback on a small budget;
+/// then, while the deadline allows, an improvement, which is used only if it passes the check and is faster.
+///
+/// Decisions  what is decided here is held against `policy.may`; what the operator pinned keeps its value.
+/// Record  each binding is a row of provenance (`late binding`): time, machine, tools, what was re-opened.
 ///
 /// Time    the clock is the job's (Job::now). The deadline limits the improvement; the time of one check is
 /// kept in reserve. If the deadline stops a check, the improvement is dropped. The fallback is always
 /// finished. A result after the deadline is marked `late`.
 /// Progress  the improvement's stages are reported to the job, too.
 /// Fails   LATE-UNSAFE when the fallback is condemned (retract and stop), LATE-OPEN when something stays open
-///         (no loaded cutter fits), LATE-TOOL when a step uses a cutter that is not in the magazine, PIP-...
-///         when nothing can be planned.
+///         (no loaded cutter fits), LATE-TOOL when a step uses a cutter that is not in the magazine,
+///         LATE-POLICY for a decision that may not be taken here, LATE-PINNED where a pinned value would
+///         change, PIP-... when nothing can be planned.
 [[nodiscard]] Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
                                        Job& job);
 

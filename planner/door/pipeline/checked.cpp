@@ -156,10 +156,10 @@ void tell_tries(const Tries& tries, Job& job) {
   for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
 }
 
-Checked checked(model::Plan plan, Job& job) {
+Checked checked(model::Plan plan, Job& job, memo::Memo* proofs) {
   Checked out;
   const auto began = job.now();
-  out.findings = verify::check_plan(plan, job);
+  out.findings = verify::check_plan(plan, job, proofs);
   out.plan = std::move(plan);
   out.checking = job.now() - began;
   return out;
@@ -178,7 +178,7 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     if (auto ok = anew.acceptable(*first); !ok) return tl::unexpected(ok.error());
   }
   Checked best =
-      policy.bind == Bind::kAll ? checked(*std::move(first), job) : Checked{*std::move(first), {}, 0, {}};
+      policy.bind == Bind::kAll ? checked(*std::move(first), job, inputs.proofs.get()) : Checked{*std::move(first), {}, 0, {}};
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
   std::size_t least = errors_of(best.plan, best.findings);
@@ -199,7 +199,7 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     auto again = bind_within(plan, inputs, policy, tries, trial);
     if (!again) break;
     for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
-    Checked now_checked = checked(*std::move(again), trial);
+    Checked now_checked = checked(*std::move(again), trial, inputs.proofs.get());
     findings = now_checked.findings;
     if (trial.stop_requested()) break;  // not checked to its end: no better than what is there
     offences = offences_of(now_checked.plan, findings, tries);

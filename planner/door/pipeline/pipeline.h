@@ -66,6 +66,9 @@ struct Inputs {
   /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one
   /// only.
   std::shared_ptr<memo::Memo> memo;
+  /// What checks found of steps, in memory only: a step that nothing touched since is not swept again. Null:
+  /// every check is whole. The findings are the same.
+  std::shared_ptr<memo::Memo> proofs;
 };
 
 /// Plannings for most profit, the first for least cost among them; two or three usually do.
@@ -113,8 +116,8 @@ struct Checked {
   std::chrono::steady_clock::duration checking{};  ///< what checking it took
 };
 
-/// A plan and what the check says of it.
-[[nodiscard]] Checked checked(model::Plan plan, Job& job);
+/// A plan and what the check says of it. `proofs`: Inputs::proofs.
+[[nodiscard]] Checked checked(model::Plan plan, Job& job, memo::Memo* proofs = nullptr);
 
 /// Until when plans are made anew, and which plans may be given at all (nothing: any): what it says of the
 /// first one ends `bind_checked`, of a later one only that one is passed over.

@@ -14,8 +14,10 @@ struct CheckedProgram {
   std::string text, tool_table;
   std::vector<model::Finding> findings;
 };
-/// The same for a plan that is checked already. `kept`, where it is given, gets the program.
+/// The same for a plan that is checked already. `kept`, where it is given, gets the program. `proofs`:
+/// Inputs::proofs.
 [[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job,
-                                                      CheckedProgram* kept = nullptr);
+                                                      CheckedProgram* kept = nullptr,
+                                                      memo::Memo* proofs = nullptr);
 
 }  // namespace capstan::pipeline

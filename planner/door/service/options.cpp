@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "planner/door/late/changes.h"
 #include "planner/door/service/formats.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
@@ -119,6 +120,13 @@ std::string set_deadline(Request& r, Text text) {
   return r.deadline ? "" : "'" + text + "' is no time above 0, e.g. 200ms or 2s";
 }
 
+std::string set_may(Request& r, Text text) {
+  const auto may = late::Decisions::parse(text);
+  if (!may) return may.error().message + "; expected " + may.error().expected;
+  r.may = text;
+  return {};
+}
+
 const char* allow_help() {
   static const std::string kText = "write the program (" + endings_of(Holds::kProgram) + ", " +
                                    endings_of(Holds::kToolTable) +
@@ -227,6 +235,21 @@ std::vector<Option> table() {
        Value::kText,
        {nullptr, "e.g. 200ms or 2s; a plan that comes later ends with 5", nullptr},
        &set_deadline,
+       {}},
+      {"may",
+       Value::kText,
+       {"what a control may decide of the plan: tools, feeds, depths, strategy, order (with commas), all or "
+        "none",
+        "what may be decided: tools, feeds, depths, strategy, order (with commas), all or none; no more than "
+        "the "
+        "plan itself allows",
+        nullptr},
+       &set_may,
+       {}},
+      {"time",
+       Value::kText,
+       {nullptr, "when this is, for the plan's record of late bindings", nullptr},
+       [](Request& r, Text t) { return r.time = t, std::string(); },
        {}},
       {"strict",
        Value::kFlag,

@@ -16,6 +16,9 @@
 namespace capstan::service {
 namespace {
 
+/// The row of provenance by which a plan says what a control may decide of it.
+constexpr std::string_view kMay = "may";
+
 Result<model::Plan> read(Source source, bool strict, Job& job) {
   if (source.bytes) return read_plan(*std::move(source.bytes), source.name, job, strict);
   return load_plan(source.name, job, strict);
@@ -86,8 +89,12 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
   return to_its_end(name, job, [&]() -> Outcome<Planned> {
     auto read_part = read(std::move(part), request.strict, job);
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
-    const auto inputs = gather(request, *read_part, job);
+    auto inputs = gather(request, *read_part, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
+    if (request.may) {
+      std::erase_if(inputs->provenance, [](const auto& p) { return p.what == kMay; });
+      inputs->provenance.push_back({std::string(kMay), *request.may, request.sign + std::string(kMay)});
+    }
     pipeline::Policy policy;
     policy.reopen = request.reopen;
     policy.bind = request.bind;
@@ -98,6 +105,22 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
 }
 
 namespace {
+
+/// What both the plan and the caller allow.
+Status decisions_of(const Request& request, const model::Plan& plan, late::Decisions& out) {
+  if (request.may) {
+    auto asked = late::Decisions::parse(*request.may);
+    if (!asked) return tl::unexpected(asked.error());
+    out = *asked;
+  }
+  for (const model::Provenance& p : plan.provenance) {
+    if (p.what != kMay) continue;
+    auto of_plan = late::Decisions::parse(p.value);
+    if (!of_plan) return tl::unexpected(of_plan.error());
+    out = out.within(*of_plan);
+  }
+  return {};
+}
 
 /// Closes a plan that was read, in a shop whose choices are taken.
 Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Inputs inputs,
@@ -115,14 +138,20 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
         Code::kUsage);
   }
   late::LatePolicy policy;
+  if (auto ok = decisions_of(request, plan, policy.may); !ok) return failed(ok.error(), Code::kUsage);
+  policy.time = request.time;
   policy.deadline = request.deadline;
   policy.began = began;
   policy.allow_findings = request.allow_findings;
   auto outcome = late::bind(std::move(plan), std::move(inputs), policy, job);
   if (!outcome) return failed(outcome.error(), code_of(outcome.error(), Code::kImpossible));
   for (const std::string& what : outcome->reopened) job.note("LATE-REOPENED", what, "");
-  return Planned{std::move(outcome->plan), std::move(outcome->of_plan), false, std::move(outcome->program),
-                 outcome->late};
+  return Planned{std::move(outcome->plan),
+                 std::move(outcome->of_plan),
+                 false,
+                 std::move(outcome->program),
+                 outcome->late,
+                 std::move(outcome->words)};
 }
 
 }  // namespace
@@ -139,15 +168,13 @@ Outcome<Planned> bind(const Request& request, Source source, std::chrono::steady
   });
 }
 
-Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, Source source,
+Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, model::Plan plan,
                          std::chrono::steady_clock::time_point began, Job& job) {
-  const std::string name = source.name;
+  const std::string name = plan.file_name;
   return to_its_end(name, job, [&]() -> Outcome<Planned> {
-    auto read_part = read(std::move(source), request.strict, job);
-    if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
-    if (auto ok = take_choices(request, *read_part, shop, job); !ok)
+    if (auto ok = take_choices(request, plan, shop, job); !ok)
       return failed(ok.error(), code_of(ok.error(), Code::kUnreadable));
-    return bound(request, *std::move(read_part), std::move(shop), began, job);
+    return bound(request, std::move(plan), std::move(shop), began, job);
   });
 }
 

@@ -29,6 +29,8 @@ struct Planned {
   bool open = false;                      ///< decisions are left open, so there is no path to check yet
   pipeline::CheckedProgram program = {};  ///< bind: the program as it was checked with the plan
   bool late = false;                      ///< bind: the deadline was past when the plan was there
+  /// bind: what changed against the plan that was brought, for the operator's screen: sentences, one a line.
+  std::string changes = {};
 };
 
 /// The exit code of a fault: wrong usage for an unknown name, wherever it was given; kImpossible where the
@@ -43,8 +45,9 @@ struct Planned {
 /// (late/late.h). `began` is when the caller began to wait; the deadline counts from there.
 [[nodiscard]] Outcome<Planned> bind(const Request& request, Source plan,
                                     std::chrono::steady_clock::time_point began, Job& job);
-/// The same in a shop that is open (open_shop).
-[[nodiscard]] Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, Source plan,
+/// The same of a plan that was read, in a shop that is open (open_shop); what reading said of it is among the
+/// job's diagnostics.
+[[nodiscard]] Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, model::Plan plan,
                                        std::chrono::steady_clock::time_point began, Job& job);
 
 /// A finding, and the file it is about.

@@ -32,6 +32,8 @@ struct Request {
   std::optional<std::chrono::milliseconds> deadline;  ///< bind: since the call began
   bool strict = false;                                ///< nothing is given when there is a finding
   bool allow_findings = false;                        ///< a program even when the check condemns it
+  std::optional<std::string> may;                     ///< bind: what may be decided (late/changes.h)
+  std::string time;                                   ///< bind: when it is, for the record
   bool schema = false;                                ///< check: what reading found is a finding, too
   unsigned threads = 1;
 

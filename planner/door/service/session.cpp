@@ -6,7 +6,9 @@
 
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
+#include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/ground/base/stopping.h"
 
 namespace capstan::service {
 
@@ -52,7 +54,19 @@ Code Session::opened(Job& job) {
   shop_ = *std::move(shop);
   // What one call found out, the next one need not, also with another tool table.
   if (!shop_->memo) shop_->memo = memo_;
+  shop_->proofs = proofs_;
   return Code::kDone;
+}
+
+Outcome<const Session::Read*> Session::read(std::string plan, Job& job) {
+  if (!read_ || read_->text != plan) {
+    read_.reset();
+    auto made = read_plan(plan, "plan", job, request_.strict);
+    if (!made) return failed(made.error(), code_of(made.error(), Code::kUnreadable));
+    read_ = Read{std::move(plan), *std::move(made), job.take_diagnostics()};
+  }
+  for (const Diagnostic& d : read_->said) job.report(d);
+  return &*read_;
 }
 
 Code Session::open() {
@@ -91,7 +105,11 @@ Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> de
     if (const Code code = opened(job); code != Code::kDone) return code;
     Request request = request_;
     if (deadline) request.deadline = deadline;
-    auto bound = bind_in(*shop_, request, {"plan", std::move(plan)}, began, job);
+    const auto at_hand = stoppable(
+        job, [&] { return read(std::move(plan), job); },
+        [&]() -> Outcome<const Read*> { return failed(stopped_call("plan"), Code::kImpossible); });
+    auto bound = at_hand ? bind_in(*shop_, request, (*at_hand)->plan, began, job)
+                         : Outcome<Planned>(tl::unexpected(at_hand.error()));
     for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
     if (!bound) return end(bound.error().code, to_text(bound.error().what));
     bound_ = *std::move(bound);

@@ -41,6 +41,8 @@ class Session {
   /// The bound plan in a format (formats.h); null without a plan, or for an unknown format. Valid until the
   /// next call but `code`, `message` and this.
   const std::string* output(std::string_view format);
+  /// What changed against the plan that was brought (Planned::changes); null without a plan.
+  [[nodiscard]] const std::string* changes() const { return bound_ ? &bound_->changes : nullptr; }
   /// Of the bound plan; 0 if there is none.
   [[nodiscard]] double machining_s() const;
 
@@ -57,10 +59,20 @@ class Session {
   Code end(Code code, const std::string& line = {});
   Code opened(Job& job);
 
+  /// A plan as it was read: the next bind of the same bytes need not read them again.
+  struct Read {
+    std::string text;
+    model::Plan plan;
+    std::vector<Diagnostic> said;
+  };
+  [[nodiscard]] Outcome<const Read*> read(std::string plan, Job& job);
+
   Request request_;
   Job::Progress progress_;
   std::optional<pipeline::Inputs> shop_;
   std::shared_ptr<memo::Memo> memo_ = std::make_shared<memo::Memo>();  ///< of all shops that name no folder
+  std::shared_ptr<memo::Memo> proofs_ = std::make_shared<memo::Memo>();  ///< Inputs::proofs
+  std::optional<Read> read_;
   bool failed_ = false;  ///< the shop did not open, and no option was set since
   std::optional<Planned> bound_;
   std::map<std::string, std::string, std::less<>> outputs_;

@@ -135,6 +135,7 @@ void choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
   in.batch = o.batch;
   if (o.batch > 1) p.push_back({"batch", std::to_string(o.batch), option(o, "batch")});
   in.edge_break_mm = o.edge_break_mm;
+  if (const auto* before = made_with(plan, "may")) p.push_back(*before);
   if (o.edge_break_mm > 0.0) p.push_back({"edges", trimmed(o.edge_break_mm, 4) + " mm", option(o, "edges")});
   in.solver = o.solver.value_or(optimise::kSolvers.front().solver);
   p.push_back({"solver", optimise::word_of(in.solver), o.solver ? option(o, "solver") : kDefault});

@@ -104,6 +104,10 @@ capstan_late_code capstan_late_status(const capstan_late* s) {
 const char* capstan_late_message(const capstan_late* s) {
   return s == nullptr ? "" : s->session.message().c_str();
 }
+const char* capstan_late_changes(const capstan_late* s) {
+  const std::string* text = s == nullptr ? nullptr : s->session.changes();
+  return text == nullptr ? nullptr : text->c_str();
+}
 double capstan_late_machining_seconds(const capstan_late* s) {
   return s == nullptr ? 0.0 : s->session.machining_s();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,12 +12,14 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "planner/ground/memo/fields.h"
 
 // Values as bytes, and back: numbers, enumerations, text, vectors, maps, pairs, optionals, shared constants,
-// pointers, and structs of these, field by field in the order of their declaration. A pointer is packed as
+// pointers, and structs of these, field by field in the order of their declaration. Arrays and variants are packed only,
+// for keys. A pointer is packed as
 // what it points to, for keys; in a value that is read back it must be null. Structs need no list of their
 // fields (fields.h): a new field is packed like the others.
 //
@@ -35,6 +38,11 @@ template <class T, template <class...> class Of>
 inline constexpr bool kIs = false;
 template <template <class...> class Of, class... Arguments>
 inline constexpr bool kIs<Of<Arguments...>, Of> = true;
+
+template <class T>
+inline constexpr bool kArray = false;
+template <class T, std::size_t N>
+inline constexpr bool kArray<std::array<T, N>> = true;
 
 }  // namespace detail
 
@@ -69,6 +77,11 @@ void pack(std::string& out, const T& v) {
   } else if constexpr (kIs<T, std::optional>) {
     pack(out, v.has_value());
     if (v) pack(out, *v);
+  } else if constexpr (kArray<T>) {
+    for (const auto& e : v) pack(out, e);
+  } else if constexpr (kIs<T, std::variant>) {
+    pack(out, static_cast<std::uint64_t>(v.index()));
+    std::visit([&](const auto& one) { pack(out, one); }, v);
   } else if constexpr (kIs<T, std::shared_ptr> || std::is_pointer_v<T>) {
     if constexpr (std::is_pointer_v<T>)
       static_assert(!std::is_same_v<std::remove_cv_t<std::remove_pointer_t<T>>, char>,

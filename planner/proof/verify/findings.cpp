@@ -12,6 +12,7 @@ namespace capstan::verify {
 
 void Findings::add(Severity severity, int property, std::string code, Where where, std::string message,
                    double badness, bool unproved) {
+  if (tape_ != nullptr) tape_->push_back({severity, property, code, where.move, message, badness, unproved});
   // Recent items are those of the same step: looking back is short.
   for (std::size_t i = items_.size(); i-- > 0;) {
     Item& old = items_[i];
@@ -52,6 +53,11 @@ void Findings::note(int property, std::string code, Where where, std::string mes
 }
 void Findings::unproved(Severity severity, int property, std::string code, Where where, std::string message) {
   add(severity, property, std::move(code), std::move(where), std::move(message), 0.0, true);
+}
+
+void Findings::repeat(const std::vector<Said>& said, std::size_t order, const std::string& step) {
+  for (const Said& s : said)
+    add(s.severity, s.property, s.code, {order, step, s.move}, s.message, s.badness, s.unproved);
 }
 
 std::vector<model::Finding> Findings::take() {

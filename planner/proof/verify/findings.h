@@ -27,6 +27,21 @@ class Findings {
   /// What could not be judged (Finding::unproved): a note, or a warning where more than usual hangs on it.
   void unproved(Severity severity, int property, std::string code, Where where, std::string message);
 
+  /// One call of the above, but for the step that it is about.
+  struct Said {
+    Severity severity = Severity::kError;
+    int property = 0;
+    std::string code;
+    long move = -1;
+    std::string message;
+    double badness = 0.0;
+    bool unproved = false;
+  };
+  /// Says again what was said of a step, in the same order: the findings are as if it had been found anew.
+  void repeat(const std::vector<Said>& said, std::size_t order, const std::string& step);
+  /// Until the next call, what is said goes to the tape as well; null: no more.
+  void record(std::vector<Said>* tape) { tape_ = tape; }
+
   [[nodiscard]] std::vector<model::Finding> take();
 
  private:
@@ -39,6 +54,7 @@ class Findings {
   void add(Severity severity, int property, std::string code, Where where, std::string message,
            double badness, bool unproved = false);
   std::vector<Item> items_;
+  std::vector<Said>* tape_ = nullptr;
 };
 
 }  // namespace capstan::verify

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/ground/base/job.h"
+#include "planner/ground/memo/memo.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
@@ -25,14 +26,18 @@ struct ProgramText {
 /// Frame      each step's path in its set-up's frame.
 /// Accuracy   walls of features: exact, within the tolerance and 1e-3 mm; floors and stock: a height map of
 ///            at most kMaximumCells cells, whose cell size is stated in the finding where it matters.
-/// Cost       linear in the path's length in cells; no more than kMaximumCells heights per set-up.
-[[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job);
+/// Cost       linear in the path's length in cells; no more than kMaximumCells heights per set-up. `known`
+///            keeps what was found of steps: where the stock before a step, its cutter with shank and holder,
+///            its sizes and moves are as in an earlier check, it is not swept again. The findings are the same.
+[[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job,
+                                                     memo::Memo* known = nullptr);
 
 /// What is wrong with a program, alone or against the plan that it was written from. Steps are told by the
 /// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1.
 [[nodiscard]] std::vector<model::Finding> check_program(const ProgramText& program, const model::Plan* plan,
                                                         const model::Machine& machine,
-                                                        const std::vector<model::Cutter>& cutters, Job& job);
+                                                        const std::vector<model::Cutter>& cutters, Job& job,
+                                                        memo::Memo* known = nullptr);
 
 /// What each property asks, one sentence; empty for a number that is not checked.
 [[nodiscard]] std::string_view property_text(int number);

@@ -13,6 +13,7 @@
 #include "planner/files/json/json.h"
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
+#include "tests/door/late/brought.h"
 #include "tests/support/corpus.h"
 #include "tests/support/seal.h"
 #include "tests/support/shop.h"
@@ -23,23 +24,6 @@ namespace {
 const std::string kPlate = capstan::testing::source_dir() + "/examples/plate_bound.p21";
 const std::string kMagazine = capstan::testing::source_dir() + "/tests/door/late/magazine.tbl";
 const std::string kOneTool = capstan::testing::source_dir() + "/tests/door/late/one_tool.tbl";
-
-pipeline::Inputs shop(const std::string& tools) {
-  Job job;
-  auto in = pipeline::load_shop({.machine = {}, .tools = tools, .rules = {}, .material = {}}, job);
-  EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
-  return in ? *std::move(in) : pipeline::Inputs{};
-}
-
-/// A shop whose tool table has this text.
-pipeline::Inputs shop_of(const std::string& table, const std::string& machine = {}) {
-  const std::string path = ::testing::TempDir() + "late_table.tbl";
-  std::ofstream(path) << table;
-  Job job;
-  auto in = pipeline::load_shop({.machine = machine, .tools = path, .rules = {}, .material = {}}, job);
-  EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
-  return in ? *std::move(in) : pipeline::Inputs{};
-}
 
 /// The generic machine, whose table counts from a reference.
 std::string reference_machine() {
@@ -62,12 +46,6 @@ model::Plan plate() {
 std::string texts(Job& job) {
   std::string out;
   for (const auto& d : job.diagnostics()) out += to_text(d) + "\n";
-  return out;
-}
-
-double machining_s(const model::Plan& plan) {
-  double out = 0.0;
-  for (const auto& s : plan.steps) out += s.cutting_s + s.rapid_s;
   return out;
 }
 
@@ -301,34 +279,6 @@ TEST(Late, IsLateWhenTheImprovementOverranTheDeadline) {
   EXPECT_FALSE(bound->improved);
 }
 
-/// A plan with all its paths, as it comes to a machine, and the tool table that it was made for.
-struct Brought {
-  model::Plan plan;
-  std::string table;
-  double machining_s = 0.0;
-};
-Brought brought(const std::string& part, pipeline::Format format) {
-  Job job;
-  pipeline::Inputs in = shop({});
-  auto read = pipeline::read_plan(testing::slurp(part), part, job);
-  EXPECT_TRUE(read) << to_text(read.error());
-  auto planned = read ? pipeline::bind(*std::move(read), in, {}, job) : Result<model::Plan>();
-  EXPECT_TRUE(planned) << to_text(planned.error());
-  auto text = pipeline::write_plan(*planned, format, job);
-  EXPECT_TRUE(text);
-  auto again = pipeline::read_plan(*text, part, job);
-  EXPECT_TRUE(again) << to_text(again.error());
-  return {*std::move(again), controls::linuxcnc::write_tool_table(*planned), machining_s(*planned)};
-}
-
-std::string without(const std::string& table, int tool) {
-  std::string out;
-  std::istringstream lines(table);
-  for (std::string one; std::getline(lines, one);)
-    if (!one.starts_with("T" + std::to_string(tool) + " ")) out += one + "\n";
-  return out;
-}
-
 TEST(Late, WhateverToolIsMissingNoStepUsesIt) {
   const std::string part = capstan::testing::source_dir() + "/examples/bracket.p21";
   for (const auto format : {pipeline::Format::kAp238, pipeline::Format::kJson}) {
@@ -498,12 +448,15 @@ TEST(LateInterface, AJsonPlanMayBeginWithAByteOrderMark) {
 }
 
 TEST(LateInterface, TakesOptionsByTheirNames) {
-  EXPECT_EQ(capstan_late_interface(), 2U);
+  EXPECT_EQ(capstan_late_interface(), 3U);
   capstan_late* session = capstan_late_create();
   ASSERT_NE(session, nullptr);
   EXPECT_EQ(capstan_late_set(session, "machine", "generic_vmc"), CAPSTAN_LATE_OK);
   EXPECT_EQ(capstan_late_set(session, "tools", kMagazine.c_str()), CAPSTAN_LATE_OK);
   EXPECT_EQ(capstan_late_set(session, "general-tolerance", "ISO 2768-m"), CAPSTAN_LATE_OK);
+  EXPECT_EQ(capstan_late_set(session, "may", "tools,feeds,depths,strategy,order"), CAPSTAN_LATE_OK);
+  EXPECT_EQ(capstan_late_set(session, "may", "speeds"), CAPSTAN_LATE_USAGE);
+  EXPECT_EQ(capstan_late_set(session, "time", "2026-11-25T12:00:00Z"), CAPSTAN_LATE_OK);
   EXPECT_EQ(capstan_late_set(session, "colour", "red"), CAPSTAN_LATE_USAGE);
   EXPECT_EQ(capstan_late_set(session, "margin", "wild"), CAPSTAN_LATE_USAGE);
   EXPECT_NE(std::string(capstan_late_message(session)).find("margin"), std::string::npos);
@@ -511,8 +464,11 @@ TEST(LateInterface, TakesOptionsByTheirNames) {
   const std::string text = testing::slurp(kPlate);
   EXPECT_EQ(capstan_late_bind(session, text.data(), text.size(), 600000), CAPSTAN_LATE_OK)
       << capstan_late_message(session);
+  const std::string told = capstan_late_changes(session);
+  EXPECT_NE(told.find("Time in all: "), std::string::npos) << told;
   const std::string json = capstan_late_output_as(session, "json", nullptr);
   EXPECT_TRUE(json.find("ISO 2768-m") != std::string::npos);
+  EXPECT_TRUE(json.find("2026-11-25T12:00:00Z") != std::string::npos);
   EXPECT_STREQ(capstan_late_output_as(session, "linuxcnc", nullptr),
                capstan_late_output(session, CAPSTAN_LATE_LINUXCNC, nullptr));
   EXPECT_EQ(capstan_late_output_as(session, "no such format", nullptr), nullptr);
@@ -551,6 +507,7 @@ TEST(LateInterface, TellsProgressAndEndsWhenItIsStopped) {
 TEST(LateInterface, SaysWhatIsWrongAndNeverThrows) {
   EXPECT_EQ(capstan_late_bind(nullptr, "x", 1, 10), CAPSTAN_LATE_USAGE);
   EXPECT_EQ(capstan_late_output(nullptr, CAPSTAN_LATE_JSON, nullptr), nullptr);
+  EXPECT_EQ(capstan_late_changes(nullptr), nullptr);
   capstan_late* broken = capstan_late_open("no such machine", kMagazine.c_str());
   ASSERT_NE(broken, nullptr);
   EXPECT_EQ(capstan_late_status(broken), CAPSTAN_LATE_UNREADABLE);

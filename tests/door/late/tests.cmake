@@ -1,4 +1,4 @@
-capstan_test(late DEPENDS late service transport)
+capstan_test(late DEPENDS late service transport json)
 
 # The example for C, as a control's maker would build it: one header, one library.
 add_executable(late_bind ${CMAKE_SOURCE_DIR}/examples/late_bind.c)

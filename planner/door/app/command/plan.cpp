@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "planner/door/app/command/finish.h"
@@ -37,7 +38,12 @@ int run_bind(Session& s) {
   if (const int code = outputs_for(s, outputs); code != kDone) return code;
   const auto planned = service::bind(s.options.inputs, {s.options.files[0]}, began, s.job);
   if (!planned) return s.end(planned.error());
-  return finish(s, *planned, std::move(outputs), began);
+  const bool json_there =
+      std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return o.path == "-"; });
+  const int code = finish(s, *planned, std::move(outputs), began);
+  // Standard output is the JSON's where it is asked for.
+  if (code <= kFindings && !json_there && !planned->changes.empty()) (void)print(planned->changes);
+  return code;
 }
 
 int run_check(Session& s) {

@@ -11,7 +11,7 @@ namespace capstan::verify {
 namespace {
 
 /// False if a stop ended it and the finding says where.
-bool judge(const model::Plan& plan, Findings& findings, Job& job) {
+bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* known) {
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   check_ranges(plan, findings);
   check_twice(plan, findings);
@@ -35,7 +35,7 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job) {
   check_meaning(plan, findings);
   check_within(plan, part, findings);
   std::vector<double> speed_shares;
-  const bool swept = check_removal(plan, steps, findings, job, &speed_shares);
+  const bool swept = check_removal(plan, steps, findings, job, &speed_shares, known);
   check_predicted(plan, steps, speed_shares, findings);
   if (!swept) return false;
   job.progress("check", 1.0);
@@ -44,9 +44,9 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job) {
 
 }  // namespace
 
-std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job) {
+std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job, memo::Memo* known) {
   Findings findings;
-  check_to_its_end(job, findings, [&] { return judge(plan, findings, job); });
+  check_to_its_end(job, findings, [&] { return judge(plan, findings, job, known); });
   return findings.take();
 }
 

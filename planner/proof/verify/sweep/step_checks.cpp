@@ -178,6 +178,14 @@ void StepChecks::rapid(const Move& m) {
   }
 }
 
+void cut_before(EarlierCuts& earlier, const StepMoves& step) {
+  if (under_overhangs(step.cutter->cutter_class)) return;
+  const auto outline = std::make_shared<const CutterOutline>(outline_of(*step.cutter));
+  for (const Move& m : step.moves) {
+    if (m.kind != MoveKind::kRapid && m.kind != MoveKind::kDwell) earlier.add(m, outline);
+  }
+}
+
 void StepChecks::feed(const Move& m) {
   if (under_overhangs(cutter_.cutter_class)) {
     // Heights hold no overhang: what the head cuts below one is not taken from them.

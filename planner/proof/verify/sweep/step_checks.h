@@ -20,7 +20,8 @@ struct FeedLimit {
   std::string source;
 };
 
-/// The checks of one step's moves while they cut.
+/// The checks of one step's moves while they cut. What they ask of the plan is listed in the key of known
+/// steps (known/known_steps.cpp).
 class StepChecks {
  public:
   StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target, EarlierCuts& earlier,
@@ -114,6 +115,8 @@ class StepChecks {
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take
 };
 
+/// Adds what the step's moves cut to the earlier cuts, as `StepChecks::run` does.
+void cut_before(EarlierCuts& earlier, const StepMoves& step);
 /// Whether planning chose how steep the step goes down: it made the path, and the file asks for no angle.
 [[nodiscard]] bool chose_ramp(const model::Plan& plan, const model::MachiningWorkingstep& ws);
 [[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);

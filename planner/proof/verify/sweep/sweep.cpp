@@ -10,7 +10,7 @@
 #include "planner/proof/verify/sweep/fixtures.h"
 #include "planner/proof/verify/sweep/grid/carry.h"
 #include "planner/proof/verify/sweep/grip.h"
-#include "planner/proof/verify/sweep/step_checks.h"
+#include "planner/proof/verify/sweep/known/known_steps.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
@@ -23,11 +23,13 @@ struct Scene {
   Target target;
   Grid grid;
   EarlierCuts earlier;
+  CutSquares squares;
   Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell)
       : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
     target.fill(grid);
     earlier.begin(grid);
   }
+  [[nodiscard]] SweptSetup swept() { return {target, grid, earlier, squares}; }
 };
 
 double cell_of(const model::Plan& plan) {
@@ -66,7 +68,7 @@ void check_left(const model::Plan& plan, const std::vector<std::unique_ptr<Scene
 }  // namespace
 
 bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job,
-                   std::vector<double>* speed_shares) {
+                   std::vector<double>* speed_shares, memo::Memo* known) {
   if (speed_shares != nullptr) speed_shares->assign(steps.size(), 1.0);
   check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
@@ -77,6 +79,7 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
   }
   const PartShapes part = shapes_of_part(plan);
   const double cell = cell_of(plan);
+  const KnownSteps known_steps(plan, part, known);
   // Set-ups that hold the piece alike go on with the same stock; others begin with what is left.
   std::vector<std::unique_ptr<Scene>> scenes;
   Scene* last = nullptr;
@@ -107,6 +110,7 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
         carry(scene->grid, frame, s->grid, s->target.frame());
       }
       if (scenes.size() > 1) scene->earlier.begin(scene->grid);
+      known_steps.begin(scene->swept(), scenes.size() > 1);
       last = scene;
     }
     if (step.setup != held && step.setup < plan.setups.size()) {
@@ -114,13 +118,12 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
       grip.emplace(plan.setups[held].holding, scene->grid, step, findings);
     }
     if (!sound(step.cutter)) continue;
-    StepChecks checks(plan, step, scene->grid, scene->target, scene->earlier, findings);
-    checks.run();
-    if (speed_shares != nullptr) (*speed_shares)[i] = checks.speed_share();
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(
         step.planned != nullptr ? step.planned->step : model::Ref<model::Executable>{});
-    checks.nothing(ws != nullptr && begun.contains(ws->its_feature));
-    if (ws != nullptr && checks.cuts()) begun.insert(ws->its_feature);
+    const SweptStep swept =
+        known_steps.sweep(step, scene->swept(), ws != nullptr && begun.contains(ws->its_feature), findings);
+    if (speed_shares != nullptr) (*speed_shares)[i] = swept.speed_share;
+    if (ws != nullptr && swept.cuts) begun.insert(ws->its_feature);
     scene->grid.find_top_after_cuts();
     if (grip && step.setup == held) grip->after(step, scene->grid, findings);
   }

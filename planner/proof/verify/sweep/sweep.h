@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planner/ground/base/job.h"
+#include "planner/ground/memo/memo.h"
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/moves.h"
@@ -17,8 +18,9 @@ namespace capstan::verify {
 ///
 /// Cost  linear in the area that the cutter sweeps, in cells. Gives false if a stop ended it before a step:
 /// then the finding `kStopped` says which. `speed_shares`, where asked for, gets one number for each step
-/// that was swept (StepChecks::speed_share); 1 for the others.
+/// that was swept (StepChecks::speed_share); 1 for the others. `known`, where given, has what earlier checks
+/// found of steps (known/known_steps.h).
 bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job,
-                   std::vector<double>* speed_shares = nullptr);
+                   std::vector<double>* speed_shares = nullptr, memo::Memo* known = nullptr);
 
 }  // namespace capstan::verify

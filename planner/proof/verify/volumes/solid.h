@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -51,9 +52,9 @@ struct Groove {
   bool loop = false;
   Outline section;
   double half_mm = 0.0;  ///< the widest that the section reaches to either side
-  End ends[2] = {End::kNone, End::kNone};
-  double corner_mm[2] = {0.0, 0.0};  ///< kFlat: so near to both walls nothing is said
-  double rising_mm[2] = {0.0, 0.0};  ///< a Woodruff end: so far before it nothing is said of the floor
+  std::array<End, 2> ends = {End::kNone, End::kNone};
+  std::array<double, 2> corner_mm = {0.0, 0.0};  ///< kFlat: so near to both walls nothing is said
+  std::array<double, 2> rising_mm = {0.0, 0.0};  ///< a Woodruff end: so far before it nothing is said of the floor
   double foot_radius_mm = 0.0;       ///< between floor and sides
   /// Below this height and farther than this from the middle nothing is said: corners and flanks of a tee.
   double unsaid_height_mm = 0.0, unsaid_half_mm = 0.0;

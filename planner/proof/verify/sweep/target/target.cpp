@@ -6,6 +6,7 @@
 
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/memo/packed.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/findings.h"
@@ -265,6 +266,14 @@ bool Target::guilty(Vec2 at, double z) const {
     if (height(at + Vec2{r * std::cos(a), r * std::sin(a)}) - reach <= z) return false;
   }
   return true;
+}
+
+void Target::describe(std::string& bytes) const {
+  memo::pack(bytes, frame_);
+  memo::pack(bytes, stock_);
+  memo::pack(bytes, part_box_);
+  memo::pack(bytes, round_);
+  for (const Form& b : bevels_) memo::pack(bytes, b);
 }
 
 std::string Target::undecided(model::AnyRef feature) const {

@@ -81,6 +81,8 @@ class Target : public GougeJudge {
   /// been cut in another set-up, too.
   void left(const Grid& grid, const std::vector<Asked>& here, const std::vector<Asked>& asked, bool carried,
             Findings& out) const;
+  /// What tells it from another set-up's of the same part and mesh, as bytes.
+  void describe(std::string& bytes) const;
   [[nodiscard]] double allowed() const { return part_.tolerance_mm + kChordMm; }
   [[nodiscard]] const geometry::Box3& stock() const { return stock_; }
   [[nodiscard]] const geometry::Placement& frame() const { return frame_; }

@@ -1,0 +1,293 @@
+// What a check finds on a step depends on little of the plan: on the step itself, and on what stands where
+// its tool goes. Both make a key, under which the findings are remembered with the cells that the step
+// lowers, so that a plan of which one tool was changed is swept where that tool goes, and where others go
+// after it.
+//
+// What stands somewhere is not compared cell by cell. A square of the area has a key, which is made anew from
+// itself and the step's cuts whenever a step cuts within it; squares with one key were cut alike. A step's
+// question holds the keys of the squares that its tool, shank or holder may come over. Moves above the raw
+// piece meet nothing. This errs on one side: what other cuts left alike is swept again.
+#include "planner/proof/verify/sweep/known/known_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "planner/ground/memo/packed.h"
+#include "planner/ground/memo/remembered.h"
+#include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/sweep/step_checks.h"
+
+namespace capstan::verify {
+
+using geometry::Vec2;
+using memo::Key;
+using memo::Stage;
+using model::MoveKind;
+
+namespace {
+
+constexpr double kClearMm = 1.0;            ///< above the raw piece nothing is met
+constexpr std::size_t kMostSaid = 1000;     ///< a step with more findings is swept again each time
+constexpr std::size_t kMostCells = 500000;  ///< and one that lowers more cells
+
+bool feeds(const Move& m) { return m.kind != MoveKind::kRapid && m.kind != MoveKind::kDwell; }
+
+/// What a step's check found, and what its cuts left.
+struct Known {
+  std::vector<Findings::Said> said;  ///< `move` is the place in StepMoves::moves
+  std::vector<std::uint32_t> cells;
+  std::vector<double> heights;
+  bool cuts = false;
+  double speed_share = 1.0;
+};
+
+/// The moves without their places in plan or program.
+std::vector<Move> placeless(const StepMoves& step, bool all) {
+  std::vector<Move> out;
+  for (const Move& m : step.moves) {
+    if (!all && !feeds(m)) continue;
+    out.push_back(m);
+    out.back().where = -1;
+    if (all) continue;
+    out.back().feed_mm_min = out.back().spindle_rpm = 0.0;  // how fast it was cut is not seen afterwards
+    out.back().role_known = out.back().synchronised = false;
+    out.back().role = {};
+  }
+  return out;
+}
+
+/// How far from its axis a tool meets anything, shank and holder included.
+double reach_of(const model::Cutter& c, const Grid& grid) {
+  double r = std::max(outline_of(c).radius_mm, 0.5 * c.holder_diameter_mm);
+  for (const BodyPart& p : body_of(c)) r = std::max(r, p.radius_mm);
+  return r + 4.0 * grid.cell();
+}
+
+/// The cells that a step may lower.
+struct Window {
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+};
+Window window_of(const StepMoves& step, const Grid& grid, double radius_mm) {
+  geometry::Box3 box;
+  for (const Move& m : step.moves) {
+    if (!feeds(m)) continue;
+    const geometry::Box3 b = box_of(m);
+    box.add(b.lo);
+    box.add(b.hi);
+  }
+  Window out;
+  if (box.empty()) return out;
+  const double r = radius_mm + 2.0 * grid.cell();
+  std::tie(out.x0, out.x1) = grid.columns(box.lo.x - r, box.hi.x + r);
+  std::tie(out.y0, out.y1) = grid.rows(box.lo.y - r, box.hi.y + r);
+  return out;
+}
+
+/// What was lowered in the window since `before`, which holds its rows.
+void lowered(const Grid& grid, const Window& w, const std::vector<double>& before, Known& out) {
+  std::size_t k = 0;
+  for (int iy = w.y0; iy < w.y1; ++iy) {
+    for (int ix = w.x0; ix < w.x1; ++ix, ++k) {
+      const std::size_t i = grid.index(ix, iy);
+      if (grid.stock[i] == before[k]) continue;
+      out.cells.push_back(static_cast<std::uint32_t>(i));
+      out.heights.push_back(grid.stock[i]);
+    }
+  }
+}
+
+void lower(Grid& grid, const Known& known) {
+  if (known.cells.empty()) return;
+  for (std::size_t i = 0; i < known.cells.size(); ++i) grid.stock[known.cells[i]] = known.heights[i];
+  const auto row = [&](std::uint32_t cell) { return static_cast<int>(cell) / grid.nx(); };
+  grid.cut_rows(row(known.cells.front()), row(known.cells.back()) + 1);
+}
+
+/// Findings by the places of their moves in the step, and back.
+std::optional<std::vector<Findings::Said>> by_place(std::vector<Findings::Said> said, const StepMoves& step) {
+  for (Findings::Said& s : said) {
+    if (s.move < 0) continue;
+    const auto at =
+        std::find_if(step.moves.begin(), step.moves.end(), [&](const Move& m) { return m.where == s.move; });
+    if (at == step.moves.end()) return std::nullopt;
+    s.move = at - step.moves.begin();
+  }
+  return said;
+}
+void to_moves(std::vector<Findings::Said>& said, const StepMoves& step) {
+  for (Findings::Said& s : said)
+    if (s.move >= 0) s.move = step.moves[static_cast<std::size_t>(s.move)].where;
+}
+
+bool sound(const Known& known, const StepMoves& step, const Grid& grid) {
+  return known.cells.size() == known.heights.size() &&
+         std::is_sorted(known.cells.begin(), known.cells.end()) &&
+         (known.cells.empty() || known.cells.back() < grid.stock.size()) &&
+         std::all_of(known.said.begin(), known.said.end(),
+                     [&](const Findings::Said& s) { return s.move < static_cast<long>(step.moves.size()); });
+}
+
+}  // namespace
+
+void CutSquares::begin(const Grid& grid, const Key& of_setup, bool carried) {
+  of_setup_ = of_setup;
+  lo_ = grid.centre(0, 0);
+  const Vec2 size = grid.centre(grid.nx(), grid.ny()) - lo_;
+  square_ = {size.x / kSquares, size.y / kSquares};
+  keys_.assign(std::size_t{kSquares} * kSquares, Key{});
+  if (!carried) return;
+  const auto from = [](int square, int n) { return square * n / kSquares; };
+  std::string bytes;
+  for (int y = 0; y < kSquares; ++y) {
+    for (int x = 0; x < kSquares; ++x) {
+      bytes.clear();
+      const int x0 = from(x, grid.nx()), x1 = from(x + 1, grid.nx());
+      for (int iy = from(y, grid.ny()); iy < from(y + 1, grid.ny()); ++iy) {
+        for (const std::vector<double>* heights : {&grid.stock, &grid.base})
+          bytes.append(reinterpret_cast<const char*>(heights->data() + grid.index(x0, iy)),
+                       static_cast<std::size_t>(x1 - x0) * sizeof(double));
+      }
+      keys_[static_cast<std::size_t>(y * kSquares + x)] = memo::key_of_bytes(Stage::kSweep, bytes);
+    }
+  }
+}
+
+std::vector<char> CutSquares::touched(const StepMoves& step, double reach_mm, double top_mm,
+                                      bool rapids) const {
+  std::vector<char> out(keys_.size(), 0);
+  const auto at = [](double v, double begin, double wide) {
+    return static_cast<int>(std::clamp(std::floor((v - begin) / wide), 0.0, kSquares - 1.0));
+  };
+  for (const Move& m : step.moves) {
+    if (m.kind == MoveKind::kDwell || (!rapids && !feeds(m))) continue;
+    const geometry::Box3 box = box_of(m);
+    if (box.lo.z >= top_mm) continue;
+    // One square more: the cells of a square are counted from its corner, lengths from a cell's centre.
+    const int x0 = std::max(0, at(box.lo.x - reach_mm, lo_.x, square_.x) - 1);
+    const int x1 = std::min(kSquares - 1, at(box.hi.x + reach_mm, lo_.x, square_.x) + 1);
+    const int y0 = std::max(0, at(box.lo.y - reach_mm, lo_.y, square_.y) - 1);
+    const int y1 = std::min(kSquares - 1, at(box.hi.y + reach_mm, lo_.y, square_.y) + 1);
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) out[static_cast<std::size_t>(y * kSquares + x)] = 1;
+  }
+  return out;
+}
+
+Key CutSquares::near(const StepMoves& step, double reach_mm, double top_mm) const {
+  const std::vector<char> of = touched(step, reach_mm, top_mm, true);
+  std::string bytes;
+  memo::pack(bytes, of_setup_);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (of[i] == 0) continue;
+    memo::pack(bytes, static_cast<std::uint64_t>(i));
+    memo::pack(bytes, keys_[i]);
+  }
+  return memo::key_of_bytes(Stage::kSweep, bytes);
+}
+
+void CutSquares::cut(const StepMoves& step, double reach_mm, double top_mm, const Key& what) {
+  const std::vector<char> of = touched(step, reach_mm, top_mm, false);
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of[i] != 0) keys_[i] = memo::key_of(Stage::kSweep, keys_[i], what);
+}
+
+KnownSteps::KnownSteps(const model::Plan& plan, const PartShapes& part, memo::Memo* memo)
+    : plan_(plan), memo_(memo) {
+  if (memo_ == nullptr) return;
+  of_plan_ = memo::key_of(Stage::kSweep, plan.machine, plan.material, plan.target_mesh, part);
+}
+
+void KnownSteps::begin(SweptSetup setup, bool carried) const {
+  if (memo_ == nullptr) return;
+  const Grid& grid = setup.grid;
+  std::string bytes;
+  memo::pack(bytes, of_plan_);
+  setup.target.describe(bytes);
+  memo::pack(bytes, grid.nx());
+  memo::pack(bytes, grid.ny());
+  memo::pack(bytes, grid.cell());
+  setup.squares.begin(grid, memo::key_of_bytes(Stage::kSweep, bytes), carried);
+}
+
+/// All that StepChecks asks: who adds a question there adds it here.
+Key KnownSteps::key_of(const StepMoves& step, const SweptSetup& setup, bool begun, double reach_mm) const {
+  std::string bytes;
+  memo::pack(bytes, placeless(step, true));
+  memo::pack(bytes, *step.cutter);
+  memo::pack(bytes, begun);
+  memo::pack(bytes, step.planned != nullptr);
+  if (step.planned != nullptr) {
+    const model::StepResult& r = *step.planned;
+    memo::pack(bytes, r.fz_mm);
+    memo::pack(bytes, r.axial_depth_mm);
+    memo::pack(bytes, r.radial_depth_mm);
+    memo::pack(bytes, r.loads);
+    memo::pack(bytes, workpiece_in(plan_, r.setup));
+    const auto* ws = plan_.model.get<model::MachiningWorkingstep>(r.step);
+    memo::pack(bytes, ws != nullptr);
+    if (ws != nullptr) {
+      memo::pack(bytes, ws->its_feature.type);
+      memo::pack(bytes, ws->its_feature.index);
+      memo::pack(bytes, ws->its_operation.type);
+      memo::pack(bytes, plan_.model.get<model::Two5dMillingOperation>(ws->its_operation) != nullptr);
+      memo::pack(bytes, chose_ramp(plan_, *ws));
+    }
+  }
+  memo::pack(bytes, setup.squares.near(step, reach_mm, setup.target.stock().hi.z + kClearMm));
+  return memo::key_of_bytes(Stage::kSweep, bytes);
+}
+
+SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun, Findings& findings) const {
+  const auto anew = [&] {
+    StepChecks checks(plan_, step, setup.grid, setup.target, setup.earlier, findings);
+    checks.run();
+    checks.nothing(begun);
+    return SweptStep{checks.cuts(), checks.speed_share()};
+  };
+  if (memo_ == nullptr) return anew();
+  const double reach = reach_of(*step.cutter, setup.grid);
+  const Key key = key_of(step, setup, begun, reach);
+  SweptStep out;
+  std::optional<Known> known;
+  if (const auto bytes = memo_->find(Stage::kSweep, key)) known = memo::unpacked<Known>(*bytes);
+  const geometry::CutterProfile profile = outline_of(*step.cutter);
+  if (known && sound(*known, step, setup.grid)) {
+    to_moves(known->said, step);
+    findings.repeat(known->said, step.order + 1, step.id);
+    lower(setup.grid, *known);
+    cut_before(setup.earlier, step);
+    out = {known->cuts, known->speed_share};
+  } else {
+    const Window w = window_of(step, setup.grid, profile.radius_mm);
+    std::vector<double> before;
+    for (int iy = w.y0; iy < w.y1; ++iy) {
+      const auto row = setup.grid.stock.begin() + static_cast<std::ptrdiff_t>(setup.grid.index(0, iy));
+      before.insert(before.end(), row + w.x0, row + w.x1);
+    }
+    std::vector<Findings::Said> said;
+    findings.record(&said);
+    out = anew();
+    findings.record(nullptr);
+    Known made{{}, {}, {}, out.cuts, out.speed_share};
+    lowered(setup.grid, w, before, made);
+    auto placed = by_place(std::move(said), step);
+    if (placed && placed->size() <= kMostSaid && made.cells.size() <= kMostCells) {
+      made.said = *std::move(placed);
+      std::string bytes;
+      memo::pack(bytes, made);
+      memo_->keep(Stage::kSweep, key, std::move(bytes));
+    }
+  }
+  // A head under an overhang leaves what is above it: its size counts.
+  const model::Cutter& c = *step.cutter;
+  setup.squares.cut(step, profile.radius_mm + 2.0 * setup.grid.cell(), setup.target.stock().hi.z + kClearMm,
+                    memo::key_of(Stage::kSweep, placeless(step, false), profile, c.cutter_class,
+                                 c.cutting_width_mm, c.maximum_depth_of_cut_mm));
+  return out;
+}
+
+}  // namespace capstan::verify

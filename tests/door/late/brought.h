@@ -1,0 +1,72 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "planner/controls/linuxcnc/linuxcnc.h"
+#include "tests/support/corpus.h"
+#include "tests/support/shop.h"
+
+/// Plans as they come to a machine, and the tool tables there.
+namespace capstan::late {
+
+inline pipeline::Inputs shop(const std::string& tools, const std::string& machine = {}) {
+  Job job;
+  auto in = pipeline::load_shop({.machine = machine, .tools = tools, .rules = {}, .material = {}}, job);
+  EXPECT_TRUE(in) << (in ? "" : to_text(in.error()));
+  return in ? *std::move(in) : pipeline::Inputs{};
+}
+
+/// A shop whose tool table has this text.
+inline pipeline::Inputs shop_of(const std::string& table, const std::string& machine = {}) {
+  const std::string path = ::testing::TempDir() + "late_table.tbl";
+  std::ofstream(path) << table;
+  return shop(path, machine);
+}
+
+inline double machining_s(const model::Plan& plan) {
+  double out = 0.0;
+  for (const auto& s : plan.steps) out += s.cutting_s + s.rapid_s;
+  return out;
+}
+
+/// A plan with all its paths, as it comes to a machine, and the tool table that it was made for.
+struct Brought {
+  model::Plan plan;
+  std::string table;
+  double machining_s = 0.0;
+};
+inline Brought brought(const std::string& part, pipeline::Format format) {
+  Job job;
+  pipeline::Inputs in = shop({});
+  auto read = pipeline::read_plan(testing::slurp(part), part, job);
+  EXPECT_TRUE(read) << to_text(read.error());
+  auto planned = read ? pipeline::bind(*std::move(read), in, {}, job) : Result<model::Plan>();
+  EXPECT_TRUE(planned) << to_text(planned.error());
+  auto text = pipeline::write_plan(*planned, format, job);
+  EXPECT_TRUE(text);
+  auto again = pipeline::read_plan(*text, part, job);
+  EXPECT_TRUE(again) << to_text(again.error());
+  return {*std::move(again), controls::linuxcnc::write_tool_table(*planned), machining_s(*planned)};
+}
+
+inline std::string without(const std::string& table, int tool) {
+  std::string out;
+  std::istringstream lines(table);
+  for (std::string one; std::getline(lines, one);)
+    if (!one.starts_with("T" + std::to_string(tool) + " ")) out += one + "\n";
+  return out;
+}
+
+/// The table with another length (`key` "Z") or diameter ("D") of one tool, by so many mm.
+inline std::string with(std::string table, int tool, const std::string& key, double by_mm) {
+  const auto at = table.find(key + "+", table.find("T" + std::to_string(tool) + " ")) + 2;
+  const auto end = table.find(' ', at);
+  return table.replace(at, end - at, std::to_string(std::stod(table.substr(at, end - at)) + by_mm));
+}
+
+}  // namespace capstan::late

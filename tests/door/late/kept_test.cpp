@@ -1,0 +1,168 @@
+#include "planner/door/late/kept.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "planner/door/late/late.h"
+#include "planner/model/nouns/all.h"
+#include "tests/door/late/brought.h"
+
+namespace capstan::late {
+namespace {
+
+const std::string kBracket = capstan::testing::source_dir() + "/examples/bracket.p21";
+
+const LatePolicy kInTime = {.deadline = std::nullopt};
+
+const Brought& bracket() {
+  static const Brought kBrought = brought(kBracket, pipeline::Format::kJson);
+  return kBrought;
+}
+
+int tools(const Brought& b) { return static_cast<int>(std::count(b.table.begin(), b.table.end(), '\n')); }
+
+/// Paths and feeds of two plans, step by step.
+void expect_same_steps(const model::Plan& a, const model::Plan& b) {
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    EXPECT_TRUE(*a.steps[i].path == *b.steps[i].path) << i;
+    EXPECT_TRUE(*a.steps[i].schedule == *b.steps[i].schedule) << i;
+    EXPECT_EQ(a.steps[i].feed_mm_min, b.steps[i].feed_mm_min) << i;
+    EXPECT_EQ(a.steps[i].loads, b.steps[i].loads) << i;
+  }
+}
+
+TEST(LateKept, AToolOfAnotherLengthPlansNothingAndIsChecked) {
+  for (const auto format : {pipeline::Format::kJson, pipeline::Format::kAp238}) {
+    const Brought early = brought(kBracket, format);
+    for (const double by : {0.5, -0.5}) {
+      Job job;
+      const auto bound = bind(early.plan, shop_of(with(early.table, 10, "Z", by)), kInTime, job);
+      ASSERT_TRUE(bound) << to_text(bound.error());
+      EXPECT_TRUE(bound->kept);
+      EXPECT_FALSE(bound->improved);
+      expect_same_steps(bound->plan, early.plan);
+      EXPECT_FALSE(bound->program.text.empty());
+      const auto line = with(early.table, 10, "Z", by);
+      EXPECT_NE(bound->program.tool_table.find(line.substr(line.find("T10 "), 14)), std::string::npos);
+    }
+  }
+}
+
+TEST(LateKept, AToolInAnotherPlaceIsCalledThere) {
+  std::string table = bracket().table;
+  table.replace(table.find("T10 P10"), 7, "T42 P42");
+  Job job;
+  const auto bound = bind(bracket().plan, shop_of(table), kInTime, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->kept);
+  EXPECT_NE(bound->program.text.find("T42 "), std::string::npos);
+  EXPECT_EQ(bound->program.text.find("T10 "), std::string::npos);
+  for (const model::StepResult& s : bound->plan.steps) {
+    const auto* ws = bound->plan.model.get<model::MachiningWorkingstep>(s.step);
+    const auto* op =
+        ws == nullptr ? nullptr : bound->plan.model.get<model::MachiningOperation>(ws->its_operation);
+    if (op == nullptr) continue;
+    const auto* usage = bound->plan.model.get<model::ToolUsage>(
+        bound->plan.model.at<model::MachiningTool>(op->its_tool).its_usage);
+    const model::Cutter* c = model::find_cutter(bound->plan, s.cutter_id);
+    EXPECT_EQ(usage->its_position, std::to_string(c->pocket));
+  }
+}
+
+TEST(LateKept, APlanThatTheCheckCondemnsAsItIsIsMadeAnew) {
+  // So short that the holder would run into the pocket: the path holds no more.
+  const int mill = bracket().plan.cutters.back().pocket;
+  Job job;
+  const auto bound = bind(bracket().plan, shop_of(with(bracket().table, mill, "Z", -40.0)), kInTime, job);
+  EXPECT_TRUE(!bound || !bound->kept);
+}
+
+TEST(LateKept, AnotherMachineMaterialOrDiameterIsPlannedFor) {
+  const auto kept = [](pipeline::Inputs in) {
+    Job job;
+    const auto bound = bind(bracket().plan, std::move(in), kInTime, job);
+    EXPECT_TRUE(bound) << (bound ? "" : to_text(bound.error()));
+    return bound && bound->kept;
+  };
+  pipeline::Inputs in = shop_of(bracket().table);
+  EXPECT_TRUE(kept(in));
+  pipeline::Inputs slower = in;
+  slower.machine.tool_change_s += 1.0;
+  EXPECT_FALSE(kept(slower));
+  pipeline::Inputs harder = in;
+  for (model::WorkMaterial& m : harder.materials)
+    if (m.id == bracket().plan.material.id) m.kc11_n_mm2 *= 1.001;
+  EXPECT_FALSE(kept(harder));
+  EXPECT_FALSE(kept(shop_of(with(bracket().table, 10, "D", -0.05))));
+}
+
+TEST(LateKept, APlanWithSomethingOpenIsPlanned) {
+  model::Plan plan = bracket().plan;
+  for (const auto at : plan.model.all_below(model::TypeId::kMachiningWorkingstep)) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(at);
+    const auto technology = plan.model.at<model::MachiningOperation>(ws->its_operation).its_technology;
+    if (technology.set()) plan.ledger.reopen({technology, "feedrate"});
+  }
+  Job job;
+  const auto bound = bind(plan, shop_of(bracket().table), kInTime, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_FALSE(bound->kept);
+}
+
+TEST(LateKeptProperty, WhateverChangedTheFindingsAreThoseOfAWholeCheck) {
+  pipeline::Inputs first = shop_of(bracket().table);
+  const auto proofs = std::make_shared<memo::Memo>(), memo = std::make_shared<memo::Memo>();
+  int bound_to_end = 0;
+  for (int tool = 1; tool <= tools(bracket()); ++tool) {
+    for (const std::string& table :
+         {with(bracket().table, tool, "Z", 0.25), with(bracket().table, tool, "Z", -0.25),
+          with(bracket().table, tool, "D", -0.05), without(bracket().table, tool)}) {
+      pipeline::Inputs in = shop_of(table);
+      in.proofs = proofs;
+      in.memo = memo;
+      Job job;
+      const auto bound = bind(bracket().plan, std::move(in), kInTime, job);
+      if (!bound) continue;
+      ++bound_to_end;
+      Job whole;
+      EXPECT_EQ(bound->findings, pipeline::findings_of(bound->plan, whole)) << tool << "\n" << table;
+    }
+  }
+  EXPECT_GT(bound_to_end, 2 * tools(bracket()));
+  EXPECT_GT(proofs->counts(memo::Stage::kSweep).found, proofs->counts(memo::Stage::kSweep).made);
+}
+
+TEST(LateKept, EachBindingIsARowOfThePlansRecordInEveryForm) {
+  for (const auto format : {pipeline::Format::kJson, pipeline::Format::kAp238, pipeline::Format::kIso14649}) {
+    const Brought early = brought(kBracket, pipeline::Format::kJson);
+    LatePolicy policy = kInTime;
+    policy.time = "2026-11-25T12:00:00Z";
+    Job job;
+    auto once = bind(early.plan, shop_of(early.table), policy, job);
+    ASSERT_TRUE(once) << to_text(once.error());
+    const auto text = pipeline::write_plan(once->plan, format, job);
+    ASSERT_TRUE(text);
+    auto again = pipeline::read_plan(*text, "plan", job);
+    ASSERT_TRUE(again) << to_text(again.error());
+    policy.time = "2026-11-25T13:00:00Z";
+    const auto twice = bind(*again, shop_of(with(early.table, 10, "Z", 0.5)), policy, job);
+    ASSERT_TRUE(twice) << to_text(twice.error());
+    std::vector<model::Provenance> rows;
+    for (const auto& p : twice->plan.provenance)
+      if (p.what.starts_with("late binding ")) rows.push_back(p);
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].what, "late binding 1");
+    EXPECT_EQ(rows[0].value, "2026-11-25T12:00:00Z");
+    EXPECT_EQ(rows[1].value, "2026-11-25T13:00:00Z");
+    EXPECT_NE(rows[0].source, rows[1].source) << "one tool has another length";
+    EXPECT_EQ(rows[0].source.substr(0, rows[0].source.find(", tools")),
+              rows[1].source.substr(0, rows[1].source.find(", tools")))
+        << "the machine is the same";
+  }
+}
+
+}  // namespace
+}  // namespace capstan::late
