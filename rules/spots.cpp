@@ -1,5 +1,6 @@
 #include "rules/spots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -21,6 +22,9 @@ constexpr double kStartsAloneRatio = 5.0;
 /// middle meets the cone first (cncyangsen.com, spot drill vs center drill: equal or slightly larger); makers
 /// grind 142 to 145.
 constexpr double kBluntSpotRad = 142.0 * std::numbers::pi / 180.0;
+/// Width of the mark over the drill's diameter, at most: a pilot needs no mark as wide as its hole's. As the
+/// rows of hole.yaml mark for a drill; default, unsourced.
+constexpr double kMarkOfDrill = 0.6;
 
 /// A chain that begins with a spot and a twist drill, for a drill of solid carbide: without the spot where
 /// none is needed, else with a spot as blunt as that drill. Nothing of other chains. Holes with a zone of
@@ -44,8 +48,9 @@ std::optional<std::vector<ProposedStep>> by_carbide(const model::FeatureShape& s
   const std::string most = trimmed(kStartsAloneRatio, 1) + " diameters";
   const bool deep = drill.depth_mm + context.stock_above_mm > kStartsAloneRatio * least;
   if (deep || context.quality.location_mm) {
-    const double depth = spot.depth_mm / std::tan(0.5 * kBluntSpotRad);  // a mark as wide as at 90 degrees
-    spot.tool.diameter_min_mm = 2.0 * spot.depth_mm;
+    const double wide = std::min(2.0 * spot.depth_mm, kMarkOfDrill * least);  // at 90 degrees: the first
+    const double depth = 0.5 * wide / std::tan(0.5 * kBluntSpotRad);
+    spot.tool.diameter_min_mm = wide;
     spot.tool.reach_mm -= spot.depth_mm - depth;
     spot.tool.point_angle_rad = kBluntSpotRad;
     spot.tool.point_angle_most_rad = 0.0;

@@ -57,6 +57,30 @@ TEST(BluntPoint, OfTheBottomsOwnAngleLeavesNothing) {
   EXPECT_EQ(of_point(made), nullptr) << of_point(made)->message;
 }
 
+// 8 mm through 20 mm of C45 on a router that turns no slower than 6000 1/min, where carbide of 5 mm bears 62
+// m/min as a spot and of 4.3 mm 81 as a drill: a pilot, and a mill after it. The spot is as small as the
+// pilot's.
+TEST(BluntPoint, ASpotBeforeAPilotIsNoWiderThanThePilotNeeds) {
+  removal::Drawing d("THROUGH", {{0.0, 0.0, -20.0}, {40.0, 40.0, 0.0}});
+  d.hole("HOLE", d.placement({20, 20, 0}), 20, 8, d.through_bottom());
+  Job quiet;
+  pipeline::ShopFiles files;
+  files.machine = "small_router";
+  auto in = pipeline::load_shop(files, quiet);
+  in->material_name = "C45";
+  const auto made =
+      *pipeline::bind_checked(*pipeline::read_plan(d.text(), "through.p21", quiet), *in, {}, quiet);
+  ASSERT_TRUE(made.plan.unplanned.empty()) << made.plan.unplanned.front().reason;
+  double drill = 0.0, spot = 0.0;
+  for (const model::Cutter& c : made.plan.cutters) {
+    if (c.cutter_class == model::CutterClass::kTwistDrill) drill = c.cutting_diameter_mm;
+    if (c.cutter_class == model::CutterClass::kSpotDrill) spot = c.cutting_diameter_mm;
+  }
+  ASSERT_GT(drill, 0.0);
+  EXPECT_LT(drill, 8.0);
+  EXPECT_LE(spot, drill);
+}
+
 // A sharper drill goes deeper than is drawn.
 TEST(BluntPoint, NeverASharperOne) {
   const pipeline::Checked made = pointed(150.0);
