@@ -15,7 +15,7 @@ import signal
 import sys
 
 LINUXCNC = 2  # CAPSTAN_LATE_LINUXCNC
-INTERFACE = 2  # CAPSTAN_LATE_INTERFACE that this was written for
+INTERFACE = 2  # CAPSTAN_LATE_INTERFACE, at least
 
 
 def load(path):
@@ -27,8 +27,8 @@ def load(path):
             ('message', text, [session]), ('output', text, [session, ctypes.c_int, ctypes.c_void_p])):
         function = getattr(library, 'capstan_late_' + name)
         function.restype, function.argtypes = result, arguments
-    if library.capstan_late_interface() != INTERFACE:
-        sys.exit(f'{path} has interface {library.capstan_late_interface()}; expected {INTERFACE}')
+    if library.capstan_late_interface() < INTERFACE:
+        sys.exit(f'{path} has interface {library.capstan_late_interface()}; expected {INTERFACE} or later')
     return library
 
 
