@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "casebase/key/metric.h"
 #include "casebase/record/case.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
@@ -75,6 +76,13 @@ class CaseBase {
   [[nodiscard]] Status judge(std::span<const std::string> ids, Verdict verdict, const Remark& remark);
   /// The cases count no more, and adding them again changes nothing. Fails as `judge` does.
   [[nodiscard]] Status remove(std::span<const std::string> ids, const Remark& remark);
+
+  /// What each number of a question counts (key/metric.h): what was learned last before the base
+  /// was opened or by itself; the fixed scales, where nothing was.
+  [[nodiscard]] const Metric& metric() const;
+  /// Learns it from the cases that went well and stores it. Nothing else ever learns it. Fails as `add` does,
+  /// and CASE-UNKNOWN where no case went well.
+  [[nodiscard]] Result<Metric> learn_metric();
 
   /// The id that begins with these digits. Fails CASE-UNKNOWN: none, or several.
   [[nodiscard]] Result<std::string> find(std::string_view digits) const;

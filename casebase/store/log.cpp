@@ -77,6 +77,10 @@ Status Log::take(std::int64_t number, std::string_view bytes, Job* job) {
 }
 
 std::optional<std::string> Log::take_in(std::int64_t number, const Head& head) {
+  if (head.kind == RowKind::kMetric) {
+    metric_ = {number, head.body};
+    return std::nullopt;
+  }
   if (head.kind != RowKind::kCase) {
     const auto entry = find(head.id);
     if (!entry) return "it speaks of a case that is not there";
@@ -207,6 +211,38 @@ Status Log::note(RowKind kind, std::span<const std::uint32_t> entries, Verdict v
     }
     return {};
   });
+}
+
+Status Log::add_metric(const Metric& metric) {
+  return append([&](Store::Appended& out) -> Status {
+    std::string body = bytes_of(metric);
+    if (metric_ && metric_->second == sum_of(body)) return {};
+    Head head;
+    head.kind = RowKind::kMetric;
+    put(out, head, std::move(body));
+    return {};
+  });
+}
+
+Metric Log::metric() const {
+  if (!metric_) return {};
+  std::optional<Metric> found;
+  const std::array<std::int64_t, 1> number = {metric_->first};
+  const std::lock_guard lock(shared_->mutex);
+  const Status read = store_->bodies(number, [&](std::size_t, std::string_view body) {
+    if (sum_of(body) == metric_->second) found = metric_of(body);
+  });
+  if (read && found) return *found;
+  shared_->damaged = true;
+  shared_->faults.push_back(
+      read ? Diagnostic{.code = "CASE-ROW",
+                        .severity = Severity::kWarning,
+                        .message = fmt::format("the metric of row {} was altered or is gone: distances are "
+                                               "by the fixed scales",
+                                               metric_->first),
+                        .file = name()}
+           : read.error());
+  return {};
 }
 
 /// The case of a body if it is what was stored; `why` says why not.

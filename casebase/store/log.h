@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "casebase/key/metric.h"
 #include "casebase/record/case.h"
 #include "casebase/store/row.h"
 #include "casebase/store/store.h"
@@ -59,6 +60,9 @@ class Log {
   [[nodiscard]] std::size_t live() const { return entries_.size() - removed_; }
   [[nodiscard]] std::string name() const { return store_->name(); }
   [[nodiscard]] std::optional<std::uint32_t> find(const Id& id) const;
+  /// The metric that was stored last. The fixed scales where there is none, or where it is not what was
+  /// stored, which is kept for `take_faults`.
+  [[nodiscard]] Metric metric() const;
 
   /// Appends those cases that are not there. Needs cases without fault, with their ids set. Rows that others
   /// appended since are taken in, too.
@@ -67,6 +71,7 @@ class Log {
   [[nodiscard]] Status note(RowKind kind, std::span<const std::uint32_t> entries, Verdict verdict,
                             const Remark& remark);
 
+  [[nodiscard]] Status add_metric(const Metric& metric);
   /// The cases of these entries, verified, with their last verdict; nothing in the place of one that is not
   /// what was stored. What was wrong is kept for `take_faults`.
   [[nodiscard]] std::vector<std::optional<Case>> load(std::span<const std::uint32_t> entries) const;
@@ -101,6 +106,7 @@ class Log {
   };
   std::unordered_map<std::string, std::uint32_t, HashText, std::equal_to<>> category_numbers_;
   std::vector<Note> notes_;
+  std::optional<std::pair<std::int64_t, Sum>> metric_;  // its row and body
   std::size_t removed_ = 0, refused_ = 0;
   Totals totals_;
   // Entries by id; made when it is asked for first.

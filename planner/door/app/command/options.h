@@ -36,6 +36,7 @@ enum class Command : std::uint8_t {
   kCasesJudge,
   kCasesRemove,
   kCasesExport,
+  kCasesMetric,
   kCasesNearest,
 };
 
@@ -76,6 +77,7 @@ struct Options {
   ToolsOptions tools;
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
   CaseJudgement judgement;
+  bool learn = false;  ///< cases metric
 };
 
 /// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).
