@@ -72,6 +72,11 @@ class Log {
                             const Remark& remark);
 
   [[nodiscard]] Status add_metric(const Metric& metric);
+  /// Appends, in one transaction, those rows of another log that say something new: a case that is not there,
+  /// a judgement or a removal that nobody noted with the same words, a metric other than the last. Gives
+  /// their number. Needs rows whose bodies fit their heads.
+  [[nodiscard]] Result<std::size_t> adopt(std::span<const NewRow> rows);
+
   /// The cases of these entries, verified, with their last verdict; nothing in the place of one that is not
   /// what was stored. What was wrong is kept for `take_faults`.
   [[nodiscard]] std::vector<std::optional<Case>> load(std::span<const std::uint32_t> entries) const;
@@ -94,6 +99,7 @@ class Log {
   std::optional<std::string> take_in(std::int64_t number, const Head& head);
   Status append(const std::function<Status(Store::Appended&)>& make);
   void put(Store::Appended& to, Head head, std::string body) const;
+  [[nodiscard]] Status room_for(const Store::Appended& more) const;
   void index() const;
   std::optional<Case> verified(const Entry& entry, std::string_view body, std::string& why) const;
 

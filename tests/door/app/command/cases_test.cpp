@@ -90,6 +90,20 @@ TEST_F(Cases, TeachWhatEachNumberCounts) {
   EXPECT_NE(run("cases metric base.db").out, learned.out);
 }
 
+TEST_F(Cases, OfAServerTellNoPassword) {
+  setenv("CAPSTAN_CASES", ".", 1);
+  const std::string uri = " 'postgresql://shop:tr0ub4dor@127.0.0.1:1/cases' ";
+  for (const std::string& call :
+       {"cases list" + uri, "cases add plan.json" + uri,
+        "plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o other.json --cases" + uri}) {
+    const Ran ran = run(call);
+    EXPECT_NE(ran.code, 0) << call;
+    EXPECT_THAT(ran.err, HasSubstr("postgresql://shop@127.0.0.1:1/cases")) << call;
+    EXPECT_THAT(ran.err + ran.out, Not(HasSubstr("tr0ub4dor"))) << call;
+  }
+  unsetenv("CAPSTAN_CASES");
+}
+
 TEST_F(Cases, ThatAreNotThereAreWrongUsage) {
   EXPECT_EQ(run("cases show base.db zzz").code, 2);
   EXPECT_EQ(run("cases judge base.db zzz --verdict bad --by Smith --reason x").code, 2);
