@@ -16,7 +16,10 @@ Diagnostic unknown(std::string_view id, std::string why) {
 }  // namespace
 
 struct CaseBase::Impl {
-  explicit Impl(Log l) : log(std::move(l)), search(log) {}
+  Impl(Log l, Job& job) : log(std::move(l)), search(log) {
+    search.weigh(log.metric());
+    for (Diagnostic& d : log.take_faults()) job.report(std::move(d));
+  }
 
   Log log;
   Search search;
@@ -74,13 +77,13 @@ Result<Log> open_log(const std::string& uri, Missing missing, Job& job) {
 Result<CaseBase> CaseBase::open(const std::string& uri, Job& job) {
   Result<Log> log = open_log(uri, Missing::kRefuse, job);
   if (!log) return fail(log.error());
-  return CaseBase(std::make_unique<Impl>(*std::move(log)));
+  return CaseBase(std::make_unique<Impl>(*std::move(log), job));
 }
 
 Result<CaseBase> CaseBase::open_or_create(const std::string& uri, Job& job) {
   Result<Log> log = open_log(uri, Missing::kCreate, job);
   if (!log) return fail(log.error());
-  return CaseBase(std::make_unique<Impl>(*std::move(log)));
+  return CaseBase(std::make_unique<Impl>(*std::move(log), job));
 }
 
 Status CaseBase::add(const Case& c) { return add(std::span(&c, 1)); }
@@ -107,6 +110,17 @@ Status CaseBase::judge(std::span<const std::string> ids, Verdict verdict, const 
 
 Status CaseBase::remove(std::span<const std::string> ids, const Remark& remark) {
   return impl_->note(RowKind::kRemoval, ids, Verdict::kUnknown, remark);
+}
+
+const Metric& CaseBase::metric() const { return impl_->search.metric(); }
+
+Result<Metric> CaseBase::learn_metric() {
+  const Metric learned = learned_metric(cases());
+  if (learned.cases == 0) return fail("CASE-UNKNOWN", "no case went well, so that nothing can be learned");
+  if (Status s = impl_->log.add_metric(learned); !s) return fail(s.error());
+  impl_->search.update();
+  impl_->search.weigh(learned);
+  return learned;
 }
 
 Result<std::string> CaseBase::find(std::string_view digits) const {

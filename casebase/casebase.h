@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "casebase/key/metric.h"
 #include "casebase/record/case.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
@@ -40,10 +41,12 @@ inline constexpr double kPrecedentDistance = 0.5;
 ///          time.
 class CaseBase {
  public:
-  /// Opens an existing store: a file of SQLite ("path", "sqlite:path"), or another that store/open.cpp names.
-  /// Rows that were altered or are gone are reported to `job` (CASE-ROW) and left out; then `add` refuses
-  /// (CASE-DAMAGED). When it is opened, the heads of all rows are verified; the rest of a case is when it is
-  /// used: what is found then is told by `take_faults`.
+  /// Opens an existing store: a file of SQLite ("path", "sqlite:path"), or a database of PostgreSQL
+  /// ("postgresql://user@host:port/database"). While a server cannot be reached a local copy of it is read,
+  /// and what is added waits for it (CASE-OFFLINE, a warning to `job`; store/server.h). Rows that were
+  /// altered or are gone are reported to `job` (CASE-ROW) and left out; then `add` refuses (CASE-DAMAGED).
+  /// When it is opened, the heads of all rows are verified; the rest of a case is when it is used: what is
+  /// found then is told by `take_faults`.
   ///
   /// Fails   CASE-URI no such store; CASE-OPEN missing or unreadable; CASE-SCHEMA not a case base, or of a
   ///         newer version, or with a table, index, trigger or view that is not ours; CASE-BUSY;
@@ -60,7 +63,8 @@ class CaseBase {
   /// were and are removed, are skipped, so an `add` whose outcome is unknown may be repeated.
   ///
   /// Fails   CASE-INVALID a case that cannot be; CASE-READ-ONLY; CASE-BUSY another writer held the store for
-  ///         5 s; CASE-DAMAGED; CASE-LIMIT too many; CASE-STORE no space, or another fault of the store.
+  ///         5 s; CASE-DAMAGED; CASE-LIMIT too many; CASE-STORE no space, or another fault of the store;
+  ///         CASE-OFFLINE the server went away, and whether it is stored is unknown: repeat it.
   [[nodiscard]] Status add(const Case& c);
   [[nodiscard]] Status add(std::span<const Case> cases);
   /// Gives cases a verdict that supersedes the one before. `ids` as `find` gives them. Fails as `add` does,
@@ -68,6 +72,13 @@ class CaseBase {
   [[nodiscard]] Status judge(std::span<const std::string> ids, Verdict verdict, const Remark& remark);
   /// The cases count no more, and adding them again changes nothing. Fails as `judge` does.
   [[nodiscard]] Status remove(std::span<const std::string> ids, const Remark& remark);
+
+  /// What each number of a question counts (key/metric.h): what was learned last before the base
+  /// was opened or by itself; the fixed scales, where nothing was.
+  [[nodiscard]] const Metric& metric() const;
+  /// Learns it from the cases that went well and stores it. Nothing else ever learns it. Fails as `add` does,
+  /// and CASE-UNKNOWN where no case went well.
+  [[nodiscard]] Result<Metric> learn_metric();
 
   /// The id that begins with these digits. Fails CASE-UNKNOWN: none, or several.
   [[nodiscard]] Result<std::string> find(std::string_view digits) const;
@@ -99,6 +110,9 @@ class CaseBase {
   explicit CaseBase(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+/// What texts call the base of a URI: without a password, nor anything that may be a part of one.
+[[nodiscard]] std::string name_of(const std::string& uri);
 
 /// Substrate and class: speeds for one substrate say nothing about another.
 [[nodiscard]] std::string tool_class_of(const model::Cutter& cutter);

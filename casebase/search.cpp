@@ -27,6 +27,7 @@ struct Bucket {
 
 struct Search::Impl {
   const Log* log = nullptr;
+  Metric metric;
   /// By categories and what is known.
   mutable std::map<std::pair<std::uint32_t, std::uint16_t>, Bucket> buckets;
   mutable std::mutex making;
@@ -77,7 +78,8 @@ struct Search::Impl {
       if (!c.comparable) continue;
       ready(it->second);
       Point weight{};
-      for (std::size_t i = 0; i < kDimensions; ++i) weight[i] = (c.counted >> i & 1U) != 0 ? 1.0 : 0.0;
+      for (std::size_t i = 0; i < kDimensions; ++i)
+        weight[i] = (c.counted >> i & 1U) != 0 ? metric.weight[i] : 0.0;
       const Bucket& b = it->second;
       for (const Hit& hit : look(*b.index, {at, weight}, c.added2))
         out.push_back({b.members[hit.row], hit.distance2 + c.added2});
@@ -102,6 +104,9 @@ Search::Search(const Log& log) : impl_(std::make_unique<Impl>()) {
 Search::Search(Search&&) noexcept = default;
 Search& Search::operator=(Search&&) noexcept = default;
 Search::~Search() = default;
+
+void Search::weigh(const Metric& metric) { impl_->metric = metric; }
+const Metric& Search::metric() const { return impl_->metric; }
 
 void Search::update() {
   const std::vector<Entry>& entries = impl_->log->entries();

@@ -31,6 +31,9 @@ class Search {
   Search& operator=(Search&&) noexcept;
   ~Search();
 
+  /// What each dimension counts from now on.
+  void weigh(const Metric& metric);
+  [[nodiscard]] const Metric& metric() const;
   /// Takes in what the log took in since.
   void update();
   /// Whether any case could be compared with the question.

@@ -11,7 +11,8 @@
 /// they need not change with it.
 ///
 /// Each number of a question is a coordinate: its logarithm, divided by a fixed scale. The scales never
-/// depend on the cases stored, so that a distance means the same tomorrow. Distance is Euclid's. (With the
+/// depend on the cases stored, so that a distance means the same tomorrow; a metric that was
+/// learned weighs the coordinates (metric.h). Distance is Euclid's. (With the
 /// categories equal and the scale of each number fixed, HVDM of Wilson and Martinez, "Improved heterogeneous
 /// distance functions", JAIR 6, 1997, is this.)
 namespace capstan::casebase {

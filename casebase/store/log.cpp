@@ -77,6 +77,10 @@ Status Log::take(std::int64_t number, std::string_view bytes, Job* job) {
 }
 
 std::optional<std::string> Log::take_in(std::int64_t number, const Head& head) {
+  if (head.kind == RowKind::kMetric) {
+    metric_ = {number, head.body};
+    return std::nullopt;
+  }
   if (head.kind != RowKind::kCase) {
     const auto entry = find(head.id);
     if (!entry) return "it speaks of a case that is not there";
@@ -172,6 +176,13 @@ Status Log::append(const std::function<Status(Store::Appended&)>& make) {
   return {};
 }
 
+Status Log::room_for(const Store::Appended& more) const {
+  if (entries_.size() + more.rows.size() <= kMaxCases) return {};
+  return fail(Diagnostic{.code = "CASE-LIMIT",
+                         .message = fmt::format("it would hold more than {} cases", kMaxCases),
+                         .file = name()});
+}
+
 Status Log::add(std::span<const Case> cases) {
   return append([&](Store::Appended& out) -> Status {
     index();
@@ -183,12 +194,7 @@ Status Log::add(std::span<const Case> cases) {
       const std::string categories = categories_of(c.asked);
       put(out, head_of_case(c, categories, body), std::move(body));
     }
-    if (entries_.size() + out.rows.size() > kMaxCases) {
-      return fail(Diagnostic{.code = "CASE-LIMIT",
-                             .message = fmt::format("it would hold more than {} cases", kMaxCases),
-                             .file = name()});
-    }
-    return {};
+    return room_for(out);
   });
 }
 
@@ -207,6 +213,72 @@ Status Log::note(RowKind kind, std::span<const std::uint32_t> entries, Verdict v
     }
     return {};
   });
+}
+
+Status Log::add_metric(const Metric& metric) {
+  return append([&](Store::Appended& out) -> Status {
+    std::string body = bytes_of(metric);
+    if (metric_ && metric_->second == sum_of(body)) return {};
+    Head head;
+    head.kind = RowKind::kMetric;
+    put(out, head, std::move(body));
+    return {};
+  });
+}
+
+Result<std::size_t> Log::adopt(std::span<const NewRow> rows) {
+  std::size_t added = 0;
+  const Status done = append([&](Store::Appended& out) -> Status {
+    index();
+    std::unordered_map<Id, bool, HashId> mine;
+    for (const NewRow& row : rows) {
+      const auto head = head_of(row.head, row.number);
+      if (!head) throw std::logic_error("a row to be adopted was altered");
+      const auto known = by_id_.find(head->id);
+      const auto same = [&](const Note& n) {
+        return known != by_id_.end() && n.entry == known->second && n.kind == head->kind &&
+               n.verdict == head->verdict && n.body == head->body;
+      };
+      if (head->kind == RowKind::kCase) {
+        if (known != by_id_.end() || !mine.emplace(head->id, false).second) continue;
+      } else if (head->kind == RowKind::kMetric) {
+        if (metric_ && metric_->second == head->body) continue;
+      } else if (known == by_id_.end() && !mine.contains(head->id)) {
+        return fail(Diagnostic{.code = "CASE-UNKNOWN",
+                               .message = fmt::format("what waits speaks of case {}, which is not there",
+                                                      digits_of(head->id).substr(0, 12)),
+                               .file = name()});
+      } else if (std::any_of(notes_.begin(), notes_.end(), same)) {
+        continue;
+      }
+      put(out, *head, row.body);
+    }
+    added = out.rows.size();
+    return room_for(out);
+  });
+  if (!done) return fail(done.error());
+  return added;
+}
+
+Metric Log::metric() const {
+  if (!metric_) return {};
+  std::optional<Metric> found;
+  const std::array<std::int64_t, 1> number = {metric_->first};
+  const std::lock_guard lock(shared_->mutex);
+  const Status read = store_->bodies(number, [&](std::size_t, std::string_view body) {
+    if (sum_of(body) == metric_->second) found = metric_of(body);
+  });
+  if (read && found) return *found;
+  shared_->damaged = true;
+  shared_->faults.push_back(
+      read ? Diagnostic{.code = "CASE-ROW",
+                        .severity = Severity::kWarning,
+                        .message = fmt::format("the metric of row {} was altered or is gone: distances are "
+                                               "by the fixed scales",
+                                               metric_->first),
+                        .file = name()}
+           : read.error());
+  return {};
 }
 
 /// The case of a body if it is what was stored; `why` says why not.
@@ -272,7 +344,9 @@ std::optional<Remark> Log::remark(const Note& note) const {
 
 std::vector<Diagnostic> Log::take_faults() const {
   const std::lock_guard lock(shared_->mutex);
-  return std::exchange(shared_->faults, {});
+  std::vector<Diagnostic> out = std::exchange(shared_->faults, {});
+  for (Diagnostic& d : store_->take_told()) out.push_back(std::move(d));
+  return out;
 }
 
 }  // namespace capstan::casebase

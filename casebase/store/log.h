@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "casebase/key/metric.h"
 #include "casebase/record/case.h"
 #include "casebase/store/row.h"
 #include "casebase/store/store.h"
@@ -59,6 +60,9 @@ class Log {
   [[nodiscard]] std::size_t live() const { return entries_.size() - removed_; }
   [[nodiscard]] std::string name() const { return store_->name(); }
   [[nodiscard]] std::optional<std::uint32_t> find(const Id& id) const;
+  /// The metric that was stored last. The fixed scales where there is none, or where it is not what was
+  /// stored, which is kept for `take_faults`.
+  [[nodiscard]] Metric metric() const;
 
   /// Appends those cases that are not there. Needs cases without fault, with their ids set. Rows that others
   /// appended since are taken in, too.
@@ -66,6 +70,12 @@ class Log {
   /// Appends a judgement or a removal of these entries.
   [[nodiscard]] Status note(RowKind kind, std::span<const std::uint32_t> entries, Verdict verdict,
                             const Remark& remark);
+
+  [[nodiscard]] Status add_metric(const Metric& metric);
+  /// Appends, in one transaction, those rows of another log that say something new: a case that is not there,
+  /// a judgement or a removal that nobody noted with the same words, a metric other than the last. Gives
+  /// their number. Needs rows whose bodies fit their heads.
+  [[nodiscard]] Result<std::size_t> adopt(std::span<const NewRow> rows);
 
   /// The cases of these entries, verified, with their last verdict; nothing in the place of one that is not
   /// what was stored. What was wrong is kept for `take_faults`.
@@ -89,6 +99,7 @@ class Log {
   std::optional<std::string> take_in(std::int64_t number, const Head& head);
   Status append(const std::function<Status(Store::Appended&)>& make);
   void put(Store::Appended& to, Head head, std::string body) const;
+  [[nodiscard]] Status room_for(const Store::Appended& more) const;
   void index() const;
   std::optional<Case> verified(const Entry& entry, std::string_view body, std::string& why) const;
 
@@ -101,6 +112,7 @@ class Log {
   };
   std::unordered_map<std::string, std::uint32_t, HashText, std::equal_to<>> category_numbers_;
   std::vector<Note> notes_;
+  std::optional<std::pair<std::int64_t, Sum>> metric_;  // its row and body
   std::size_t removed_ = 0, refused_ = 0;
   Totals totals_;
   // Entries by id; made when it is asked for first.

@@ -1,6 +1,7 @@
 #include <array>
 
-#include "casebase/store/store.h"
+#include "casebase/casebase.h"
+#include "casebase/store/server.h"
 
 namespace capstan::casebase {
 namespace {
@@ -16,12 +17,14 @@ struct Kind {
 constexpr std::array kKinds = {
     Kind{"sqlite:", false,
          [](const std::string& path, Missing missing, Job& job) { return open_sqlite(path, missing, job); }},
+    Kind{"postgresql:", true, open_server},
+    Kind{"postgres:", true, open_server},
 };
 
 tl::unexpected<Diagnostic> no_store(const std::string& uri) {
   return fail(Diagnostic{.code = "CASE-URI",
-                         .message = "'" + uri.substr(0, 200) + "' names no case base",
-                         .expected = "a path, or sqlite: and a path"});
+                         .message = "'" + name_of(uri.substr(0, 200)) + "' names no case base",
+                         .expected = "a path, sqlite: and a path, or postgresql://user@host:port/database"});
 }
 
 }  // namespace

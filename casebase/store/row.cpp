@@ -76,7 +76,7 @@ std::optional<Head> head_of(std::string_view bytes, std::int64_t number) {
   head.id = get_sum(from);
   head.body = get_sum(from);
   const auto verdict = from.integer<std::uint8_t>();
-  if (kind > static_cast<std::uint8_t>(RowKind::kRemoval) ||
+  if (kind > static_cast<std::uint8_t>(RowKind::kMetric) ||
       verdict > static_cast<std::uint8_t>(Verdict::kBad))
     return std::nullopt;
   head.kind = static_cast<RowKind>(kind);

@@ -16,6 +16,7 @@ enum class RowKind : std::uint8_t {
   kCase,       ///< body: `encoded`
   kJudgement,  ///< a verdict that supersedes the case's, and any before; body: who, when, why
   kRemoval,    ///< the case counts no more; body: who, when, why
+  kMetric,     ///< the metric of searches from now on (key/metric.h); body: `bytes_of` it
 };
 
 /// An id as 128 bits; its hexadecimal digits.

@@ -33,7 +33,7 @@ struct NewRow {
 /// Threads   one call at a time; the log sees to that.
 /// Fails     CASE-BUSY another writer held the store for too long; CASE-DAMAGED the store cannot be read;
 ///           CASE-SCHEMA it is not a case base, or was altered to be none; CASE-READ-ONLY; CASE-STORE no
-///           space, an unreachable server, any other fault of the store.
+///           space, any other fault of the store; CASE-OFFLINE a server that went away.
 class Store {
  public:
   using TakeHead = std::function<Status(std::int64_t number, std::string_view head)>;
@@ -62,6 +62,9 @@ class Store {
   /// and appends it. When it returns well, all of it is stored for good; when it fails, nothing is, but where
   /// the connection was lost the outcome is unknown, and the same call may be made again.
   [[nodiscard]] virtual Status append(std::int64_t after, const TakeHead& take, const Decide& decide) = 0;
+  /// What happened since this was asked last that is no fault of a call: a copy that is not up to date, a
+  /// server that went away.
+  [[nodiscard]] virtual std::vector<Diagnostic> take_told() { return {}; }
 };
 
 /// Opens the store that a URI names: "path", "sqlite:path", or what open.cpp has a row for.

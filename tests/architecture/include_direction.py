@@ -104,6 +104,7 @@ FENCES = {
     "FLANN": (r"flann/", 1),
     "Clipper": (r"(polyclipping/)?clipper\.hpp$", 1),
     "SQLite": (r"sqlite3(ext)?\.h$", 2),
+    "libpqxx": (r"pqxx/|libpq-fe\.h$", 1),
     "CLI11": (r"CLI/", None),
     "nlohmann-json": (r"nlohmann/", None),
     "yaml-cpp": (r"yaml-cpp/", None),
@@ -114,7 +115,7 @@ FENCES = {
 FENCES = {name: (re.compile(pattern), limit) for name, (pattern, limit) in FENCES.items()}
 
 C_HEADERS = {"stdbool.h", "stddef.h", "stdint.h"}
-EXTERNAL_NAME = re.compile(r"\b(Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|ClipperLib)::|\bsqlite3\b")
+EXTERNAL_NAME = re.compile(r"\b(Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|pqxx|ClipperLib)::|\bsqlite3\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 

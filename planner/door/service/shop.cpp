@@ -302,7 +302,7 @@ Status take_choices(const Request& o, const model::Plan& plan, pipeline::Inputs&
   if (auto ok = material_of(o, plan, in, job); !ok) return ok;
   choices(o, plan, in);
   if (auto wrong = edges_wrong(o, in)) return fail(*std::move(wrong));
-  if (o.cases) in.provenance.push_back({"cases", *o.cases, "named by the caller"});
+  if (o.cases) in.provenance.push_back({"cases", casebase::name_of(*o.cases), "named by the caller"});
   return {};
 }
 

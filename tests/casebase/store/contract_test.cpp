@@ -7,6 +7,8 @@
 #include "casebase/casebase.h"
 #include "casebase/store/row.h"
 #include "casebase/store/store.h"
+#include "tests/casebase/killed_writer.h"
+#include "tests/casebase/postgres.h"
 #include "tests/casebase/sample.h"
 
 namespace capstan::casebase {
@@ -28,6 +30,19 @@ class InAFile final : public Where {
 
  private:
   Folder folder_;
+};
+
+class OnAServer final : public Where {
+ public:
+  explicit OnAServer(std::unique_ptr<PostgresPlace> place) : place_(std::move(place)) {}
+  static std::unique_ptr<Where> make() {
+    auto place = PostgresPlace::make();
+    return place ? std::make_unique<OnAServer>(std::move(place)) : nullptr;
+  }
+  std::string uri() const override { return place_->uri(); }
+
+ private:
+  std::unique_ptr<PostgresPlace> place_;
 };
 
 /// A kind of store: its name, and a place for one; null where the machine has none, and the test is skipped.
@@ -184,8 +199,14 @@ TEST_P(StoreContract, TakesEightWritersAtATime) {
   EXPECT_EQ(base().size(), cases.size());
 }
 
+TEST_P(StoreContract, IsWholeAfterItsWriterWasKilled) {
+  fill(where_->uri(), {});
+  expect_whole_after_killed_writers(where_->uri(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, StoreContract,
-                         testing::Values(StoreKind{"sqlite", [] { return std::make_unique<InAFile>(); }}),
+                         testing::Values(StoreKind{"sqlite", [] { return std::make_unique<InAFile>(); }},
+                                         StoreKind{"postgresql", OnAServer::make}),
                          [](const auto& kind) { return kind.param.name; });
 
 }  // namespace

@@ -277,6 +277,8 @@ class CommandLine {
     auto* remove = on_base(cases, "remove", "let cases count no more; adding them again changes nothing",
                            Command::kCasesRemove);
     auto* out = on_base(cases, "export", "all cases as CSV on standard output", Command::kCasesExport);
+    on_base(cases, "metric", "what each number of a question counts in a distance", Command::kCasesMetric)
+        ->add_flag("--learn", out_.learn, "learn it from the cases that went well, and store it");
     auto& j = out_.judgement;
     for (CLI::App* sub : {show, judge, remove})
       sub->add_option("ids", out_.words, "first digits of the cases' ids")->required();

@@ -36,6 +36,7 @@ enum class Command : std::uint8_t {
   kCasesJudge,
   kCasesRemove,
   kCasesExport,
+  kCasesMetric,
   kCasesNearest,
   kCasesTune,
 };
@@ -78,6 +79,7 @@ struct Options {
   std::string today;      ///< cases tune: a date
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
   CaseJudgement judgement;
+  bool learn = false;  ///< cases metric
 };
 
 /// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).

@@ -60,6 +60,8 @@ int dispatch(Session& s) {
       return run_cases_remove(s);
     case Command::kCasesExport:
       return run_cases_export(s);
+    case Command::kCasesMetric:
+      return run_cases_metric(s);
     case Command::kCasesNearest:
       return run_cases_nearest(s);
     case Command::kCasesTune:

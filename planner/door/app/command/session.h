@@ -67,6 +67,7 @@ int run_cases_show(Session& s);
 int run_cases_judge(Session& s);
 int run_cases_remove(Session& s);
 int run_cases_export(Session& s);
+int run_cases_metric(Session& s);
 int run_cases_nearest(Session& s);
 int run_cases_tune(Session& s);
 

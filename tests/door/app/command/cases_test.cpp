@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "tests/door/app/command/command.h"
 #include "tests/support/corpus.h"
 
@@ -58,6 +60,48 @@ TEST_F(Cases, AreTheSameAfterAnExport) {
   put("cases.csv", run("cases export base.db").out);
   ASSERT_EQ(run("cases add other.db cases.csv").code, 0);
   EXPECT_EQ(run("cases list other.db").out, run("cases list base.db").out);
+}
+
+TEST_F(Cases, TeachWhatEachNumberCounts) {
+  EXPECT_THAT(run("cases metric base.db").err, HasSubstr("the fixed scales"));
+  const Ran none = run("cases metric base.db --learn");  // a plan's own simulation teaches nothing
+  EXPECT_EQ(none.code, 4);
+  EXPECT_THAT(none.err, HasSubstr("no case went well"));
+  // The same cuts, as somebody entered them who saw them go well.
+  std::istringstream lines(run("cases export base.db").out);
+  std::string entered;  // without the ids, which are those of the simulated cases
+  for (std::string line; std::getline(lines, line);) entered += line.substr(line.find(',') + 1) + '\n';
+  const std::string from = ",simulated,", to = ",entered,";
+  for (std::size_t at = entered.find(from); at != std::string::npos; at = entered.find(from, at))
+    entered.replace(at, from.size(), to);
+  put("entered.csv", entered);
+  const Ran added = run("cases add entered.db entered.csv");
+  ASSERT_EQ(added.code, 0) << added.err;
+  const std::string list = run("cases list entered.db --json").out, key = "\"id\": \"";
+  std::string ids;
+  for (std::size_t at = list.find(key); at != std::string::npos; at = list.find(key, at + 1))
+    ids += ' ' + list.substr(at + key.size(), 32);
+  const Ran judged = run("cases judge entered.db" + ids + " --verdict good --by Smith --reason measured");
+  ASSERT_EQ(judged.code, 0) << judged.err;
+  const Ran learned = run("cases metric entered.db --learn");
+  EXPECT_EQ(learned.code, 0) << learned.err;
+  EXPECT_THAT(learned.err, HasSubstr("learned from"));
+  EXPECT_EQ(run("cases metric entered.db").out, learned.out);
+  EXPECT_NE(run("cases metric base.db").out, learned.out);
+}
+
+TEST_F(Cases, OfAServerTellNoPassword) {
+  setenv("CAPSTAN_CASES", ".", 1);
+  const std::string uri = " 'postgresql://shop:tr0ub4dor@127.0.0.1:1/cases' ";
+  for (const std::string& call :
+       {"cases list" + uri, "cases add plan.json" + uri,
+        "plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o other.json --cases" + uri}) {
+    const Ran ran = run(call);
+    EXPECT_NE(ran.code, 0) << call;
+    EXPECT_THAT(ran.err, HasSubstr("postgresql://shop@127.0.0.1:1/cases")) << call;
+    EXPECT_THAT(ran.err + ran.out, Not(HasSubstr("tr0ub4dor"))) << call;
+  }
+  unsetenv("CAPSTAN_CASES");
 }
 
 TEST_F(Cases, ThatAreNotThereAreWrongUsage) {

@@ -13,6 +13,11 @@ namespace {
 
 /// Cases from a CSV file, or from a plan's steps. A step that makes no case is reported and skipped.
 Result<std::vector<casebase::Case>> cases_of(const std::string& path, Job& job) {
+  if (path.find("://") != std::string::npos) {  // it may hold a password, so that it is not repeated
+    return fail(Diagnostic{.code = "CASE-URI",
+                           .message = "'" + casebase::name_of(path) + "' is no file of cases",
+                           .hint = "the case base stands first"});
+  }
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   const service::Content content = service::content_of(*bytes);

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <fcntl.h>
+#include <pwd.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/casebase/sample.h"
+
+namespace capstan::casebase {
+
+/// A server of PostgreSQL of its own: a private folder, a socket in it, no port. Where the tests run as root,
+/// who must not run a server, it runs as `postgres` or `nobody`.
+class PostgresServer {
+ public:
+  /// Null where no server is installed.
+  static std::unique_ptr<PostgresServer> make() {
+    const std::string programs = programs_folder();
+    if (programs.empty()) return nullptr;
+    auto server = std::unique_ptr<PostgresServer>(new PostgresServer(programs));
+    if (!server->run({programs + "/initdb", "-D", server->data(), "-A", "trust", "-U", "shop", "-N"}) ||
+        !server->start())
+      return nullptr;
+    return server;
+  }
+  ~PostgresServer() { stop(SIGINT); }
+  PostgresServer(const PostgresServer&) = delete;
+  PostgresServer& operator=(const PostgresServer&) = delete;
+
+  /// The URI of a database; `more` behind the user, such as ":password".
+  [[nodiscard]] std::string uri(const std::string& database, const std::string& more = "") const {
+    return "postgresql://shop" + more + "@/" + database + "?host=" + folder_.path().string();
+  }
+  /// Runs a statement as psql does; what it prints.
+  std::string sql(const std::string& database, const std::string& statement) const {
+    const std::string out = folder_.file("out");
+    EXPECT_TRUE(run({programs_ + "/psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-h",
+                     folder_.path().string(), "-U", "shop", "-d", database, "-c", statement},
+                    out))
+        << statement;
+    std::ifstream in(out);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text;
+  }
+  bool start() {
+    constexpr int kTurns = 3000;  // of 20 ms: a machine may be busy
+    for (int i = 0; i < kTurns; ++i) {
+      // One that was killed leaves workers for a moment, and no other starts until they are gone.
+      if (server_ <= 0 || waitpid(server_, nullptr, WNOHANG) == server_) {
+        server_ = launch({programs_ + "/postgres", "-D", data(), "-k", folder_.path().string(), "-c",
+                          "listen_addresses=", "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
+                         folder_.file("log"));
+      }
+      if (run({programs_ + "/pg_isready", "-q", "-h", folder_.path().string()})) return true;
+      usleep(20'000);
+    }
+    return false;
+  }
+  /// SIGINT: it ends its connections and writes everything; SIGKILL: its workers end when they find
+  /// it gone.
+  void stop(int signal) {
+    if (server_ <= 0) return;
+    kill(server_, signal);
+    waitpid(server_, nullptr, 0);
+    server_ = 0;
+  }
+  [[nodiscard]] std::string data() const { return folder_.file("data"); }
+
+ private:
+  explicit PostgresServer(std::string programs) : programs_(std::move(programs)) {
+    if (geteuid() == 0) {
+      user_ = getpwnam("postgres");
+      if (user_ == nullptr) user_ = getpwnam("nobody");
+      if (user_ != nullptr) {
+        EXPECT_EQ(chown(folder_.path().c_str(), user_->pw_uid, user_->pw_gid), 0);
+      }
+    }
+    std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
+  }
+
+  static std::string programs_folder() {
+    std::vector<std::string> found;
+    std::error_code none;
+    for (const auto& version : std::filesystem::directory_iterator("/usr/lib/postgresql", none)) {
+      if (std::filesystem::exists(version.path() / "bin/postgres", none))
+        found.push_back((version.path() / "bin").string());
+    }
+    return found.empty() ? "" : *std::max_element(found.begin(), found.end());
+  }
+
+  pid_t launch(const std::vector<std::string>& words, const std::string& out) const {
+    std::vector<char*> arguments;
+    for (const std::string& w : words) arguments.push_back(const_cast<char*>(w.c_str()));
+    arguments.push_back(nullptr);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    const int to = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (to < 0 || chdir(folder_.path().c_str()) != 0) _exit(126);
+    dup2(to, 1);
+    if (user_ != nullptr && (setgid(user_->pw_gid) != 0 || setuid(user_->pw_uid) != 0)) _exit(126);
+    const int errors = open("errors", O_WRONLY | O_CREAT | O_APPEND, 0666);
+    if (errors >= 0) dup2(errors, 2);
+    prctl(PR_SET_PDEATHSIG, SIGQUIT);  // it ends with the tests, however they end
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  bool run(const std::vector<std::string>& words, const std::string& out = "/dev/null") const {
+    const pid_t child = launch(words, out);
+    int status = 0;
+    return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+  Folder folder_;
+  std::string programs_;
+  const passwd* user_ = nullptr;
+  pid_t server_ = 0;
+};
+
+/// A server with databases of its own, and a private folder for the files beside; the tests of one program
+/// share the server.
+class PostgresPlace {
+ public:
+  /// Null where there is no server, or the program was built without PostgreSQL.
+  static std::unique_ptr<PostgresPlace> make() {
+    static const std::unique_ptr<PostgresServer> kServer = PostgresServer::make();
+    if (!kServer) return nullptr;
+    auto place = std::unique_ptr<PostgresPlace>(new PostgresPlace(*kServer));
+    Job job;
+    const auto base = CaseBase::open(place->uri(), job);
+    const bool built_without = !base && base.error().code == "CASE-URI";
+    return built_without ? nullptr : std::move(place);
+  }
+  ~PostgresPlace() { unsetenv("CAPSTAN_CASES"); }
+  PostgresPlace(const PostgresPlace&) = delete;
+  PostgresPlace& operator=(const PostgresPlace&) = delete;
+
+  [[nodiscard]] std::string uri(const std::string& more = "") const { return server_.uri(database_, more); }
+  std::string sql(const std::string& statement) const { return server_.sql(database_, statement); }
+  [[nodiscard]] PostgresServer& server() const { return server_; }
+  [[nodiscard]] const Folder& beside() const { return beside_; }
+
+ private:
+  explicit PostgresPlace(PostgresServer& server) : server_(server) {
+    static int made = 0;
+    database_ = "cases" + std::to_string(++made);
+    server_.sql("postgres", "CREATE DATABASE " + database_);
+    setenv("CAPSTAN_CASES", beside_.path().c_str(), 1);
+  }
+  PostgresServer& server_;
+  std::string database_;
+  Folder beside_;
+};
+
+}  // namespace capstan::casebase
