@@ -221,12 +221,14 @@ Made rest(const Making& m, Made made) {
   if (!made) return made;
   ProposedStep& s = *made;
   if (std::abs(m.shape.slope_rad) > 1e-6) return no("rest machining needs upright walls");
-  const Limit corner = corner_cutter(m, s.allowance_side_mm);
+  const double times = std::max(1.0, m.number("corners"));
+  const Limit corner = corner_cutter(m, s.allowance_side_mm, times);
   model::ToolRequirement before;
   const auto wide = before_rest(m, m.number("of_passage"), s.allowance_side_mm, before);
   if (!wide) return no(wide.error());
-  const double corners = corner_cutter(m, 0.0).diameter_mm;
+  const double corners = corner_cutter(m, 0.0, times).diameter_mm;
   s.tool.diameter_max_mm = std::min(corner.diameter_mm, m.number("of_corner") * corners);
+  if (wide->diameter_mm > 0.0) s.tool.diameter_max_mm = std::min(s.tool.diameter_max_mm, wide->diameter_mm);
   s.tool.diameter_min_mm = 0.0;
   if (s.tool.corner_radius_exact_mm > 0.0 && 2.0 * s.tool.corner_radius_exact_mm > s.tool.diameter_max_mm)
     return no("a floor fillet of " + mm_text(s.tool.corner_radius_exact_mm) +
@@ -355,7 +357,8 @@ std::vector<Action> area_actions() {
   const ActionParameter finish_passage{"of_passage", 0.95, "largest cutter by the narrowest passage"};
   const ActionParameter corners{"corners", 1.0,
                                 "0: corners do not limit the cutter, a rest step follows; above 1, of "
-                                "roughing: corners may keep that many times their radius until the finish"};
+                                "roughing and of a rest: corners may keep that many times their radius "
+                                "until the finish, or the next rest"};
   const ActionParameter of_corner{"of_corner", 0.9, "largest cutter by the diameter of the corners"};
   const ActionParameter of_area{
       "of_area", 1.0, "below 1: the widest cutter that reaches this share of the area, a rest step follows"};

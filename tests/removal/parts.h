@@ -42,6 +42,9 @@ namespace capstan::testing::removal {
 [[nodiscard]] Part pocket_in_a_pocket();
 [[nodiscard]] Part flat_ended_slot();
 [[nodiscard]] Part unequal_flat_ends();
+/// Inside corners that no mill makes; `stays`: the radius that they keep.
+[[nodiscard]] Part pocket_with_rest_in_its_corners(double stays);
+[[nodiscard]] Part square_ended_slot(double stays);
 [[nodiscard]] Part pattern_that_meets_itself();
 [[nodiscard]] Part hole_into_a_cross_bore();
 

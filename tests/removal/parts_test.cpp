@@ -53,6 +53,8 @@ CAPSTAN_MADE(RemovalOfParts, ClearsThePieceAroundALoneSquareBoss, lone_boss(fals
 CAPSTAN_MADE(RemovalOfParts, OpensAPocketBeforeTheOneInItsFloor, pocket_in_a_pocket())
 CAPSTAN_MADE(RemovalOfParts, KeepsTheStatedCornersAtTheFlatEndsOfASlot, flat_ended_slot())
 CAPSTAN_MADE(RemovalOfParts, RoundsEachFlatEndOfASlotByItsOwnRadius, unequal_flat_ends())
+CAPSTAN_MADE(RemovalOfParts, LeavesOnlyTheCornersOfAPocketThatNoMillMakes, pocket_with_rest_in_its_corners(2))
+CAPSTAN_MADE(RemovalOfParts, LeavesOnlyTheCornersAtTheSquareEndsOfASlot, square_ended_slot(1))
 CAPSTAN_MADE(RemovalOfParts, EndsAHoleThatOpensIntoACrossBoreThere, hole_into_a_cross_bore())
 CAPSTAN_MADE(RemovalOfParts, CutsEachPlaceOfAPatternThatMeetsItselfOnce, pattern_that_meets_itself())
 

@@ -161,11 +161,30 @@ TEST(RefusedParts, ASlotWhoseOpenEndLiesInTheBlockIsNotCutRound) {
   expect_refused(s, "its open end at (30, 15, 0) is square, solid stands beyond it");
 }
 
-TEST(RefusedParts, ASlotWithSquareEndsIsNotCutRound) {
+TEST(SharpCorners, ASlotsSquareEndsKeepTheMillsRadiusAndPlanAndCheckSaySo) {
   Sheet s;
   s.d.slot("S", s.d.placement({30, 15, 0}), 5, s.d.linear_path(30, {0, 1, 0}), s.d.square_u(8), "flat",
            "flat");
-  expect_refused(s, "its flat end at (30, 15, 0) is square, solid stands beyond it");
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  EXPECT_NE(
+      told(o).find("its flat end at (30, 15, 0) is square, and solid stands beyond it, and a mill leaves"),
+      std::string::npos)
+      << told(o);
+  EXPECT_NE(told(o).find("finding warning CHK-REST"), std::string::npos) << told(o);
+  for (const auto& f : o.findings) EXPECT_NE(f.severity, "error") << f.text;
+}
+
+TEST(SharpCorners, AMemberOfAPatternKeepsWhatTheOthersKeep) {
+  Sheet s;
+  const auto base = s.d.closed_pocket("P", s.d.placement({0, 0, 0}), 8, s.d.rectangle(16, 12), 0.2);
+  s.d.rectangular_pattern("PATTERN", s.d.placement({18, 30, 0}), base, 24, {1, 0, 0}, 2, 1, 0, {0, 1, 0});
+  const PlanOutput o = s.planned();
+  EXPECT_EQ(o.unplanned, 0U) << told(o);
+  EXPECT_NE(told(o).find("feature 'PATTERN[1]': in its inside corners"), std::string::npos) << told(o);
+  EXPECT_NE(told(o).find("feature 'PATTERN[2]': in its inside corners"), std::string::npos) << told(o);
+  EXPECT_NE(told(o).find("CHK-REST"), std::string::npos) << told(o);
+  for (const auto& f : o.findings) EXPECT_NE(f.severity, "error") << f.text;
 }
 
 TEST(RefusedParts, AFlatEndWhoseCornersDoNotFitTheSlotIsRefused) {
@@ -495,8 +514,8 @@ TEST(RefusedParts, AnOutlineThatCrossesItselfIsRefusedAtTheCrossing) {
 
 TEST(RefusedParts, APocketInTheFloorOfOneThatIsNotPlannedIsNeitherAndNoProgramIsWritten) {
   Sheet s;
-  s.d.closed_pocket("WIDE", s.d.placement({25, 30, 0}), 12, s.d.rectangle(40, 40),
-                    0.2);  // no mill is so thin
+  s.d.closed_pocket("WIDE", s.d.placement({25, 30, 0}), 12, s.d.rectangle(40, 40), 4, {},
+                    1.37);  // no mill has such a corner
   s.d.closed_pocket("IN FLOOR", s.d.placement({25, 30, -12}), 4, s.d.rectangle(20, 20), 4);
   s.d.hole("APART", s.d.placement({54, 30, 0}), 20, 5, s.d.through_bottom());
   const PlanOutput o = s.planned();

@@ -6,6 +6,7 @@
 #include "planner/controls/gcode/text.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/plan/assumed_tool_material.h"
+#include "planner/model/plan/corner_rest.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::controls::gcode {
@@ -37,6 +38,13 @@ void write_tools(const model::Plan& plan, const std::vector<const Cutter*>& cutt
                   out.number(c->functional_length_mm) + " mm is assumed");
     }
   }
+}
+
+// What stays in inside corners, for whoever takes the piece on from here.
+void write_corner_rests(const model::Plan& plan, Program& out) {
+  for (const model::CornerRest& r : model::corner_rests(plan))
+    out.comment("REST MATERIAL: a radius of " + out.number(r.radius_mm) + " mm stays in the corners of \"" +
+                marker_text(r.feature) + "\" in place of " + out.number(r.stated_mm) + " mm");
 }
 
 // What the check found, for whoever loads the program in spite of it.
@@ -77,6 +85,7 @@ void write_header(const model::Plan& plan, const std::vector<model::Condemnation
                 " security=" + out.number(plan.setups[i].security_z_mm));
   }
   write_tools(plan, by_tool_number(plan), out);
+  write_corner_rests(plan, out);
   write_warnings(plan, condemned, out);
 }
 

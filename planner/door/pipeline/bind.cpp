@@ -11,6 +11,7 @@
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
 #include "planner/making/given/tool_material.h"
+#include "planner/making/piece/corner_rests.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
@@ -209,6 +210,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   model::named_by_caller(plan, inputs.material_name && !inputs.material_of_plan,
                          (inputs.stock || inputs.stock_allowance_mm) && !inputs.stock_of_plan);
   const auto wrong = model::unreadable(plan);
+  const auto corners = model::corner_rests(plan);
   const auto not_made = unreadable_of(plan, wrong);
 
   const auto margin = resolve_workpiece(plan, inputs, job);
@@ -218,6 +220,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   poll();
   auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);
   if (!listed) return tl::unexpected(listed.error());
+  piece::keep_corner_rests(plan, corners, listed->steps);
   poll();
   const auto required = take_requirements(plan, asked, job);
   if (!required) return tl::unexpected(required.error());
@@ -248,6 +251,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   }
   if (policy.bind == Bind::kAll) {
     given::state_machine_needs(plan);
+    piece::settle_corner_rests(plan, required->shapes, grown_mm(inputs), drafts.steps, job);
     piece::tell_corners(piece, drafts.steps, job);
   }
   if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(plan, drafts.steps, policy.bind);

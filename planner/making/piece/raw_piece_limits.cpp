@@ -6,6 +6,7 @@
 #include "planner/making/piece/mesh/surface_form.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/nouns/feature.h"
+#include "planner/model/plan/corner_rest.h"
 
 namespace capstan::piece {
 namespace {
@@ -14,7 +15,7 @@ using model::FeatureShape;
 using model::ShapeKind;
 
 constexpr double kNoRadius = 1e300;
-constexpr std::ptrdiff_t kMostNamed = 4;  // corners that a message names
+constexpr std::ptrdiff_t kMostNamed = 4;  // places that a message names
 
 model::PieceForm raw_piece(const Piece& piece) {
   return {piece.plan.stock.box, piece.plan.stock.cylinder_radius_mm};
@@ -81,43 +82,59 @@ double sharp_corner_of(const Piece& piece, const FeatureShape& s) {
                                                                                : model::unstated_corner_mm(s);
 }
 
+std::string drawn_square(const Piece& piece, const FeatureShape& s) {
+  if (piece.plan.target_mesh) return {};
+  return model::drawn_square(piece.plan.model, s, piece.shapes.whole, part_form(piece));
+}
+
+double narrowest_mill_mm(const Piece& piece, const std::vector<draft::StepDraft>& steps,
+                         const FeatureShape& s) {
+  double diameter = kNoRadius;
+  const auto of_it = [&](const FeatureShape& other) {
+    return other.feature == s.feature && other.member == s.member;
+  };
+  for (const draft::StepDraft& step : steps) {
+    if (std::none_of(step.shapes.begin(), step.shapes.end(), of_it)) continue;
+    const auto* ws = piece.plan.model.get<model::MachiningWorkingstep>(step.step);
+    const bool made = std::any_of(piece.plan.steps.begin(), piece.plan.steps.end(),
+                                  [&](const model::StepResult& r) { return r.step == step.step; });
+    if (ws == nullptr || !made || !piece.plan.model.holds<model::MillingTypeOperation>(ws->its_operation))
+      continue;
+    diameter = std::min(diameter, step.cutter.cutting_diameter_mm);
+  }
+  return diameter < kNoRadius ? diameter : 0.0;
+}
+
 void tell_corners(const Piece& piece, const std::vector<draft::StepDraft>& steps, Job& job) {
   if (piece.plan.target_mesh) return tell_mesh_corners(piece.plan, steps, job);
   const model::PieceForm part = part_form(piece);
   for (const FeatureShape& s : piece.shapes.whole) {
+    if (model::corner_rest_of(piece.plan, s.name)) continue;  // told with its reason (corner_rests.h)
     const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
     if (!open && !states_no_corner(piece, s)) continue;
-    double radius = kNoRadius;
-    for (const model::StepResult& made : piece.plan.steps) {
-      const auto* ws = piece.plan.model.get<model::MachiningWorkingstep>(made.step);
-      const model::Cutter* c = nullptr;
-      for (const draft::StepDraft& step : steps) {
-        const bool of_it = !step.shapes.empty() && step.shapes.front().feature == s.feature &&
-                           step.shapes.front().member == s.member;
-        if (step.step == made.step && of_it) c = &step.cutter;
-      }
-      if (ws == nullptr || c == nullptr) continue;
-      if (!piece.plan.model.holds<model::MillingTypeOperation>(ws->its_operation)) continue;
-      radius = std::min(radius, 0.5 * c->cutting_diameter_mm);
-    }
-    if (radius >= kNoRadius) continue;
+    const double radius = 0.5 * narrowest_mill_mm(piece, steps, s);
+    if (!(radius > 0.0)) continue;
     const auto corners = model::sharp_corners(s, piece.shapes.whole, part);
     if (corners.empty()) continue;
-    std::string where;
-    for (const model::SharpCorner& c : corners) {
-      if (&c - corners.data() == kMostNamed) {
-        where += ", and " + std::to_string(corners.size() - kMostNamed) + " more";
-        break;
-      }
-      where += (where.empty() ? "" : ", ") + std::string("(") + trimmed(c.at.x, 2) + ", " +
-               trimmed(c.at.y, 2) + ", " + trimmed(c.at.z, 2) + ")";
-    }
+    std::vector<geometry::Vec3> at;
+    for (const model::SharpCorner& c : corners) at.push_back(c.at);
     job.warn("PIP-CORNER", "feature '" + s.name + "': " +
                                (corners.size() == 1 ? "its inner corner at " : "its inner corners at ") +
-                               where + (corners.size() == 1 ? " is" : " are") +
+                               some_places(at) + (corners.size() == 1 ? " is" : " are") +
                                " drawn sharp, and a radius of " + trimmed(radius, 3) +
                                " mm, that of the narrowest mill, stays; broach or erode what must be sharp");
   }
+}
+
+std::string some_places(const std::vector<geometry::Vec3>& at) {
+  std::string out;
+  for (const geometry::Vec3& p : at) {
+    if (&p - at.data() == kMostNamed)
+      return out + ", and " + std::to_string(at.size() - kMostNamed) + " more";
+    out +=
+        (out.empty() ? "(" : ", (") + trimmed(p.x, 2) + ", " + trimmed(p.y, 2) + ", " + trimmed(p.z, 2) + ")";
+  }
+  return out;
 }
 
 model::Proposal without_drills_at_edges(const Piece& piece, const FeatureShape& hole,

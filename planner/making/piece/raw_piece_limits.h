@@ -17,6 +17,14 @@ namespace capstan::piece {
 /// The radius that may stay in the inner corners of a step, an outside or a closed pocket that are drawn
 /// sharp and state none, mm; 0: there are none.
 [[nodiscard]] double sharp_corner_of(const Piece& piece, const model::FeatureShape& shape);
+/// Inside corners that a mill leaves round, in words (model::drawn_square); empty: none, or the part is a
+/// mesh.
+[[nodiscard]] std::string drawn_square(const Piece& piece, const model::FeatureShape& shape);
+/// The diameter of the narrowest mill among the steps of a shape that the plan executes, mm; 0: none.
+[[nodiscard]] double narrowest_mill_mm(const Piece& piece, const std::vector<draft::StepDraft>& steps,
+                                       const model::FeatureShape& shape);
+/// The first of some places, in words, and how many more there are.
+[[nodiscard]] std::string some_places(const std::vector<geometry::Vec3>& at);
 /// Reports the radius that stays in corners drawn sharp without a stated radius (PIP-CORNER).
 void tell_corners(const Piece& piece, const std::vector<draft::StepDraft>& steps, Job& job);
 /// A hole at an edge of the raw piece is milled, or not made: its chains that drill are rejected.

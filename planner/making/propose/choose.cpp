@@ -193,8 +193,7 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
     return failed_a != failed_b ? failed_b : a.seconds < b.seconds;
   });
   const Equipped& first = fit.front();
-  const bool decisive = judged_by_time(shape) && kDecisive * quickest->seconds <= first.seconds &&
-                        quickest->seconds + kWorthwhileS <= first.seconds;
+  const bool decisive = judged_by_time(shape) && decisively_quicker(quickest->seconds, first.seconds);
   const auto taken = decisive ? quickest : fit.begin();
   for (auto e = fit.begin(); e != fit.end(); ++e) {
     if (e == taken) continue;
@@ -207,7 +206,12 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
                                                 "not sure enough to take another")});
   }
   rejected.insert(rejected.end(), after.begin(), after.end());
+  taken->chosen.seconds = taken->seconds;
   return std::move(taken->chosen);
+}
+
+bool decisively_quicker(double seconds, double than_seconds) {
+  return kDecisive * seconds <= than_seconds && seconds + kWorthwhileS <= than_seconds;
 }
 
 std::string chain_text(const std::vector<model::ProposedStep>& chain, const FeatureShape& shape) {

@@ -34,7 +34,11 @@ struct Chosen {
   const std::vector<model::ProposedStep>* chain = nullptr;  ///< null: no chain
   std::string key;                                          ///< draft::key_of
   std::vector<model::Selection> tools;                      ///< one per step
+  double seconds = 0.0;                                     ///< cutting and tool changes, estimated
 };
+
+/// Whether one estimate is so much shorter than another that it is surely less, and worth a choice.
+[[nodiscard]] bool decisively_quicker(double seconds, double than_seconds);
 
 /// Chooses the first chain that was not tried in vain and finds a cutter for every step; of pockets and slots
 /// another where that is decisively quicker by the estimate that also ranks cutters, tool changes included.

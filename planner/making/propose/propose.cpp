@@ -14,6 +14,7 @@
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
 #include "planner/making/propose/by_cases.h"
+#include "planner/making/propose/corners.h"
 #include "planner/making/propose/members.h"
 #include "planner/making/propose/needed.h"
 #include "planner/making/propose/operation_nouns.h"
@@ -170,6 +171,10 @@ class Proposer {
       // Like members are made in one step each of their chain, one after the other.
       if (representative[i] != i) {
         for (const std::size_t s : made[representative[i]]) out_.drafts.steps[s].shapes.push_back(shapes[i]);
+        if (auto rest = model::corner_rest_of(plan_, shapes[representative[i]].name)) {
+          rest->feature = shapes[i].name;
+          plan_.provenance.push_back(model::provenance_of(*rest));
+        }
         continue;
       }
       if (within[i] != i) {
@@ -177,7 +182,7 @@ class Proposer {
                                     shapes[within[i]].name + "' removes all of it");
         continue;
       }
-      made[i] = shape(f, shapes[i], proposals[i]);
+      made[i] = shape(f, shapes[i], proposals[i], context);
       if (core && !made[i].empty()) out_.drafts.steps[made[i].front()].after.push_back(core->last_step);
     }
     // Part of a feature cannot be made, so the rest of the feature is not made either.
@@ -347,7 +352,8 @@ class Proposer {
     return turned;
   }
 
-  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& proposed) {
+  std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& proposed,
+                                 const rules::Context& context) {
     std::string why = swallowed(given);
     if (why.empty()) why = piece::crosses_a_wall(choice_.piece, given);
     if (why.empty()) why = piece::not_in_piece(choice_.piece, given);
@@ -369,25 +375,32 @@ class Proposer {
     }
     const FeatureShape s = reachable_side(f, given);
     const Member member{f, s.feature, s.member};
-    std::vector<model::Rejected> rejected = p.rejected;
-    Chosen chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
-    if (chosen.chain == nullptr && room_made_for(p)) {
-      rejected = p.rejected;
-      chosen = choose(choice_, p, s, member, out_.drafts.steps, out_.drafts.used, rejected, job_);
+    InCorners found = choose_in_corners(choice_, sources_.rules, context, p, s, member, out_.drafts.steps,
+                                        out_.drafts.used, job_);
+    if ((found.chosen.chain == nullptr || found.rest) && room_made_for(p))
+      found = choose_in_corners(choice_, sources_.rules, context, p, s, member, out_.drafts.steps,
+                                out_.drafts.used, job_);
+    const Chosen& chosen = found.chosen;
+    const std::vector<model::Rejected>& rejected = found.rejected;
+    if (chosen.chain == nullptr || found.rest) {
+      for (model::NeededTool& n : needed_tools(choice_, p, s, member, out_.drafts.used)) {
+        if (found.drawn_square.empty()) out_.drafts.needed.push_back(std::move(n));
+      }
     }
     if (chosen.chain == nullptr) {
       const bool tried = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
         return choice_.bans.chain_banned(member, draft::key_of(chain)) != nullptr;
       });
       std::string reason = tried ? "no way to make it works" : "no cutter in the library fits";
+      if (!found.drawn_square.empty())
+        reason = found.drawn_square + ", and a mill leaves them round; " + reason;
       for (const auto& r : rejected) {
         if (reason.find("; " + r.why) == std::string::npos) reason += "; " + r.why;  // chains share reasons
       }
       fail_member(f, given, reason);
-      for (model::NeededTool& n : needed_tools(choice_, p, s, member, out_.drafts.used))
-        out_.drafts.needed.push_back(std::move(n));
       return {};
     }
+    if (found.rest) plan_.provenance.push_back(model::provenance_of(*found.rest));
     std::vector<std::size_t> made;
     std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
     std::optional<ProbingDraft> probing;

@@ -72,12 +72,17 @@ struct SharpCorner {
 /// The same for walls that are this high.
 [[nodiscard]] double unstated_corner_mm(double depth_mm);
 
-/// An inside corner that no mill makes, in words; empty when there is none: a slot whose end is square, as an
-/// open one is drawn, where solid stands beyond it and no corner radius is stated (`features` as above), a
-/// pocket whose open side lies within solid, or one that states a corner radius of 0. `stated_only`: where
-/// only what the nouns say of an end counts, because the features do not tell where material is.
+/// An inside corner that no mill makes nor comes near to, in words; empty when there is none: a slot that is
+/// drawn as open where solid stands beyond its end, a woodruff end, one that states two radii (`features` as
+/// above), a pocket whose open side lies within solid. `stated_only`: where only what the nouns say of an end
+/// counts, because the features do not tell where material is.
 [[nodiscard]] std::string square_corner(const Model& m, const FeatureShape& s,
                                         const std::vector<FeatureShape>& features, const PieceForm& part,
                                         bool stated_only = false);
+
+/// Inside corners that a mill leaves round, in words; empty when there are none: a slot whose flat end has
+/// solid beyond it and states no radius, or a pocket that states a radius of 0 (less than 0.02 mm).
+[[nodiscard]] std::string drawn_square(const Model& m, const FeatureShape& s,
+                                       const std::vector<FeatureShape>& features, const PieceForm& part);
 
 }  // namespace capstan::model

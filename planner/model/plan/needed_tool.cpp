@@ -4,6 +4,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
+#include "planner/model/plan/corner_rest.h"
 
 namespace capstan::model {
 namespace {
@@ -44,7 +45,7 @@ std::vector<NeededKind> needed_kinds(const Plan& plan, const std::vector<NeededT
   for (const NeededTool& n : needed) {
     const bool unplanned = std::any_of(plan.unplanned.begin(), plan.unplanned.end(),
                                        [&](const Unplanned& u) { return u.feature == n.feature; });
-    if (!unplanned) continue;
+    if (!unplanned && !corner_rest_of(plan, n.feature_name)) continue;
     auto kind = std::find_if(out.begin(), out.end(),
                              [&](const NeededKind& k) { return same_kind(k.cutter, n.cutter); });
     if (kind == out.end()) kind = out.insert(out.end(), NeededKind{n.cutter, n.words, {}});

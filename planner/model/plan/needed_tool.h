@@ -24,8 +24,8 @@ struct NeededKind {
   std::vector<std::string> features;  ///< by name, each once, in the order in which they ask
 };
 
-/// The kinds among the tools that the plan's unplanned features lack: cutters that differ in length alone are
-/// one.
+/// The kinds among the tools that the plan's unplanned features lack, and those that keep rest material in
+/// their corners (corner_rest.h): cutters that differ in length alone are one.
 [[nodiscard]] std::vector<NeededKind> needed_kinds(const Plan& plan, const std::vector<NeededTool>& needed);
 
 /// The row of provenance that names the n-th kind: "needed tool 1", the cutter as an entry of a shop's own

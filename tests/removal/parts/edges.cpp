@@ -77,6 +77,29 @@ Part flat_ended_slot() {
   return {"flat_ended_slot", d.text(), b, t};
 }
 
+// 60 x 50 mm: a pocket of 40 x 30 mm, 16 mm deep, that states corners of R0.5, with one in its floor: `stays`
+// is what the mill leaves of them.
+Part pocket_with_rest_in_its_corners(double stays) {
+  const Box b = block(60, 50, 26);
+  Drawing d("REST IN CORNERS", b);
+  d.closed_pocket("POCKET", d.placement({30, 25, 0}), 16, d.rectangle(40, 30), 0.5);
+  d.closed_pocket("LOWER", d.placement({30, 25, -16}), 4, d.rectangle(24, 20), 5);
+  Target t(body(b));
+  t.cut(prism(rounded_rectangle(10, 10, 50, 40, stays), -16, kOver));
+  t.cut(prism(rounded_rectangle(18, 15, 42, 35, 5), -20, 0));
+  return {"pocket_with_rest_in_its_corners", d.text(), b, t};
+}
+
+// 50 x 40 mm: a slot of 10 mm with flat ends that state no corners, 30 mm long, 4 mm deep.
+Part square_ended_slot(double stays) {
+  const Box b = block(50, 40, 14);
+  Drawing d("SQUARE ENDED SLOT", b);
+  d.slot("SLOT", d.placement({10, 20, 0}), 4, d.linear_path(30, {1, 0, 0}), d.square_u(10), "flat", "flat");
+  Target t(body(b));
+  t.cut(prism(rounded_rectangle(10, 15, 40, 25, stays), -4, kOver));
+  return {"square_ended_slot", d.text(), b, t};
+}
+
 // 60 x 40 mm: a slot of 16 mm, 40 mm long, 5 mm deep, with flat ends: corners of R7 at its first, of R4 at
 // its last.
 Part unequal_flat_ends() {

@@ -9,6 +9,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/assumed_tool_material.h"
+#include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/edited.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/motion/time.h"
@@ -329,6 +330,9 @@ void overview_head(const Plan& plan, std::string& out) {
     line("tools   ", "made of what nobody states, and taken as: " + tools +
                          "; the reasons stand below; --assume tool-material=carbide or =hss settles it");
   }
+  for (const model::CornerRest& r : model::corner_rests(plan))
+    line("rest    ", "a radius of " + trimmed(r.radius_mm, 4) + " mm stays in the corners of '" + r.feature +
+                         "' in place of " + trimmed(r.stated_mm, 4) + " mm: " + r.why);
   if (!plan.stock.box.empty()) line("stock   ", box_text(plan.stock.box) + " (" + plan.stock.source + ")");
   if (const auto t = motion::time_of(plan); t && !plan.steps.empty() && t->total_s() > 0.0) {
     line("time    ", motion::text_of(*t));

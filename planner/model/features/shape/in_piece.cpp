@@ -311,71 +311,106 @@ double unstated_corner_mm(double depth_mm) {
 }
 double unstated_corner_mm(const FeatureShape& s) { return unstated_corner_mm(s.depth_mm); }
 
-std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
-                          const PieceForm& part, bool stated_only) {
-  constexpr const char* kWhatToDo =
-      "; state the radius that may stay, or have the corners broached or eroded";
-  const AnyRef noun = s.made_of.empty() ? s.feature : s.made_of.back();
-  if (const auto* p = m.get<Pocket>(noun)) {
-    if (stated_only) return {};
-    for (const SharpCorner& c : s.open ? sharp_corners(s, features, part) : std::vector<SharpCorner>()) {
-      if (!c.open) continue;
-      return "its open side ends at (" + trimmed(c.at.x, 2) + ", " + trimmed(c.at.y, 2) + ", " +
-             trimmed(c.at.z, 2) +
-             ") within the piece, solid stands beyond it, and a mill leaves its corners round: let it run "
-             "out "
-             "of the piece, or draw a closed pocket" +
-             kWhatToDo;
-    }
-    if (!p->orthogonal_radius.set() || s.corner_radius_mm > kLidMm) return {};
-    return std::string("it states inside corners of radius 0, and a mill leaves them round") + kWhatToDo;
-  }
-  if (s.kind != ShapeKind::kSlot || s.spine.size() < 2) return {};
-  if (norm(s.spine.front() - s.spine.back()) < 1e-6) return {};
+namespace {
+
+/// An end of a slot as square_corner and drawn_square see it: at most one of them is not empty.
+struct SlotEnd {
+  std::string no_mill_makes;  ///< nor leaves anything like it
+  std::string square;         ///< a mill leaves its corners round
+};
+
+constexpr const char* kWhatToDo = "; state the radius that may stay, or have the corners broached or eroded";
+
+/// `stated_only`: as square_corner.
+SlotEnd slot_end(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
+                 const PieceForm& part, bool stated_only, bool first) {
   const double half = 0.5 * s.width.nominal_mm - kAsideMm;
+  const AnyRef noun = s.made_of.empty() ? s.feature : s.made_of.back();
   const auto* slot = m.get<Slot>(noun);
   const auto solid = [&](Vec2 q) {
     const Vec3 p = s.frame.to_parent({q.x, q.y, -0.5 * s.depth_mm});
     return in_piece(p, part) &&
            std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });
   };
+  const std::size_t n = s.spine.size();
+  const Vec2 end = first ? s.spine.front() : s.spine.back();
+  const Vec2 before = first ? s.spine[1] : s.spine[n - 2];
+  const Vec2 out = (1.0 / norm(end - before)) * (end - before);
+  const std::size_t number = first ? 0 : 1;
+  const bool stated = slot != nullptr && number < slot->end_conditions.size();
+  if (const auto* round = stated ? m.get<WoodruffSlotEndType>(slot->end_conditions[number]) : nullptr)
+    return {woodruff_end(m, s, *round, end, out, part), {}};
+  if (part.box.empty()) return {};
+  const Vec2 beyond = end + kAsideMm * out;
+  if (geometry::contains(s.area, beyond)) return {};  // rounded
+  const bool open = geometry::contains(s.reach, beyond);
+  const auto* flat = stated ? m.get<FlatSlotEndType>(slot->end_conditions[number]) : nullptr;
+  const auto corners = flat != nullptr ? shape::corners_of(m, *flat, noun) : shape::FlatCorners{};
+  if (corners && corners->same() && corners->first > kLidMm) return {};
+  for (const double side : {-half, 0.0, half}) {
+    if (!solid({beyond.x - side * out.y, beyond.y + side * out.x})) continue;
+    const Vec3 at = s.frame.to_parent({end.x, end.y, 0.0});
+    const std::string where =
+        "(" + trimmed(at.x, 2) + ", " + trimmed(at.y, 2) + ", " + trimmed(at.z, 2) + ")";
+    if (corners && !corners->same()) {
+      return {"its flat end at " + where + " states corners of radius " + trimmed(corners->first, 3) +
+                  " and " + trimmed(corners->second, 3) +
+                  " mm, and nothing says which stands on which side: draw the slot as a pocket, or state "
+                  "one radius",
+              {}};
+    }
+    if (stated_only) return {};
+    if (open) {
+      return {"its open end at " + where +
+                  " is square, solid stands beyond it, and a mill leaves its corners round: end it with a "
+                  "radius, let it run out of the piece" +
+                  kWhatToDo,
+              {}};
+    }
+    return {{}, "its flat end at " + where + " is square, and solid stands beyond it"};
+  }
+  return {};
+}
+
+bool has_ends(const FeatureShape& s) {
+  return s.kind == ShapeKind::kSlot && s.spine.size() >= 2 && norm(s.spine.front() - s.spine.back()) >= 1e-6;
+}
+
+}  // namespace
+
+std::string square_corner(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
+                          const PieceForm& part, bool stated_only) {
+  if (m.holds<Pocket>(s.made_of.empty() ? s.feature : s.made_of.back())) {
+    if (stated_only) return {};
+    for (const SharpCorner& c : s.open ? sharp_corners(s, features, part) : std::vector<SharpCorner>()) {
+      if (!c.open) continue;
+      return "its open side ends at (" + trimmed(c.at.x, 2) + ", " + trimmed(c.at.y, 2) + ", " +
+             trimmed(c.at.z, 2) +
+             ") within the piece, solid stands beyond it, and a mill leaves its corners round: let it run "
+             "out of the piece, or draw a closed pocket" +
+             kWhatToDo;
+    }
+    return {};
+  }
+  if (!has_ends(s)) return {};
   for (const bool first : {true, false}) {
-    const std::size_t n = s.spine.size();
-    const Vec2 end = first ? s.spine.front() : s.spine.back();
-    const Vec2 before = first ? s.spine[1] : s.spine[n - 2];
-    const Vec2 out = (1.0 / norm(end - before)) * (end - before);
-    const std::size_t number = first ? 0 : 1;
-    const bool stated = slot != nullptr && number < slot->end_conditions.size();
-    const auto* round = stated ? m.get<WoodruffSlotEndType>(slot->end_conditions[number]) : nullptr;
-    if (round != nullptr) {
-      auto why = woodruff_end(m, s, *round, end, out, part);
-      if (!why.empty()) return why;
-      continue;
-    }
-    if (part.box.empty()) continue;
-    const Vec2 beyond = end + kAsideMm * out;
-    if (geometry::contains(s.area, beyond)) continue;  // rounded
-    const bool open = geometry::contains(s.reach, beyond);
-    const auto* flat = stated ? m.get<FlatSlotEndType>(slot->end_conditions[number]) : nullptr;
-    const auto corners = flat != nullptr ? shape::corners_of(m, *flat, noun) : shape::FlatCorners{};
-    if (corners && corners->same() && corners->first > kLidMm) continue;
-    for (const double side : {-half, 0.0, half}) {
-      if (!solid({beyond.x - side * out.y, beyond.y + side * out.x})) continue;
-      const Vec3 at = s.frame.to_parent({end.x, end.y, 0.0});
-      if (corners && !corners->same()) {
-        return "its flat end at (" + trimmed(at.x, 2) + ", " + trimmed(at.y, 2) + ", " + trimmed(at.z, 2) +
-               ") states corners of radius " + trimmed(corners->first, 3) + " and " +
-               trimmed(corners->second, 3) +
-               " mm, and nothing says which stands on which side: draw the slot as a pocket, or state one "
-               "radius";
-      }
-      if (stated_only) break;
-      return std::string(open ? "its open end" : "its flat end") + " at (" + trimmed(at.x, 2) + ", " +
-             trimmed(at.y, 2) + ", " + trimmed(at.z, 2) +
-             ") is square, solid stands beyond it, and a mill leaves its corners round: end it with a "
-             "radius" +
-             (open ? ", let it run out of the piece" : "") + kWhatToDo;
-    }
+    auto why = slot_end(m, s, features, part, stated_only, first).no_mill_makes;
+    if (!why.empty()) return why;
+  }
+  return {};
+}
+
+std::string drawn_square(const Model& m, const FeatureShape& s, const std::vector<FeatureShape>& features,
+                         const PieceForm& part) {
+  if (const auto* p = m.get<Pocket>(s.made_of.empty() ? s.feature : s.made_of.back())) {
+    if (!p->orthogonal_radius.set() || s.corner_radius_mm > kLidMm) return {};
+    if (s.slope_rad == 0.0 && sharp_corners(s, features, part).empty()) return {};  // round, or none in solid
+    return "it states inside corners of radius " + trimmed(s.corner_radius_mm, 4);
+  }
+  if (!has_ends(s)) return {};
+  for (const bool first : {true, false}) {
+    auto square = slot_end(m, s, features, part, false, first).square;
+    if (!square.empty()) return square;
   }
   return {};
 }

@@ -11,6 +11,7 @@
 #include "planner/proof/verify/sweep/grid/carry.h"
 #include "planner/proof/verify/sweep/grip.h"
 #include "planner/proof/verify/sweep/known/known_steps.h"
+#include "planner/proof/verify/sweep/target/corners.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
@@ -49,9 +50,10 @@ bool sound(const model::Cutter* c) {
 }
 
 /// Each feature in the set-up of its last step, with what the others took away.
-void check_left(const model::Plan& plan, const std::vector<std::unique_ptr<Scene>>& scenes,
-                Findings& findings) {
+void check_left(const model::Plan& plan, const PartShapes& part,
+                const std::vector<std::unique_ptr<Scene>>& scenes, Findings& findings) {
   const std::vector<Asked> asked = asked_of(plan);
+  check_corner_records(plan, part, asked, findings);
   for (const auto& scene : scenes) {
     std::vector<Asked> here;
     for (const Asked& a : asked) {
@@ -127,7 +129,7 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
     scene->grid.find_top_after_cuts();
     if (grip && step.setup == held) grip->after(step, scene->grid, findings);
   }
-  check_left(plan, scenes, findings);
+  check_left(plan, part, scenes, findings);
   return true;
 }
 

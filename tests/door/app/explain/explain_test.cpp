@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "planner/files/exchange/exchange.h"
+#include "planner/model/plan/corner_rest.h"
 #include "tests/door/app/plans.h"
 
 namespace capstan::app {
@@ -29,6 +30,14 @@ TEST(Explain, OverviewSaysWhatIsNotPlannedAndWhy) {
   auto plan = testing::planned_plate();
   plan.unplanned.push_back({plan.model.all(model::TypeId::kRoundHole).front(), "no drill reaches 300 mm"});
   EXPECT_THAT(explain(plan), HasSubstr("#17 ROUND_HOLE 'HOLE': no drill reaches 300 mm"));
+}
+
+TEST(Explain, OverviewSaysWhichCornersKeepRestMaterial) {
+  auto plan = testing::planned_plate();
+  plan.provenance.push_back(model::provenance_of(model::CornerRest{"POCKET", 0.2, 1.5, "no mill enters"}));
+  EXPECT_THAT(explain(plan),
+              HasSubstr("rest      a radius of 1.5 mm stays in the corners of 'POCKET' in place "
+                        "of 0.2 mm: no mill enters"));
 }
 
 TEST(Explain, AStepNamesRuleSourceAndActiveConstraint) {

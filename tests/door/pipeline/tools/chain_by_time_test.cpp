@@ -51,6 +51,19 @@ std::string lost_chains(const model::Plan& plan) {
   return out;
 }
 
+TEST(ChainByTime, FinishesTightCornersByTwoMillsOneAfterTheOther) {
+  const auto p = planned(pocket(rectangle(60, 40), "", 1.0));
+  EXPECT_THAT(p.plan.unplanned, testing::IsEmpty()) << p.said;
+  ASSERT_EQ(p.plan.steps.size(), 4U) << p.said;
+  const double wide = cutter_of(p.plan, "P area_finish"), first = cutter_of(p.plan, "P rest_finish"),
+               last = cutter_of(p.plan, "P rest_finish~2");
+  EXPECT_GT(wide, first);
+  EXPECT_GT(first, last);
+  EXPECT_LE(first, 3.0 * 2.0) << "three times as wide as the corners at most";
+  EXPECT_EQ(last, 2.0);
+  EXPECT_EQ(p.said.find("[TPA-REST]"), std::string::npos) << p.said;
+}
+
 TEST(ChainByTime, RoughsAPocketWideThatHasOneNarrowPlaceAndThatPlaceApart) {
   // 4 mm between the boss and one wall, 10 mm and more all round else.
   const auto p = planned(

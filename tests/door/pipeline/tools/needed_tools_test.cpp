@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/corner_rest.h"
 #include "tests/door/pipeline/block.h"
 #include "tooling/library/library.h"
 
@@ -60,7 +61,8 @@ std::vector<model::Cutter> read_list(const std::vector<std::string>& entries) {
 TEST(NeededTools, AreListedAtOnceAndAddingExactlyThesePlansAllOfThePart) {
   const Inputs poor = shop_with({"generic/spot_drill_90/8", "generic/endmill_3f_short/16"});
   const Planned lacking = bound(read(kParts), poor);
-  ASSERT_EQ(lacking.plan.unplanned.size(), 3U) << lacking.said;
+  ASSERT_EQ(lacking.plan.unplanned.size(), 2U) << lacking.said;
+  ASSERT_EQ(model::corner_rests(lacking.plan).size(), 1U) << "the pocket keeps corners of the wide mill";
   EXPECT_THAT(lacking.said, HasSubstr("to plan all of this part you need: "));
   const auto entries = entries_of(lacking.plan);
   ASSERT_FALSE(entries.empty());
@@ -69,6 +71,7 @@ TEST(NeededTools, AreListedAtOnceAndAddingExactlyThesePlansAllOfThePart) {
   for (model::Cutter& c : read_list(entries)) richer.library.push_back(std::move(c));
   const Planned whole = bound(read(kParts), richer);
   EXPECT_THAT(whole.plan.unplanned, IsEmpty()) << whole.said;
+  EXPECT_THAT(model::corner_rests(whole.plan), IsEmpty()) << whole.said;
   EXPECT_THAT(entries_of(whole.plan), IsEmpty());
 
   // Exactly these: without any one of them something is missing again.
@@ -78,7 +81,8 @@ TEST(NeededTools, AreListedAtOnceAndAddingExactlyThesePlansAllOfThePart) {
     Inputs less = poor;
     if (!fewer.empty())
       for (model::Cutter& c : read_list(fewer)) less.library.push_back(std::move(c));
-    EXPECT_FALSE(bound(read(kParts), less).plan.unplanned.empty()) << entries[i];
+    const model::Plan lacks = bound(read(kParts), less).plan;
+    EXPECT_FALSE(lacks.unplanned.empty() && model::corner_rests(lacks).empty()) << entries[i];
   }
 }
 

@@ -7,6 +7,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/sweep/target/corners.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/volumes/form/in_raw.h"
 
@@ -17,10 +18,11 @@
 // a cell. What may stay in corners is what the file allows: a stated radius; where none is stated, the
 // radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
 // bounds (steps, outsides, closed pockets: volumes::unstated_corner_mm); nothing in the square ends of slots,
-// at the open side of a pocket, nor where a radius of 0 is stated. Points of drills count below a conical
-// bottom's depth only; what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A
-// through hole that ends within another feature that the plan makes is done there. Crests of threads and what
-// heights do not hold are not looked at, nor what is narrower than two cells: a note says so.
+// at the open side of a pocket, nor where a radius of 0 is stated; and what the plan records as rest material
+// in corners (corners.h), which is told (CHK-REST). Points of drills count below a conical bottom's depth only;
+// what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A through hole that ends
+// within another feature that the plan makes is done there. Crests of threads and what heights do not hold are
+// not looked at, nor what is narrower than two cells: a note says so.
 //
 // In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
 // step.
@@ -39,7 +41,6 @@ using volumes::Form;
 namespace {
 
 constexpr int kRing = 8;
-constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  ///< arcs are drawn by smaller turns
 constexpr double kNone = 1e300;
 /// What may stay in corners for which the file states no radius, of the outline's narrower side. Default,
 /// unsourced: a mill wider than 0.7 of what it cuts leaves no corner to speak of.
@@ -48,7 +49,8 @@ constexpr double kUnstatedShare = 0.35;
 constexpr double kUnstatedFootMm = 0.8;
 /// Points are drawn as 120 degrees and made as 118; less than this is no blunter drill. Default, unsourced.
 constexpr double kPointMm = 0.1;
-constexpr double kBelowMm = 0.05;  ///< a hole's end, to see what it opens into; default, unsourced
+constexpr double kSpeckMm2 = 1e-3;  ///< less is rounding of outlines; default, unsourced
+constexpr double kBelowMm = 0.05;   ///< a hole's end, to see what it opens into; default, unsourced
 
 std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
 
@@ -112,32 +114,6 @@ std::string not_judged(const Form& s, const Asked& a, double ring) {
   return out;
 }
 
-/// Where a mill of this radius leaves the sharp corners of an area, and nowhere else. Corners at the open
-/// side of a pocket keep nothing: the mill runs out there. `open`: the pocket's reach, else empty.
-Region in_sharp_corners(const Region& area, const Region& open, double radius, double more) {
-  Region discs;
-  for (const auto& loop : area.loops) {
-    const std::size_t n = loop.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2 a = loop[(i + n - 1) % n], b = loop[i], c = loop[(i + 1) % n];
-      const double turn = std::atan2(cross(b - a, c - b), dot(b - a, c - b));
-      if (turn < kSharpRad) continue;
-      const auto opens = [&](Vec2 from, Vec2 to) {
-        const Vec2 d = to - from, p = 0.5 * (from + to);
-        return norm(d) > 1e-6 && geometry::contains(open, p + (kBelowMm / norm(d)) * Vec2{d.y, -d.x});
-      };
-      if (!open.empty() && (opens(a, b) || opens(b, c))) continue;
-      const double half = 0.5 * (std::numbers::pi - turn);
-      const double reach = radius / std::max(std::tan(half), 1e-3) + more;
-      discs = geometry::unite(discs, geometry::disc(b, reach, 0.01));
-    }
-  }
-  if (discs.empty()) return discs;
-  const Region reached = geometry::offset(geometry::offset(area, -radius, 0.01), radius, 0.01);
-  const Region missed = geometry::subtract(area, reached);
-  return geometry::intersect(geometry::offset(missed, more, 0.01), discs);
-}
-
 }  // namespace
 
 std::vector<Asked> asked_of(const model::Plan& plan) {
@@ -184,6 +160,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
       const bool ball = cutter->cutter_class == model::CutterClass::kBallEndmill;
       const double corner = ball ? 0.5 * cutter->cutting_diameter_mm : cutter->corner_radius_mm;
       it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);
+      it->widest_mm = std::max(it->widest_mm, 0.5 * cutter->cutting_diameter_mm);
       it->corner_mm = std::min(it->corner_mm, corner);
     }
   }
@@ -247,8 +224,15 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
     }
     return z;
   };
+  Region own_area = s.area;
+  for (const auto& island : s.islands) own_area = geometry::subtract(own_area, island.area);
+  const Region open = s.kind == ShapeKind::kPocket ? s.before_mouth : Region{};
+  const bool milled = s.kind != ShapeKind::kHole && s.kind != ShapeKind::kThread;
+  const auto recorded = milled ? recorded_rest(plan_, part_, s, a) : std::nullopt;
+  const Region rest =
+      recorded ? in_corners(own_area, open, recorded->radius_mm + a.side_mm, ring, true) : Region{};
   std::optional<Region> corners;
-  double worst = 0.0, volume = 0.0, top = 0.0;
+  double worst = 0.0, volume = 0.0, top = 0.0, kept = 0.0;
   Vec2 where;
   const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
   const auto [x0, x1] = grid.columns(c.box.lo.x, c.box.hi.x);
@@ -274,20 +258,36 @@ void Target::left_of(const Cavity& c, const Grid& grid, const Asked& a, const st
       if (fillet > 0.0 && left <= fillet + limit && !around(p, ring + fillet)) continue;
       if (!corners) {
         const double r = corner_allowed(s, a.radius_mm);
-        Region own_area = s.area;
-        for (const auto& island : s.islands) own_area = geometry::subtract(own_area, island.area);
-        const bool milled = r > 0.0 && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kThread;
-        const Region open = s.kind == ShapeKind::kPocket ? s.before_mouth : Region{};
-        corners = milled ? in_sharp_corners(own_area, open, r + a.side_mm, ring) : Region{};
+        corners = milled && r > 0.0 ? in_corners(own_area, open, r + a.side_mm, ring, false) : Region{};
       }
       const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});
       if (!corners->empty() && geometry::contains(*corners, {local.x, local.y})) continue;
+      if (!rest.empty() && geometry::contains(rest, {local.x, local.y})) {
+        kept += left * grid.cell() * grid.cell();
+        continue;
+      }
       volume += left * grid.cell() * grid.cell();
       if (left <= worst) continue;
       worst = left;
       where = p;
       top = stands;
     }
+  }
+  if (recorded) {
+    const Region stays = in_corners(own_area, open, recorded->radius_mm, 0.0, true);
+    std::string at;
+    for (const Region& piece : geometry::pieces(stays)) {
+      const geometry::Box2 box = geometry::bounds(piece);
+      const geometry::Vec3 middle =
+          c.frame.to_parent({0.5 * (box.lo.x + box.hi.x), 0.5 * (box.lo.y + box.hi.y), 0.0});
+      if (geometry::area(piece) >= kSpeckMm2) at += (at.empty() ? "" : ", ") + place(xy(middle), middle.z);
+    }
+    out.warn(36, "CHK-REST", a.where,
+             "in the corners of " + s.name + (at.empty() ? "" : " at " + at) + " a radius of " +
+                 mm(recorded->radius_mm) + " stays in place of " + mm(recorded->stated_mm) +
+                 ", as the plan records it: " + plain(geometry::area(stays) * s.depth_mm()) +
+                 " mm3 by the feature's form, " + plain(kept) + " mm3 of it in cells of " + mm(grid.cell()),
+             recorded->radius_mm);
   }
   if (worst <= 0.0) return;
   out.error(36, "CHK-LEFT", a.where,

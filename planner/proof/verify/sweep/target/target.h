@@ -50,6 +50,7 @@ struct Asked {
   std::size_t setup = 0;                        ///< of its last step
   double side_mm = 1e300, bottom_mm = 1e300;    ///< least allowances stated
   double radius_mm = 1e300, corner_mm = 1e300;  ///< of its narrowest mill; of that mill's corner
+  double widest_mm = 0.0;                       ///< radius of its widest mill
   double ridges_mm = 1e300;                     ///< freeform: least height of ridges and chords stated
   bool undercut = false;                        ///< one of its tools cuts under what stands
 };
