@@ -30,8 +30,8 @@ class StepChecks {
   /// Whether it cut anything: known after `run`.
   [[nodiscard]] bool cuts() const { return cut_mm3_ > 0.0 || met_; }
   /// After `run`: the speed at which an edge in the cut for a quarter turn would wear as the step's edges do,
-  /// and no less than that of its wide cuts, over their fastest; 1 where arcs of contact do not count (what is no roughing with carbide, a material
-  /// whose speed no heat bounds).
+  /// and no less than that of its wide cuts, over their fastest; 1 where arcs of contact do not count (what
+  /// is no roughing with carbide, a material whose speed no heat bounds).
   [[nodiscard]] double speed_share() const;
   /// After `run`: a step that cuts nothing is a finding, unless it finishes what `begun` says was cut before
   /// and follows its surface.
