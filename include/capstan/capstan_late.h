@@ -87,8 +87,8 @@ CAPSTAN_LATE_API const char* capstan_late_output(capstan_late* session, capstan_
 /* The same by the format's name: "iso14649", "ap238", "json", "linuxcnc", "linuxcnc_tools". */
 CAPSTAN_LATE_API const char* capstan_late_output_as(capstan_late* session, const char* format, size_t* size);
 
-/* What changed against the plan that was brought, for the operator's screen: sentences, one a line; empty where
- * nothing did. NULL when there is no bound plan. It is valid until the next bind or close. */
+/* What changed against the plan that was brought, for the operator's screen: sentences, one a line; empty
+ * where nothing did. NULL when there is no bound plan. It is valid until the next bind or close. */
 CAPSTAN_LATE_API const char* capstan_late_changes(const capstan_late* session);
 
 /* Code and diagnostics (lines of text) of the last call. Never NULL. */

@@ -51,11 +51,12 @@ bool chosen_alike(const Plan& plan, const pipeline::Inputs& in) {
 
 /// Whether machine and material are those that the steps were planned for.
 bool made_for(const Plan& plan, const pipeline::Inputs& in) {
-  if (!model::same_value(plan.machine, in.machine)) return false;
+  if (plan.machine.id != in.machine.id || !model::told_differences(plan.machine, in.machine).empty())
+    return false;
   if (in.material_name && *in.material_name != plan.material.id) return false;
   const auto at = std::find_if(in.materials.begin(), in.materials.end(),
                                [&](const auto& m) { return m.id == plan.material.id; });
-  return at == in.materials.end() || model::same_value(*at, plan.material);
+  return at == in.materials.end() || model::told_differences(*at, plan.material).empty();
 }
 
 bool edited(const Job& job) {

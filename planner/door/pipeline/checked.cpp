@@ -177,8 +177,8 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
   if (anew.acceptable) {
     if (auto ok = anew.acceptable(*first); !ok) return tl::unexpected(ok.error());
   }
-  Checked best =
-      policy.bind == Bind::kAll ? checked(*std::move(first), job, inputs.proofs.get()) : Checked{*std::move(first), {}, 0, {}};
+  Checked best = policy.bind == Bind::kAll ? checked(*std::move(first), job, inputs.proofs.get())
+                                           : Checked{*std::move(first), {}, 0, {}};
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
   std::size_t least = errors_of(best.plan, best.findings);

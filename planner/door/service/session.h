@@ -70,7 +70,7 @@ class Session {
   Request request_;
   Job::Progress progress_;
   std::optional<pipeline::Inputs> shop_;
-  std::shared_ptr<memo::Memo> memo_ = std::make_shared<memo::Memo>();  ///< of all shops that name no folder
+  std::shared_ptr<memo::Memo> memo_ = std::make_shared<memo::Memo>();    ///< of all shops that name no folder
   std::shared_ptr<memo::Memo> proofs_ = std::make_shared<memo::Memo>();  ///< Inputs::proofs
   std::optional<Read> read_;
   bool failed_ = false;  ///< the shop did not open, and no option was set since

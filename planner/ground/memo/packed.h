@@ -18,10 +18,9 @@
 #include "planner/ground/memo/fields.h"
 
 // Values as bytes, and back: numbers, enumerations, text, vectors, maps, pairs, optionals, shared constants,
-// pointers, and structs of these, field by field in the order of their declaration. Arrays and variants are packed only,
-// for keys. A pointer is packed as
-// what it points to, for keys; in a value that is read back it must be null. Structs need no list of their
-// fields (fields.h): a new field is packed like the others.
+// pointers, and structs of these, field by field in the order of their declaration. Arrays and variants are
+// packed only, for keys. A pointer is packed as what it points to, for keys; in a value that is read back it
+// must be null. Structs need no list of their fields (fields.h): a new field is packed like the others.
 //
 // The form is that of this build on this machine (byte order, enumerators, fields). It is written by a memo
 // and read by one of the same build only. What is read is checked for length, never for sense.

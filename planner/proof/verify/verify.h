@@ -28,7 +28,8 @@ struct ProgramText {
 ///            at most kMaximumCells cells, whose cell size is stated in the finding where it matters.
 /// Cost       linear in the path's length in cells; no more than kMaximumCells heights per set-up. `known`
 ///            keeps what was found of steps: where the stock before a step, its cutter with shank and holder,
-///            its sizes and moves are as in an earlier check, it is not swept again. The findings are the same.
+///            its sizes and moves are as in an earlier check, it is not swept again. The findings are the
+///            same.
 [[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job,
                                                      memo::Memo* known = nullptr);
 

@@ -54,8 +54,9 @@ struct Groove {
   double half_mm = 0.0;  ///< the widest that the section reaches to either side
   std::array<End, 2> ends = {End::kNone, End::kNone};
   std::array<double, 2> corner_mm = {0.0, 0.0};  ///< kFlat: so near to both walls nothing is said
-  std::array<double, 2> rising_mm = {0.0, 0.0};  ///< a Woodruff end: so far before it nothing is said of the floor
-  double foot_radius_mm = 0.0;       ///< between floor and sides
+  std::array<double, 2> rising_mm = {0.0,
+                                     0.0};  ///< a Woodruff end: so far before it nothing is said of the floor
+  double foot_radius_mm = 0.0;              ///< between floor and sides
   /// Below this height and farther than this from the middle nothing is said: corners and flanks of a tee.
   double unsaid_height_mm = 0.0, unsaid_half_mm = 0.0;
 };
