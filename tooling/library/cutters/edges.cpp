@@ -97,17 +97,17 @@ const Edges& shipped_edges() {
 }
 
 Grade grade_of(const Cutter& c) {
-  const std::string of_tool = about_the_tool(c.description);
-  std::string text = lower_text(of_tool);
+  std::string as_written = about_the_tool(c.description);
   if (const std::string* source = source_of(c, "substrate");
       source != nullptr && !source->starts_with("default") && source != source_of(c, "*"))
-    text += " | " + lower_text(*source);
+    as_written += " | " + *source;
+  const std::string text = lower_text(as_written);
   // What a plan's own table says that it assumes is nobody's statement.
   if (text.find(model::kAssumedWord) != std::string::npos) return {};
   Grade g;
   const bool bare = !said(text, kBare).empty();
   std::string_view coating = bare ? std::string_view() : said(text, kCoatings);
-  if (coating.empty() && !bare && word_in(of_tool, "TiN") != std::string_view::npos) coating = "tin";
+  if (coating.empty() && !bare && word_in(as_written, "TiN") != std::string_view::npos) coating = "tin";
   const std::string_view cobalt =
       c.substrate == model::Substrate::kHss ? said(text, kCobaltWords) : std::string_view();
   g.coated = !coating.empty();
