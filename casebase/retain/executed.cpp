@@ -211,14 +211,4 @@ std::vector<Executed> Splitter::end() {
   return std::move(done_);
 }
 
-std::map<int, ToolTotal> totals_by_tool(const std::vector<Executed>& steps) {
-  std::map<int, ToolTotal> out;
-  for (const Executed& s : steps) {
-    ToolTotal& t = out[s.tool];
-    t.active_s += s.active_s;
-    t.moving_s += s.moving_s;
-  }
-  return out;
-}
-
 }  // namespace capstan::casebase::retain

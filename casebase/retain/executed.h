@@ -114,10 +114,4 @@ class Splitter {
   std::string workingstep_, said_workingstep_, program_;
 };
 
-/// Times of one tool over all runs of a log, s.
-struct ToolTotal {
-  double active_s = 0.0, moving_s = 0.0;
-};
-[[nodiscard]] std::map<int, ToolTotal> totals_by_tool(const std::vector<Executed>& steps);
-
 }  // namespace capstan::casebase::retain

@@ -27,13 +27,13 @@ EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
-    "planner/proof/verify/sweep/grid": "grid",
+    "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/program/linuxcnc": "linuxcnc_reader",
     "planner/model/features/fit": "fit",
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
     **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
     "planner/controls/gcode": "gcode", "planner/controls": "controls",
-    "rules": "rules", "casebase": "casebase", "include/capstan": "public",
+    "rules": "rules", "casebase/retain": "retain", "casebase": "casebase", "include/capstan": "public",
 }
 
 # The rooms of the door; each may include only what its row says.
@@ -58,7 +58,7 @@ ALLOWED = {
     "exchange": EXCHANGE_COMMON + " iso14649 ap238",
     "json": MODEL + " motion",
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
-    "rules": MODEL, "casebase": MODEL,
+    "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase",
     "shop": MODEL + " mechanics",
     "library": MODEL + " shop formats", "formats": MODEL + " p21 shop library",
     "selection": MODEL + " mechanics shop library",
@@ -78,14 +78,15 @@ ALLOWED = {
     "compared": MODEL + " volumes verify",
     # Heights that moves cut: of the check it knows what a move is.
     "grid": GROUND + " nouns plan verify",
-    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared grid",
+    "linuxcnc_reader": GROUND + " plan verify",
+    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared grid linuxcnc_reader",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " service motion mechanics optimise json rules casebase shop library formats",
+    "app": MODEL + " service motion mechanics optimise json rules casebase retain shop library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}

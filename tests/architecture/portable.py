@@ -25,7 +25,7 @@ KERNELS = DISPATCHED | {SWEEP + "rows_portable.cpp", SWEEP + "lanes.h", "planner
 FOLDERS = ("planner", "rules", "casebase", "tooling", "include", "tests", "examples")
 
 INTRINSIC = re.compile(
-    r'#\s*include\s*[<"](?:\w*mmintrin|\w*intrin|cpuid|arm_\w+)\.h[>"]|\b_mm\d*_\w+|\b__m(?:128|256|512)\w*'
+    r'#\s*include\s*[<"](?:\w*mmintrin|\w*intrin|cpuid|arm_\w+)\.h[>"]|\b_mm\d*_\w+\s*\(|\b__m(?:128|256|512)\w*'
     r"|\b__builtin_(?:ia32|aarch64|cpu)_\w+|\b(?:__)?asm(?:__)?\s*(?:volatile\s*)?\(|\btarget(?:_clones)?\(\"")
 GUARD = re.compile(r"__(?:SSE|AVX)\w*__")
 # What is in the dynamic linker's way: a definition that other objects share.

@@ -43,6 +43,8 @@ constexpr std::array kFields = {
     Field{"workholding", [](const PlanOptions& o) { return o.workholding; }},
     Field{"general-tolerance", [](const PlanOptions& o) { return o.general_tolerance; }},
     Field{"assume", [](const PlanOptions& o) { return o.assume; }},
+    Field{"may", [](const PlanOptions& o) { return o.may; }},
+    Field{"time", [](const PlanOptions& o) { return o.time; }},
     Field{"batch", [](const PlanOptions& o) { return std::to_string(o.batch); }},
     Field{"edges",
           [](const PlanOptions& o) { return o.edge_break_mm == 0.0 ? "" : number(o.edge_break_mm); }},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -39,6 +40,20 @@ inline Split split_table(const std::string& text, SplitOptions options = {.runs_
 
 inline bool says(const std::vector<Diagnostic>& said, const std::string& code) {
   return std::any_of(said.begin(), said.end(), [&](const Diagnostic& d) { return d.code == code; });
+}
+
+/// Times of one tool over all runs of a log, s.
+struct ToolTotal {
+  double active_s = 0.0, moving_s = 0.0;
+};
+inline std::map<int, ToolTotal> totals_by_tool(const std::vector<Executed>& steps) {
+  std::map<int, ToolTotal> out;
+  for (const Executed& s : steps) {
+    ToolTotal& t = out[s.tool];
+    t.active_s += s.active_s;
+    t.moving_s += s.moving_s;
+  }
+  return out;
 }
 
 }  // namespace capstan::casebase::retain

@@ -34,6 +34,9 @@ inline double machining_s(const model::Plan& plan) {
   return out;
 }
 
+/// Number of the 8 mm end mill in the plan of the bracket.
+inline constexpr int kEightMill = 9;
+
 /// A plan with all its paths, as it comes to a machine, and the tool table that it was made for.
 struct Brought {
   model::Plan plan;

@@ -38,7 +38,7 @@ Result<LateOutcome> bound(const model::Plan& plan, pipeline::Inputs in,
 /// A tool without which the bracket is made with others.
 int replaceable() {
   static const int kTool = [] {
-    for (int tool = 1; tool <= 10; ++tool)
+    for (int tool = 1; tool <= tools(bracket()); ++tool)
       if (bound(bracket().plan, shop_of(without(bracket().table, tool)))) return tool;
     return 0;
   }();
@@ -64,9 +64,9 @@ TEST(LateChanges, OfAPlanThatStandsThereAreNone) {
 }
 
 TEST(LateChanges, AWornToolIsToldWithItsSizeAndItsPathIsNoDecision) {
-  const auto worn = bound(bracket().plan, shop_of(with(bracket().table, 10, "D", -0.05)));
+  const auto worn = bound(bracket().plan, shop_of(with(bracket().table, kEightMill, "D", -0.05)));
   ASSERT_TRUE(worn) << to_text(worn.error());
-  EXPECT_NE(worn->words.find("T10 endmill 7.95 mm as measured, instead of T10 endmill 8 mm"),
+  EXPECT_NE(worn->words.find("T9 endmill 7.95 mm as measured, instead of T9 endmill 8 mm"),
             std::string::npos)
       << worn->words;
   EXPECT_NE(worn->words.find("Time in all: "), std::string::npos) << worn->words;

@@ -39,27 +39,27 @@ TEST(LateKept, AToolOfAnotherLengthPlansNothingAndIsChecked) {
     const Brought early = brought(kBracket, format);
     for (const double by : {0.5, -0.5}) {
       Job job;
-      const auto bound = bind(early.plan, shop_of(with(early.table, 10, "Z", by)), kInTime, job);
+      const auto bound = bind(early.plan, shop_of(with(early.table, kEightMill, "Z", by)), kInTime, job);
       ASSERT_TRUE(bound) << to_text(bound.error());
       EXPECT_TRUE(bound->kept);
       EXPECT_FALSE(bound->improved);
       expect_same_steps(bound->plan, early.plan);
       EXPECT_FALSE(bound->program.text.empty());
-      const auto line = with(early.table, 10, "Z", by);
-      EXPECT_NE(bound->program.tool_table.find(line.substr(line.find("T10 "), 14)), std::string::npos);
+      const auto line = with(early.table, kEightMill, "Z", by);
+      EXPECT_NE(bound->program.tool_table.find(line.substr(line.find("T9 "), 14)), std::string::npos);
     }
   }
 }
 
 TEST(LateKept, AToolInAnotherPlaceIsCalledThere) {
   std::string table = bracket().table;
-  table.replace(table.find("T10 P10"), 7, "T12 P12");
+  table.replace(table.find("T9 P9"), 5, "T12 P12");
   Job job;
   const auto bound = bind(bracket().plan, shop_of(table), kInTime, job);
   ASSERT_TRUE(bound) << to_text(bound.error());
   EXPECT_TRUE(bound->kept);
   EXPECT_NE(bound->program.text.find("T12 "), std::string::npos);
-  EXPECT_EQ(bound->program.text.find("T10 "), std::string::npos);
+  EXPECT_EQ(bound->program.text.find("T9 "), std::string::npos);
   for (const model::StepResult& s : bound->plan.steps) {
     const auto* ws = bound->plan.model.get<model::MachiningWorkingstep>(s.step);
     const auto* op =
@@ -96,7 +96,7 @@ TEST(LateKept, AnotherMachineMaterialOrDiameterIsPlannedFor) {
   for (model::WorkMaterial& m : harder.materials)
     if (m.id == bracket().plan.material.id) m.kc11_n_mm2 *= 1.001;
   EXPECT_FALSE(kept(harder));
-  EXPECT_FALSE(kept(shop_of(with(bracket().table, 10, "D", -0.05))));
+  EXPECT_FALSE(kept(shop_of(with(bracket().table, kEightMill, "D", -0.05))));
 }
 
 TEST(LateKept, APlanWithSomethingOpenIsPlanned) {
@@ -148,7 +148,7 @@ TEST(LateKept, EachBindingIsARowOfThePlansRecordInEveryForm) {
     auto again = pipeline::read_plan(*text, "plan", job);
     ASSERT_TRUE(again) << to_text(again.error());
     policy.time = "2026-11-25T13:00:00Z";
-    const auto twice = bind(*again, shop_of(with(early.table, 10, "Z", 0.5)), policy, job);
+    const auto twice = bind(*again, shop_of(with(early.table, kEightMill, "Z", 0.5)), policy, job);
     ASSERT_TRUE(twice) << to_text(twice.error());
     std::vector<model::Provenance> rows;
     for (const auto& p : twice->plan.provenance)
