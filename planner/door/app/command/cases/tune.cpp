@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "casebase/tune/picture.h"
-#include "planner/door/app/command/cases/planned_limits.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/door/service/reading.h"
+#include "planner/door/service/tuning/planned_limits.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -216,7 +216,7 @@ Result<std::vector<StepAdvice>> advise_steps(const model::Plan& plan, const case
                                              const tune::TuneOptions& options, Job& job) {
   std::vector<StepAdvice> out;
   for (const model::StepResult& step : plan.steps) {
-    auto planned = planned_step(plan, step);
+    auto planned = service::planned_step(plan, step);
     if (!planned) {
       Diagnostic d = planned.error();
       d.severity = Severity::kNote;
