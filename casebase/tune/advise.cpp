@@ -178,6 +178,17 @@ class Gate {
   SettingView before_;
 };
 
+/// The handbook without the loads that need evidence and have none.
+Handbook told_by(const std::vector<Evidence>& evidence, Handbook handbook) {
+  for (std::size_t i = 0; i < kWatchedCount; ++i) {
+    LoadPrior& l = handbook.loads[i];
+    const bool told =
+        std::any_of(evidence.begin(), evidence.end(), [&](const Evidence& e) { return e.ln_load[i]; });
+    l.watched = l.watched && (told || !l.needs_evidence);
+  }
+  return handbook;
+}
+
 std::vector<Setting> settings_of(const std::vector<Evidence>& evidence) {
   std::vector<Setting> out;
   for (const Evidence& e : evidence) {
@@ -281,9 +292,10 @@ std::string binding_of(const Learnt& learnt, const Gate& gate, const Setting& at
 
 }  // namespace
 
-Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, const TuneOptions& options) {
-  Heard said = heard(evidence, handbook.machine, options.today);
+Advice advise(std::span<const Evidence> evidence, const Handbook& all, const TuneOptions& options) {
+  Heard said = heard(evidence, all.machine, options.today);
   keep_nearest(said.evidence, options.most_cases);
+  const Handbook handbook = told_by(said.evidence, all);
   Advice out{.heard = said.evidence.size(),
              .refused = std::move(said.refused),
              .days_in_future = said.days_in_future};
@@ -345,10 +357,11 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, cons
   return out;
 }
 
-std::vector<LinePoint> along(std::span<const Evidence> evidence, const Handbook& handbook,
+std::vector<LinePoint> along(std::span<const Evidence> evidence, const Handbook& all,
                              const TuneOptions& options, const Setting& through, bool of_feed) {
-  Heard said = heard(evidence, handbook.machine, options.today);
+  Heard said = heard(evidence, all.machine, options.today);
   keep_nearest(said.evidence, options.most_cases);
+  const Handbook handbook = told_by(said.evidence, all);
   const Learnt learnt(said.evidence, handbook, options);
   std::vector<LinePoint> out;
   const double low = std::log(0.6), high = std::log(1.7);  // of the plot

@@ -15,7 +15,8 @@ namespace capstan::casebase::tune {
 /// What the handbook and the planner's models hold of one load before anything was cut: ln(load / limit) at
 /// the handbook's setting with a sharp edge, and how it changes with ln vc, ln fz and wear (0 sharp, 1 worn).
 struct LoadPrior {
-  bool watched = false;  ///< there is such a limit
+  bool watched = false;         ///< there is such a limit
+  bool needs_evidence = false;  ///< what is expected is so little sure that it counts with a case of it alone
   PriorTerm ln_load, by_vc, by_fz, by_wear;
   double noise = 0.1;  ///< std dev of ln load from part to part on one edge
   double edges = 0.1;  ///< from edge to edge

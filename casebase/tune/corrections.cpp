@@ -24,8 +24,7 @@ constexpr double kLifeSpread = 0.5;   // ln T0 of a table. Default, unsourced
 constexpr double kLifeScatter = 0.3;  // as mechanics/life
 constexpr double kForceNoise = 0.08;  // std dev of ln kc between cuts of one edge. Default, unsourced
 constexpr double kForceEdges = 0.08;  // and between edges. Default, unsourced
-// Wear runs in fast and goes on slower: an exponent below 1. Default, unsourced.
-constexpr double kWearByTime = 0.7, kWearByTimeSpread = 0.3;
+constexpr double kWearByTimeSpread = 0.3;  // of kWearByTime. Default, unsourced
 constexpr double kWearNoise = 0.1;        // std dev of ln VB of a reading. Default, unsourced
 constexpr double kLeastReadingMm = 0.05;  // less is the scatter of the reading
 constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;  // edges or parts
@@ -95,19 +94,41 @@ std::optional<ForceCorrection> correct_force(std::span<const ForceSample> sample
   return out;
 }
 
-std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm) {
+namespace {
+
+/// ln VB = ln c + b ln t through the readings that can be used.
+struct WearCurve {
+  std::size_t readings = 0;
+  double most_mm = 0.0;
+  Regression fit;
+};
+WearCurve wear_curve(std::span<const WearReading> readings) {
   std::vector<Row> rows;
-  double most = 0.0;
+  WearCurve out;
   for (const WearReading& r : readings) {
     if (!usable({r.time_min, r.wear_mm}) || r.wear_mm < kLeastReadingMm) continue;
     rows.push_back({{1.0, std::log(r.time_min)}, std::log(r.wear_mm), 1.0, rows.size()});
-    most = std::max(most, r.wear_mm);
+    out.most_mm = std::max(out.most_mm, r.wear_mm);
   }
-  if (rows.size() < 2 || most < allowed_mm || !usable({allowed_mm})) return std::nullopt;
-  const Regression fit =
-      regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kWearNoise});
-  if (fit.coefficient[1] <= 0.0) return std::nullopt;
-  return std::exp((std::log(allowed_mm) - fit.coefficient[0]) / fit.coefficient[1]);
+  out.readings = rows.size();
+  if (!rows.empty())
+    out.fit = regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kWearNoise});
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm) {
+  const WearCurve c = wear_curve(readings);
+  if (c.readings < 2 || c.most_mm < allowed_mm || !usable({allowed_mm})) return std::nullopt;
+  if (c.fit.coefficient[1] <= 0.0) return std::nullopt;
+  return std::exp((std::log(allowed_mm) - c.fit.coefficient[0]) / c.fit.coefficient[1]);
+}
+
+std::optional<double> wear_after(std::span<const WearReading> readings, double time_min) {
+  const WearCurve c = wear_curve(readings);
+  if (c.readings == 0 || !usable({time_min})) return std::nullopt;
+  return std::exp(c.fit.coefficient[0] + c.fit.coefficient[1] * std::log(time_min));
 }
 
 std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
