@@ -98,12 +98,25 @@ std::optional<double> wear_at_change_mm(const Observed& o, const Setting& at, co
   return std::nullopt;
 }
 
-/// Names of edges as numbers, in the order in which they come.
+/// The edge that a case was cut with; where it is not known, an edge of its part.
+std::string edge_name(const From& f) {
+  const std::string edge = edge_of(f);
+  return edge.empty() ? "?" + f.part + f.source : edge;
+}
+
+/// The part that a case is of; where it is not known, what its source and its time tell apart.
+std::string part_name(const From& f) { return f.part.empty() ? "?" + f.source + f.time_utc : f.part; }
+
+/// Whether a step mills a bore, whose size is the path's: of a drill, a reamer or a tap it is the tool's.
+bool mills_bore(const Question& q) {
+  const bool round = positive(q.diameter_mm) && !positive(q.width_mm);
+  return round && q.operation.ends_with("MILLING") && q.feature.find("THREAD") == std::string::npos;
+}
+
+/// Names as numbers, in the order in which they come.
 class Groups {
  public:
-  std::size_t of(const Case& c) {
-    std::string name = edge_of(c.from);
-    if (name.empty()) name = "?" + c.from.part + c.from.source;
+  std::size_t of(std::string name) {
     return numbers_.emplace(std::move(name), numbers_.size()).first->second;
   }
 
@@ -229,10 +242,10 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
   std::vector<LifeSample> lives;
   std::vector<TimeSample> times;
   std::vector<BoreSample> bores;
-  Groups edges;
+  Groups edges, parts;
   for (const Case& c : cases) {
     if (c.origin != Origin::kMeasured) continue;
-    const std::size_t edge = edges.of(c);
+    const std::size_t edge = edges.of(edge_name(c.from)), part = parts.of(part_name(c.from));
     const Observed& o = c.observed;
     const Bound& b = c.bound;
     if (evidence(o.peak_force_n) && positive(c.predicted.peak_force_n) && positive(b.mean_chip_mm)) {
@@ -241,12 +254,11 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
       forces.push_back({b.mean_chip_mm, kc * o.peak_force_n->value / expected, edge});
     }
     if (evidence(o.time_s) && positive(c.predicted.time_s) && b.path_blocks > 0) {
-      times.push_back({c.predicted.time_s, o.time_s->value, c.predicted.time_s / b.path_blocks, edge});
+      times.push_back({c.predicted.time_s, o.time_s->value, c.predicted.time_s / b.path_blocks, part});
     }
-    const bool bore = positive(c.asked.diameter_mm) && !positive(c.asked.width_mm);
-    if (bore && evidence(o.size_deviation_mm) && positive(c.asked.cutter_diameter_mm)) {
+    if (mills_bore(c.asked) && evidence(o.size_deviation_mm) && positive(c.asked.cutter_diameter_mm)) {
       bores.push_back({o.size_deviation_mm->value, b.fz_mm * std::max(1, c.asked.teeth),
-                       c.asked.stick_out_mm / c.asked.cutter_diameter_mm, edge});
+                       c.asked.stick_out_mm / c.asked.cutter_diameter_mm, part});
     }
     if (const auto life = life_of(readings_of(o.wear_series_mm), kAllowedWearMm))
       lives.push_back({b.vc_m_min, b.fz_mm, b.ap_mm, *life, edge});

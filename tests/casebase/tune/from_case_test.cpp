@@ -212,5 +212,29 @@ TEST(CorrectionsOf, MeasuredCasesAlone) {
   EXPECT_FALSE(corrections_of(cases, handbook).force);
 }
 
+TEST(CorrectionsOf, BoresThatAreMilledAloneByPart) {
+  const CorrectionHandbook handbook{.force = {1800.0, 0.2, 1.5}, .force_margin = 1.8, .life = {}};
+  const auto bores = [&](const char* operation, const char* feature) {
+    std::vector<Case> cases;
+    for (int i = 0; i < 8; ++i) {
+      Case c = cut(i / 2);  // two of each part, on one edge
+      c.asked.operation = operation;
+      c.asked.feature = feature;
+      c.asked.width_mm = 0.0;
+      c.asked.diameter_mm = 20.0;
+      c.asked.stick_out_mm = 40.0;
+      c.from.tool_instance = "T1";
+      cases.push_back(c);
+    }
+    return corrections_of(cases, handbook).bores;
+  };
+  const auto milled = bores("BOTTOM_AND_SIDE_FINISH_MILLING", "ROUND_HOLE");
+  ASSERT_TRUE(milled);
+  EXPECT_EQ(milled->how.groups, 4U);
+  EXPECT_FALSE(bores("REAMING", "ROUND_HOLE"));
+  EXPECT_FALSE(bores("DRILLING", "ROUND_HOLE"));
+  EXPECT_FALSE(bores("SIDE_FINISH_MILLING", "DEFINED_THREAD"));
+}
+
 }  // namespace
 }  // namespace capstan::casebase::tune
