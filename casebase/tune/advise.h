@@ -39,7 +39,9 @@ struct Handbook {
   double most_vc = kMostMultiplier, most_fz = kMostMultiplier;  ///< at most that
 };
 
-/// How tuning learns. `kRegression`: lines only; `kProcess`: what departs from the lines, too.
+/// How tuning learns. `kRegression`: lines only; `kProcess`: what departs from the lines, too. The default is
+/// the second, though lines took less time in the shops of docs/validation.md, section 15: lines that are
+/// sure by many cases stay sure where a load bends away from them, and limits come before time.
 enum class Learner : unsigned char { kRegression, kProcess };
 
 struct TuneOptions {
