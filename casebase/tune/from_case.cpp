@@ -229,8 +229,10 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
              (broke && o.breakage->value >= 0.5);
   e.judged = o.verdict != Verdict::kUnknown || chatter || broke;
   e.measured = c.origin == Origin::kMeasured;
-  e.source = c.from.source + '\n' + c.from.part + '\n' + c.from.workingstep + '\n' + c.from.time_utc + '\n' +
-             edge_of(c.from);
+  for (const std::string& one :
+       {c.from.source, c.from.part, c.from.workingstep, c.from.time_utc, edge_of(c.from)}) {
+    e.source += (e.source.empty() ? "'" : ", '") + one + "'";
+  }
   e.machine = c.asked.machine_class;
   e.edge = edge_of(c.from);
   e.day = day_of(c.from.time_utc);

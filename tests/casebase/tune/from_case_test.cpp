@@ -164,6 +164,10 @@ TEST(EvidenceOf, AnEdgeIsAsWornAsItWasBeforeTheCut) {
   EXPECT_NEAR(evidence_of(c, planned()).worn, 0.06 / kAllowedWearMm, 1e-12);
 }
 
+TEST(EvidenceOf, NamesItsSourceInOneLine) {
+  EXPECT_EQ(evidence_of(cut(1), planned()).source.find('\n'), std::string::npos);
+}
+
 TEST(Advise, AWearThatNobodyMeasuredIsNotWatched) {
   const Handbook handbook = handbook_of(planned());
   std::vector<Evidence> evidence = {evidence_of(cut(1), planned())};
