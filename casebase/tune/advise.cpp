@@ -25,15 +25,18 @@ namespace {
 // Lengths and sizes of what departs from the lines. Default, unsourced; learnt where there are enough cases.
 constexpr double kQuestionLength = 1.0, kSettingLength = 0.4, kWearLength = 1.0;
 constexpr double kLoadField = 0.05;
-constexpr double kTimeField = 0.02, kTimeNoise = 0.03, kTimeEdges = 0.01, kTimeSlope = 0.3;
+constexpr double kTimeField = 0.02, kTimeNoise = 0.03, kTimeEdges = 0.01;
+constexpr double kTimeSlope = 0.3;  // std dev of ln time, and of its exponents. Default, unsourced
 // A question at a distance of 1 (a size twice as large) has ln loads this different, its limits known.
+// Default, unsourced.
 constexpr double kQuestionSlope = 0.3;
-// Failures come in bands of speed (lobes), and more of them at a harder cut.
+// Failures come in bands of speed (lobes), and more of them at a harder cut. In ln vc, and in z of the normal
+// distribution. Default, unsourced.
 constexpr double kLobeLength = 0.15, kFailureField = 0.5;
 constexpr double kZ95 = 1.6449;  // of the normal distribution
-// A gentler setting that would fail as often as not mends nothing: another depth or tool is needed.
+// A gentler setting that would fail as often as not mends nothing: another depth or tool is needed (derived).
 constexpr double kWorthLowering = 0.5;
-constexpr double kFailureSlope = 1.0, kFailureSlopeSpread = 1.0;
+constexpr double kFailureSlope = 1.0, kFailureSlopeSpread = 1.0;  // of z by ln vc, ln fz. Default, unsourced
 
 std::vector<double> place(const std::vector<double>& question, const Setting& at, double worn) {
   std::vector<double> x = question;

@@ -16,21 +16,27 @@ namespace capstan::casebase::tune {
 namespace {
 
 // Kienzle's exponents of steels, cast irons and light metals lie between 0.1 and 0.35 (reference tables of
-// Mitsubishi and Roehm, docs/validation.md): half the width.
+// Mitsubishi and Roehm, docs/validation.md): about a quarter of that width, two std devs to either side.
 constexpr double kMcSpread = 0.06;
 // 1 / n of carbide: 2 to 5 (Kalpakjian & Schmid: n 0.2 to 0.5); of feed and depth about 1 and less.
 constexpr double kLifeBySpeedSpread = 1.0, kLifeByFeedSpread = 0.7, kLifeByDepthSpread = 0.7;
-constexpr double kLifeSpread = 0.5;   // ln T0 of a table. Default, unsourced
-constexpr double kLifeScatter = 0.3;  // as mechanics/life
-constexpr double kForceNoise = 0.08;  // std dev of ln kc between cuts of one edge. Default, unsourced
-constexpr double kForceEdges = 0.08;  // and between edges. Default, unsourced
+constexpr double kLifeSpread = 0.5;        // ln T0 of a table. Default, unsourced
+constexpr double kLifeScatter = 0.3;       // as mechanics/life
+constexpr double kForceNoise = 0.08;       // std dev of ln kc between cuts of one edge. Default, unsourced
+constexpr double kForceEdges = 0.08;       // and between edges. Default, unsourced
 constexpr double kWearByTimeSpread = 0.3;  // of kWearByTime. Default, unsourced
-constexpr double kWearNoise = 0.1;        // std dev of ln VB of a reading. Default, unsourced
-constexpr double kLeastReadingMm = 0.05;  // less is the scatter of the reading
-constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;  // edges or parts
-constexpr double kZ90 = 1.6449;                               // of the normal distribution, both sides
-constexpr double kBlock0S = 0.1, kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
+constexpr double kWearNoise = 0.1;         // std dev of ln VB of a reading. Default, unsourced
+constexpr double kLeastReadingMm = 0.05;   // less is the scatter of the reading
+// Edges or parts that are left out in turn: fewer tell nothing, more take long. Default, unsourced.
+constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;
+constexpr double kZ90 = 1.6449;   // of the normal distribution, both sides
+constexpr double kBlock0S = 0.1;  // where the time's first term counts
+// Std devs of ln(observed / planned), of its slope by ln of the block's time, and of one part. Default,
+// unsourced.
+constexpr double kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
+// Feed per turn, and stick-out over D, where the first term counts.
 constexpr double kFeed0Mm = 0.05, kStickOut0 = 4.0;
+// Std devs of each term, and of one part. Default, unsourced.
 constexpr double kBoreSpreadMm = 0.1, kBoreNoiseMm = 0.02;
 
 bool usable(std::initializer_list<double> values) {
