@@ -8,6 +8,8 @@
 #include <functional>
 #include <string_view>
 
+#include "casebase/report/svg.h"
+
 namespace capstan::casebase::tune {
 namespace {
 
@@ -18,33 +20,6 @@ constexpr std::size_t kLine = 120;  // characters
 // Told apart by the colour-blind, as in the project's other plots.
 constexpr std::array<std::string_view, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
                                                       "#cc79a7", "#e69f00", "#56b4e9"};
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
-
-std::string words(double x, double y, std::string_view text, std::string_view more = {}) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, more, escaped(text));
-}
 
 struct Panel {
   double left, low, high;  ///< low and high: multipliers at its sides
@@ -73,7 +48,7 @@ std::string mark(const Panel& p, double multiplier, std::string_view name, doubl
   return fmt::format(
              "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#444\" {3}/>\n", x,
              kTop, kTop + kTall, dash) +
-         words(x + 3.0, kTop + 12.0 + 13.0 * level, name, "font-size=\"11\"");
+         svg_words(x + 3.0, kTop + 12.0 + 13.0 * level, name, "font-size=\"11\"");
 }
 
 std::string panel_of(double left, std::span<const LinePoint> points, const Advice& a, bool of_feed) {
@@ -83,17 +58,17 @@ std::string panel_of(double left, std::span<const LinePoint> points, const Advic
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#888\"/>\n",
       left, kTop, kPanel, kTall);
   for (const double v : {0.0, 0.5, 1.0, 1.5}) {
-    out += words(left - 6.0, Panel::y(v) + 4.0, fmt::format("{:.1f}", v), "text-anchor=\"end\"");
+    out += svg_words(left - 6.0, Panel::y(v) + 4.0, fmt::format("{:.1f}", v), "text-anchor=\"end\"");
     out += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n",
                        left, left + kPanel, Panel::y(v), Panel::y(v), v == 1.0 ? "#c00" : "#ddd");
   }
   for (const double m : {0.6, 0.8, 1.0, 1.25, 1.6}) {
     if (m < p.low || m > p.high) continue;
-    out += words(p.x(m), kTop + kTall + 16.0, fmt::format("{:.3g}", m), "text-anchor=\"middle\"");
+    out += svg_words(p.x(m), kTop + kTall + 16.0, fmt::format("{:.3g}", m), "text-anchor=\"middle\"");
   }
-  out += words(left + 0.5 * kPanel, kTop + kTall + 34.0,
-               of_feed ? "feed per tooth over the handbook's" : "cutting speed over the handbook's",
-               "text-anchor=\"middle\"");
+  out += svg_words(left + 0.5 * kPanel, kTop + kTall + 34.0,
+                   of_feed ? "feed per tooth over the handbook's" : "cutting speed over the handbook's",
+                   "text-anchor=\"middle\"");
   const std::size_t limits = points.front().view.limits.size();
   for (std::size_t i = 0; i + 1 < limits; ++i) {  // the last, failure, has a probability and no load
     const std::string_view colour = kColours[i % kColours.size()];
@@ -119,18 +94,13 @@ std::string panel_of(double left, std::span<const LinePoint> points, const Advic
 
 std::string picture_of(const std::string& title, const Advice& advice, std::span<const LinePoint> by_speed,
                        std::span<const LinePoint> by_feed) {
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-      "{1:.0f}\" "
-      "font-family=\"Helvetica,Arial,sans-serif\" font-size=\"12\">\n"
-      "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#fff\"/>\n",
-      kWidth, kHeight);
-  out += words(kLeft, 20.0, title, "font-size=\"14\" font-weight=\"bold\"");
+  std::string out = svg_head(kWidth, kHeight);
+  out += svg_words(kLeft, 20.0, title, "font-size=\"14\" font-weight=\"bold\"");
   // Two lines: at the last blank before the width is used up.
   const std::size_t cut = advice.why.size() <= kLine ? advice.why.size() : advice.why.rfind(' ', kLine);
-  out += words(kLeft, 38.0, std::string_view(advice.why).substr(0, cut), "font-size=\"11\"");
+  out += svg_words(kLeft, 38.0, std::string_view(advice.why).substr(0, cut), "font-size=\"11\"");
   if (cut < advice.why.size())
-    out += words(kLeft, 52.0, std::string_view(advice.why).substr(cut + 1), "font-size=\"11\"");
+    out += svg_words(kLeft, 52.0, std::string_view(advice.why).substr(cut + 1), "font-size=\"11\"");
   out += panel_of(kLeft, by_speed, advice, false);
   out += panel_of(kLeft + kPanel + kGap, by_feed, advice, true);
   double x = kLeft;
@@ -139,17 +109,17 @@ std::string picture_of(const std::string& title, const Advice& advice, std::span
         "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
         "stroke-width=\"2.5\"/>\n",
         x, x + 20.0, kHeight - 42.0, kHeight - 42.0, colour);
-    out += words(x + 25.0, kHeight - 38.0, name);
+    out += svg_words(x + 25.0, kHeight - 38.0, name);
     x += 40.0 + 7.0 * static_cast<double>(name.size());
   };
   legend("time over the handbook's", "#000");
   for (std::size_t i = 0; i + 1 < advice.trial.limits.size(); ++i) {
     legend(advice.trial.limits[i].name, kColours[i % kColours.size()]);
   }
-  out +=
-      words(kLeft, kHeight - 16.0,
-            "loads over their limits with a worn edge: expected, and dashed what 95 of 100 parts stay below",
-            "font-size=\"11\"");
+  out += svg_words(
+      kLeft, kHeight - 16.0,
+      "loads over their limits with a worn edge: expected, and dashed what 95 of 100 parts stay below",
+      "font-size=\"11\"");
   return out + "</svg>\n";
 }
 

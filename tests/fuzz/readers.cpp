@@ -2,8 +2,10 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 #include "casebase/casebase.h"
+#include "casebase/retain/join/import.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/making/workholding/place.h"
@@ -90,6 +92,26 @@ void workholding(std::string bytes) {
 }
 void rules(std::string bytes) { (void)said(rules::rules_from_texts({{"input.yaml", std::move(bytes)}})); }
 void cases(std::string bytes) { (void)said(casebase::from_csv(bytes, "input.csv")); }
+/// A log to its end: split by workingstep, and joined with a step that uses each of its tools.
+void log_as(casebase::retain::LogFormat format, std::string bytes) {
+  namespace retain = casebase::retain;
+  Job job;
+  std::istringstream in(std::move(bytes));
+  const std::vector<retain::Step> steps = {
+      {.id = "A", .tool = 1, .planned = {}, .characteristics = {}, .parts = {}}};
+  const auto cases = said(retain::import_log(in, format, steps, {.file = "input"}, {}, job));
+  if (!cases) return;
+  for (const casebase::Case& c : *cases) must(!casebase::fault_of(c), "a case that cannot be\n");
+}
+void log_trace(std::string bytes) { log_as(casebase::retain::LogFormat::kTrace, std::move(bytes)); }
+void log_csv(std::string bytes) { log_as(casebase::retain::LogFormat::kCsv, std::move(bytes)); }
+void log_linuxcnc(std::string bytes) { log_as(casebase::retain::LogFormat::kLinuxcnc, std::move(bytes)); }
+void log_times(std::string bytes) { log_as(casebase::retain::LogFormat::kTimes, std::move(bytes)); }
+void log_sheet(std::string bytes) { (void)said(casebase::retain::read_sheet(bytes, "input.csv")); }
+void inspection(std::string bytes) {
+  Job job;
+  (void)said(casebase::retain::read_inspection(bytes, "input.csv", 1.0, job));
+}
 void tool_list(std::string bytes) {
   Job job;
   (void)said(tooling::read_own_list(bytes, "input.yaml", job));
@@ -164,6 +186,12 @@ const std::vector<Reader>& readers() {
        {"rules/data/slot.yaml", "rules/data/thread.yaml", "rules/data/coolant.yaml",
         "rules/data/edges.yaml"}},
       {"cases", cases, {}},
+      {"log_trace", log_trace, {}},
+      {"log_csv", log_csv, {}},
+      {"log_linuxcnc", log_linuxcnc, {}},
+      {"log_times", log_times, {"corpus/measured/nist_plate/times_per_tool.csv"}},
+      {"log_sheet", log_sheet, {"tests/validation/nist/plate_sheet.csv"}},
+      {"inspection", inspection, {}},
       {"tool_list", tool_list, {"examples/reference_pocket_tools.yaml"}},
       {"tool_table", tool_table, {}},
       {"tools_fusion", tools_fusion, {}},

@@ -59,6 +59,14 @@ TEST(Hole, IsDrilledSmallerForTheReamerAndTheReamerKnows) {
   EXPECT_GT(chain[2].tool.reach_mm, 30.0);
 }
 
+TEST(Hole, AsksOfAReamerFlutesAsLongAsTheHoleAndReachBelowIt) {
+  const auto ream = proposed(h(hole(15, 50), 7)).chains.at(0).back();
+  ASSERT_EQ(ream.operation, TypeId::kReaming);
+  EXPECT_DOUBLE_EQ(ream.tool.depth_of_cut_mm, 50.0) << "what is cut; the lead goes 2 mm below it";
+  EXPECT_DOUBLE_EQ(ream.depth_mm, 52.0);
+  EXPECT_GE(ream.tool.reach_mm, 53.0);
+}
+
 TEST(Hole, AsksForItsNominalDrillThenForAnyUpToTheMiddleOfTheTolerance) {
   const Proposal p = proposed(toleranced(hole(10, 20), -0.1, 0.1));
   EXPECT_DOUBLE_EQ(p.chains.at(0).at(1).tool.diameter_exact_mm, 10.0);

@@ -46,7 +46,8 @@ Comparison summary(const std::vector<Comparison>& all) {
       {"productivity", "12. Productivity"},
       {"catalogue-times", "13. Times against a catalogue's"},
       {"freecad", "14. Roughing against FreeCAD's paths"},
-      {"tuning", "15. Tuning in simulated shops"}};
+      {"tuning", "15. Tuning in simulated shops"},
+      {"plates", "16. NIST plates as cases"}};
   Comparison out{.name = "summary"};
   Table rows{{"comparison", "figure"}, {}};
   for (const auto& [name, title] : titles) {
@@ -82,6 +83,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(catalogue_times());
   out.push_back(freecad(capstan::testing::source_dir() + "/docs/validation/freecad.csv"));
   out.push_back(tuning());
+  out.push_back(plates(corpus));
   out.push_back(summary(out));
   return out;
 }

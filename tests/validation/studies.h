@@ -50,6 +50,9 @@ namespace capstan::validation {
 /// Tuned speeds and feeds in simulated shops: no cases, regression only, Gaussian process.
 [[nodiscard]] Comparison tuning();
 
+/// The plates of the NIST test bed as cases: each plate's times and bores predicted from the others.
+[[nodiscard]] Comparison plates(const std::string& corpus);
+
 /// Roughing of pockets against FreeCAD's paths at equal limits (freecad/rivals.h); `record`: the times on
 /// LinuxCNC's simulated machine, as `capstan_rival_times` recorded them.
 [[nodiscard]] Comparison freecad(const std::string& record);

@@ -9,7 +9,7 @@ target_link_libraries(capstan_validation_comparisons
   PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support
   PRIVATE capstan::motion capstan::mechanics capstan::optimise capstan::optimise_solvers capstan::engagement
     capstan::verify capstan::service capstan::tooling capstan_mutation capstan_sweep
-    capstan_simulated_shop yaml-cpp)
+    capstan_simulated_shop capstan::casebase yaml-cpp)
 add_executable(capstan_validation ${validation}/main.cpp)
 target_link_libraries(capstan_validation PRIVATE capstan_validation_comparisons)
 capstan_test(validation LIBS capstan_validation_comparisons)

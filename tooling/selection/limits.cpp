@@ -273,6 +273,17 @@ std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r
   return std::nullopt;
 }
 
+double flutes_needed(const Cutter& c, const ToolRequirement& r) {
+  constexpr double kThinnerMm = 0.1;  // on the diameter; default, unsourced
+  // Below a through hole: past_mm of the action "ream", for the lead, and the 1 mm that paths go below what
+  // is through; blind ones get it as room for chips.
+  constexpr double kBelowMm = 3.0;
+  const bool thinner = c.shank_diameter_mm > 0.0 && c.shank_diameter_mm + kThinnerMm <= c.cutting_diameter_mm;
+  if (c.cutter_class != CutterClass::kReamer || thinner || !(r.depth_of_cut_mm > 0.0))
+    return r.depth_of_cut_mm;
+  return r.depth_of_cut_mm + kBelowMm;
+}
+
 std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) {
   if (r.reach_mm > reach_of(c) + kSizeSlackMm) {
     std::string why = "reach " + mm_text(reach_of(c)) + " is below " + mm_text(r.reach_mm);
@@ -286,8 +297,10 @@ std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) 
              ") would meet the walls";
     return why;
   }
-  if (r.depth_of_cut_mm > c.maximum_depth_of_cut_mm + kSizeSlackMm)
-    return "flutes " + mm_text(c.maximum_depth_of_cut_mm) + " are shorter than " + mm_text(r.depth_of_cut_mm);
+  const double flutes = flutes_needed(c, r);
+  if (flutes > c.maximum_depth_of_cut_mm + kSizeSlackMm)
+    return "flutes " + mm_text(c.maximum_depth_of_cut_mm) + " are shorter than " + mm_text(flutes) +
+           (flutes > r.depth_of_cut_mm ? ", and its shank is as wide as the hole" : "");
   return std::nullopt;
 }
 

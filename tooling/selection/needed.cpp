@@ -7,6 +7,7 @@
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
+#include "tooling/selection/limits.h"
 
 namespace capstan::tooling {
 namespace {
@@ -88,7 +89,7 @@ void take_lengths(Cutter& c, const ToolRequirement& r) {
   c.maximum_depth_of_cut_mm = std::max(
       flutes_carry ? c.usable_length_mm : 0.0,
       r.depth_of_cut_mm > 0.0
-          ? r.depth_of_cut_mm
+          ? flutes_needed(c, r)
           : std::min(c.maximum_depth_of_cut_mm, std::max(c.usable_length_mm, c.cutting_diameter_mm)));
   c.usable_length_mm = std::max(c.usable_length_mm, flutes_carry ? 0.0 : c.maximum_depth_of_cut_mm);
   c.stick_out_mm = std::max(c.usable_length_mm, c.maximum_depth_of_cut_mm) + kClearOfHolderMm;

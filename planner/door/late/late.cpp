@@ -14,6 +14,7 @@
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/by_planning.h"
 
 // A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
@@ -24,6 +25,8 @@
 
 namespace capstan::late {
 namespace {
+
+constexpr double kSameRadiusMm = 1e-6;
 
 using TimePoint = std::chrono::steady_clock::time_point;
 using Duration = std::chrono::steady_clock::duration;
@@ -95,6 +98,23 @@ Status nothing_open(const model::Plan& plan) {
                           " open, first: " + plan.unplanned.front().reason,
                .file = plan.file_name,
                .hint = "load what is missing, or plan anew"});
+}
+
+/// Nobody at the machine agrees to rest material that was not agreed to when the part was planned.
+Status no_more_rest(const model::Plan& brought, const model::Plan& made) {
+  for (const model::CornerRest& rest : model::corner_rests(made)) {
+    const auto agreed = model::corner_rest_of(brought, rest.feature);
+    if (agreed && rest.radius_mm <= agreed->radius_mm + kSameRadiusMm) continue;
+    return fail(
+        {.code = "LATE-REST",
+         .message = "with the loaded tools the inside corners of '" + rest.feature +
+                    "' would keep a radius of " + trimmed(rest.radius_mm, 3) + " mm in place of " +
+                    trimmed(agreed ? agreed->radius_mm : rest.stated_mm, 3) + " mm",
+         .file = made.file_name,
+         .path = rest.feature,
+         .hint = "load a mill for these corners, or plan the part anew where the rest can be agreed to"});
+  }
+  return {};
 }
 
 /// Says that the deadline is past, if it is.
@@ -215,6 +235,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   const auto acceptable = [&](const model::Plan& made) -> Status {
     if (auto ok = nothing_open(made); !ok) return ok;
     if (auto ok = only_loaded(made, magazine); !ok) return ok;
+    if (auto ok = no_more_rest(brought, made); !ok) return ok;
     return within_policy(brought, made, policy.may);
   };
   Duration checking{};

@@ -100,6 +100,11 @@ void name_steps(model::Plan& plan) {
   }
 }
 
+std::optional<draft::Mill> mill_of(const model::Cutter& c) {
+  if (!model::has(c.cutter_class, model::CutterTrait::kEndMill)) return std::nullopt;
+  return draft::Mill{c.cutting_diameter_mm, c.corner_radius_mm};
+}
+
 /// Which chain and cutter made each proposed step, so that what a check says of it can be traced back.
 std::map<AnyRef, MadeStep> made_steps(const step::PlanSoFar& p) {
   std::map<AnyRef, MadeStep> out;
@@ -110,7 +115,7 @@ std::map<AnyRef, MadeStep> made_steps(const step::PlanSoFar& p) {
                    s.in_chain,
                    s.cutter.id,
                    s.proposal.name,
-                   s.cutter.cutting_diameter_mm,
+                   mill_of(s.cutter),
                    p.plan.model.holds<model::FreeformFinishMilling>(s.operation),
                    step::cut_around(p, s)};
   }

@@ -18,7 +18,7 @@
 // Plans, checks, and plans again what the check condemns. The check is independent: it gets no information
 // about the tries, and its findings on the kept plan are passed on unchanged. An error at a proposed step
 // bans its choices, the mildest first: its cutter, twice; then its chain; last, the feature is left out
-// together with those that rest on it. Where material is left, no cutter as wide or wider is tried again: it
+// together with those that rest on it. Where material is left, no mill as wide, or wider, is tried again: it
 // reaches no more. A broken order does not depend on the cutter: the chain is banned at once. A feature
 // outside the raw piece is left out at once. A step around a boss that cuts nothing is left out if other
 // features' steps cut around the boss: the boss is then made, and not missing. Of all tries the one with the
@@ -113,8 +113,8 @@ class BansByCheck {
         tries_.bans.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
       } else if (of_order || hits >= kMostCutters) {
         tries_.bans.ban_chain(s.member, s.chain, "step '" + s.name + "': " + found);
-      } else if (o.finding->code == "CHK-LEFT") {
-        tries_.bans.ask_narrower(s.member, s.chain, s.in_chain, s.diameter_mm, found);
+      } else if (o.finding->code == "CHK-LEFT" && s.mill) {
+        tries_.bans.ask_narrower(s.member, s.chain, s.in_chain, *s.mill, found);
       } else {
         tries_.bans.ban_cutter(s.member, s.chain, s.in_chain, s.cutter, found);
       }

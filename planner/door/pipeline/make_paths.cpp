@@ -228,7 +228,7 @@ class PathMaker {
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
     if (!seconds || *seconds <= kShiftS) return std::nullopt;
     return "it cuts " + trimmed(*seconds / 3600.0, 1) + " h, longer than a shift of " +
-           trimmed(kShiftS / 3600.0, 0) + " h; machine the feature by steps of your own, or change it";
+           trimmed(kShiftS / 3600.0, 0) + " h; take a machine that turns a wider tool in this material (--machine), or change the feature";
   }
 
   [[nodiscard]] static bool exceeds(const StepDraft& step, const step::MeasuredCut& t) {

@@ -24,9 +24,9 @@ struct MadeStep {
   std::string chain;
   std::size_t in_chain = 0;
   std::string cutter, name;
-  double diameter_mm = 0.0;  ///< of the cutter
-  bool as_found = false;     ///< depth is that of the material left there: it cannot be made thinner
-  bool cut_around = false;   ///< of a boss that other features' steps cut around
+  std::optional<draft::Mill> mill;  ///< size of an end mill, with whatever corner or nose
+  bool as_found = false;            ///< depth is that of the material left there: it cannot be made thinner
+  bool cut_around = false;          ///< of a boss that other features' steps cut around
 };
 
 /// Results of a stage for the next try.

@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace capstan::draft {
+namespace {
+
+/// Whether `other` reaches no place that `mill` does not.
+bool reaches_no_more(const Mill& mill, const Mill& other) {
+  constexpr double kSameMm = 1e-6;  // of two sizes, written in one list in mm and in another in inches
+  if (other.diameter_mm > mill.diameter_mm + kSameMm) return true;
+  return other.diameter_mm > mill.diameter_mm - kSameMm &&
+         other.corner_radius_mm > mill.corner_radius_mm - kSameMm;
+}
+
+}  // namespace
 
 void Bans::ban_chain(const Member& m, const std::string& chain, const std::string& why) {
   chains_.emplace(std::pair(m, chain), why);
@@ -13,10 +24,10 @@ void Bans::ban_cutter(const Member& m, const std::string& chain, std::size_t ste
   cutters_.emplace(std::tuple(m, chain, step, cutter), why);
 }
 
-void Bans::ask_narrower(const Member& m, const std::string& chain, std::size_t step, double diameter_mm,
+void Bans::ask_narrower(const Member& m, const std::string& chain, std::size_t step, const Mill& than,
                         const std::string& why) {
-  const auto [at, first] = narrower_.emplace(std::tuple(m, chain, step), std::pair(diameter_mm, why));
-  if (!first && diameter_mm < at->second.first) at->second = {diameter_mm, why};
+  const auto [at, first] = narrower_.emplace(std::tuple(m, chain, step), std::pair(than, why));
+  if (!first && !reaches_no_more(at->second.first, than)) at->second = {than, why};
 }
 
 void Bans::cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why) {
@@ -50,10 +61,10 @@ const std::string* Bans::cutter_banned(const Member& m, const std::string& chain
                                        const model::Cutter& cutter) const {
   const auto at = cutters_.find(std::tuple(m, chain, step, cutter.id));
   if (at != cutters_.end()) return &at->second;
-  constexpr double kSameMm = 1e-6;  // of two diameters, written in one list in mm and in another in inches
   const auto wide = narrower_.find(std::tuple(m, chain, step));
-  const bool too_wide = wide != narrower_.end() && cutter.cutting_diameter_mm > wide->second.first - kSameMm;
-  return too_wide ? &wide->second.second : nullptr;
+  if (wide == narrower_.end()) return nullptr;
+  const Mill mill{cutter.cutting_diameter_mm, cutter.corner_radius_mm};
+  return reaches_no_more(wide->second.first, mill) ? &wide->second.second : nullptr;
 }
 
 const Thinner* Bans::thinner(const Member& m, const std::string& chain, std::size_t step) const {

@@ -30,6 +30,11 @@ struct GivenUp {
   std::string chain, why;
 };
 
+/// Size of a mill, mm.
+struct Mill {
+  double diameter_mm = 0.0, corner_radius_mm = 0.0;
+};
+
 /// Choices that were tried in vain, with the reason. Proposing skips them and adds the reason to the rejected
 /// alternatives, where `explain` lists them. A ban is never removed: each try adds at least one, so that the
 /// tries come to an end.
@@ -39,8 +44,9 @@ class Bans {
   void ban_chain(const GivenUp& g) { ban_chain(g.member, g.chain, g.why); }
   void ban_cutter(const Member& m, const std::string& chain, std::size_t step, const std::string& cutter,
                   const std::string& why);
-  /// A cutter of this diameter, mm, leaves material that no wider one reaches: both are banned.
-  void ask_narrower(const Member& m, const std::string& chain, std::size_t step, double diameter_mm,
+  /// A mill leaves material that none as wide reaches, nor one of its width with as large a corner: these are
+  /// banned.
+  void ask_narrower(const Member& m, const std::string& chain, std::size_t step, const Mill& than,
                     const std::string& why);
   /// The step's cuts are to be thinner, once more.
   void cut_thinner(const Member& m, const std::string& chain, std::size_t step, const std::string& why);
@@ -60,7 +66,7 @@ class Bans {
  private:
   std::map<std::pair<Member, std::string>, std::string> chains_;
   std::map<std::tuple<Member, std::string, std::size_t, std::string>, std::string> cutters_;
-  std::map<std::tuple<Member, std::string, std::size_t>, std::pair<double, std::string>> narrower_;
+  std::map<std::tuple<Member, std::string, std::size_t>, std::pair<Mill, std::string>> narrower_;
   std::map<std::tuple<Member, std::string, std::size_t>, Thinner> thinner_;
   std::map<std::tuple<Member, std::string, std::size_t>, std::string> nothing_;
   std::map<AnyRef, LeftOut> left_out_;

@@ -39,8 +39,17 @@ class Findings {
   };
   /// Says again what was said of a step, in the same order: the findings are as if it had been found anew.
   void repeat(const std::vector<Said>& said, std::size_t order, const std::string& step);
-  /// Until the next call, what is said goes to the tape as well; null: no more.
-  void record(std::vector<Said>* tape) { tape_ = tape; }
+  /// While this lives, what is said goes to the tape as well. A stop leaves by an exception.
+  class Recording {
+   public:
+    Recording(Findings& findings, std::vector<Said>& tape) : findings_(findings) { findings.tape_ = &tape; }
+    ~Recording() { findings_.tape_ = nullptr; }
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+
+   private:
+    Findings& findings_;
+  };
 
   [[nodiscard]] std::vector<model::Finding> take();
 

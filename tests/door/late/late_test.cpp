@@ -424,6 +424,21 @@ TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {
   EXPECT_TRUE(warned(3.0));
 }
 
+// The pocket's corners have R6: a mill of 16 mm would leave R8 in them. Offline that is told and agreed to.
+TEST(Late, NobodyAtTheMachineAgreesToRestMaterialInCorners) {
+  const std::string table = ::testing::TempDir() + "late_wide.tbl";
+  std::ofstream(table) << "T4 P4 Z+95 D+16 ;16 mm carbide end mill, 3 flutes\n";
+  const std::string file = capstan::testing::source_dir() + "/examples/reference_pocket.p21";
+  Job job;
+  auto plan = pipeline::read_plan(testing::slurp(file), file, job);
+  ASSERT_TRUE(plan) << to_text(plan.error());
+  const auto bound = bind(*std::move(plan), shop(table), {.deadline = std::chrono::seconds(20)}, job);
+  ASSERT_FALSE(bound);
+  EXPECT_EQ(bound.error().code, "LATE-REST") << to_text(bound.error());
+  EXPECT_NE(bound.error().message.find("a radius of 8 mm in place of 6 mm"), std::string::npos)
+      << bound.error().message;
+}
+
 TEST(LateInterface, PastTheDeadlineTheCodeIsLateAndThePlanIsThere) {
   capstan_late* s = capstan_late_open("generic_vmc", kMagazine.c_str());
   ASSERT_EQ(capstan_late_status(s), CAPSTAN_LATE_OK) << capstan_late_message(s);

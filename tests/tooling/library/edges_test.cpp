@@ -63,6 +63,22 @@ TEST(Grade, IsReadFromWholeWordsOnly) {
   EXPECT_FALSE(of(Substrate::kHss, "drill, assumed hss, coated").coated);
 }
 
+TEST(Grade, IsNotReadFromWhatIsSaidOfTheWork) {
+  const auto of = [](Substrate s, const std::string& words) {
+    Cutter c;
+    c.substrate = s;
+    c.description = words;
+    return grade_of(c);
+  };
+  EXPECT_FALSE(of(Substrate::kCarbide, "carbide end mill, steel, brass and tin").coated);
+  EXPECT_TRUE(of(Substrate::kCarbide, "carbide end mill TiN").coated);
+  EXPECT_FALSE(of(Substrate::kHss, "HSS drill for coated sheet").coated);
+  EXPECT_FALSE(of(Substrate::kHss, "HSS-Bohrer für beschichtet verzinkte Bleche").coated);
+  EXPECT_FALSE(of(Substrate::kHss, "HSS drill, core of M42").cobalt);
+  EXPECT_TRUE(of(Substrate::kHss, "HSS M42 drill").cobalt);
+  EXPECT_TRUE(of(Substrate::kHss, "M35 HSS drill 8.5").cobalt);
+}
+
 TEST(Grade, OfHighSpeedSteelRaisesItsSpeedByWhatItsMakersTableSays) {
   const double plain = start(cutter(CutterClass::kTwistDrill, Substrate::kHss, "HSS drill"), "c45").vc_m_min;
   const auto times = [&](const char* words) {

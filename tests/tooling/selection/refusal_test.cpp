@@ -28,6 +28,27 @@ model::Machine machine() {
   return load_machine("generic_vmc", job).value();
 }
 
+TEST(SelectRefusal, TakesAReamerDeeperThanItsFlutesOnlyOnAThinnerShank) {
+  ToolRequirement r;
+  r.classes = {CutterClass::kReamer};
+  r.diameter_exact_mm = 12;
+  r.depth_of_cut_mm = 44;  // the generic one's flutes
+  r.reach_mm = 48;
+  model::Cutter c = *std::find_if(library().begin(), library().end(),
+                                  [](const auto& x) { return x.id == "generic/reamer_h7/12"; });
+  ASSERT_DOUBLE_EQ(c.maximum_depth_of_cut_mm, 44.0);
+  const auto asked = [&] { return select(r, {c}, material("mild_steel"), machine()); };
+  EXPECT_EQ(asked().ranked.size(), 1U);
+  for (const double shank : {12.0, 0.0}) {
+    c.shank_diameter_mm = shank;
+    ASSERT_EQ(asked().rejected.size(), 1U) << shank;
+    EXPECT_EQ(asked().rejected[0].why,
+              "flutes 44 mm are shorter than 47 mm, and its shank is as wide as the hole");
+  }
+  r.depth_of_cut_mm = 41;
+  EXPECT_EQ(asked().ranked.size(), 1U) << "then its flutes stand out of the hole";
+}
+
 TEST(SelectRefusal, TakesNoTapWhoseLeadIsLongerThanTheHoleHasRoomFor) {
   ToolRequirement r;
   r.classes = {CutterClass::kTap};

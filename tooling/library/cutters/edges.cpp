@@ -31,12 +31,18 @@ std::size_t word_in(std::string_view text, std::string_view word) {
   return std::string_view::npos;
 }
 
-/// Words of cobalt steel, in lower case; "hss-co8" and its like are asked for apart.
-constexpr std::array kCobaltWords = {"hss-e", "hsse", "hss-e-pm", "hsse-pm", "hss-co", "hssco", "hss co",
-                                     "m35",   "m42",  "cobalt",   "kobalt",  "co5",    "co8"};
-/// Coatings as makers write them, in lower case.
-constexpr std::array kCoatings = {"tialn",   "altin",  "tin",     "ticn",        "alcrn",     "tisin",
-                                  "altisin", "coated", "coating", "beschichtet", "revestida", "revestido"};
+/// Words of cobalt steel, in lower case; "hss-co8" and its like are asked for apart. M35 and M42 alone are
+/// threads, too: only beside "hss".
+constexpr std::array kCobaltWords = {"hss-e",   "hsse",    "hss-e-pm",  "hsse-pm",   "hss-co",
+                                     "hssco",   "hss co",  "cobalt",    "kobalt",    "co5",
+                                     "co8",     "hss m35", "hss-m35",   "hss (m35)", "m35 hss",
+                                     "hss m42", "hss-m42", "hss (m42)", "m42 hss"};
+/// Coatings as makers write them, in lower case. Nitride of titanium is asked for apart, in its own letters:
+/// tin is a metal that is cut.
+constexpr std::array kCoatings = {"tialn",  "altin",   "ticn",        "alcrn",     "tisin",    "altisin",
+                                  "coated", "coating", "beschichtet", "revestida", "revestido"};
+/// What comes after these is the work, not the tool.
+constexpr std::array kFor = {" for ", " fuer ", " für ", " para "};
 /// Of tools with inserts, in lower case.
 constexpr std::array kInserts = {"insert", "inserts", "indexable", "wendeplatten", "wendeschneidplatten"};
 /// What says that there is none.
@@ -47,6 +53,14 @@ std::string_view said(std::string_view text, const std::array<const char*, N>& w
   for (const char* w : words)
     if (word_in(text, w) != std::string_view::npos) return w;
   return {};
+}
+
+/// A description up to where it begins to speak of the work.
+std::string about_the_tool(const std::string& description) {
+  const std::string lower = lower_text(description);
+  std::size_t end = lower.size();
+  for (const char* w : kFor) end = std::min(end, lower.find(w));
+  return description.substr(0, end);
 }
 
 }  // namespace
@@ -83,15 +97,17 @@ const Edges& shipped_edges() {
 }
 
 Grade grade_of(const Cutter& c) {
-  std::string text = lower_text(c.description);
+  std::string as_written = about_the_tool(c.description);
   if (const std::string* source = source_of(c, "substrate");
       source != nullptr && !source->starts_with("default") && source != source_of(c, "*"))
-    text += " | " + lower_text(*source);
+    as_written += " | " + *source;
+  const std::string text = lower_text(as_written);
   // What a plan's own table says that it assumes is nobody's statement.
   if (text.find(model::kAssumedWord) != std::string::npos) return {};
   Grade g;
   const bool bare = !said(text, kBare).empty();
-  const std::string_view coating = bare ? std::string_view() : said(text, kCoatings);
+  std::string_view coating = bare ? std::string_view() : said(text, kCoatings);
+  if (coating.empty() && !bare && word_in(as_written, "TiN") != std::string_view::npos) coating = "tin";
   const std::string_view cobalt =
       c.substrate == model::Substrate::kHss ? said(text, kCobaltWords) : std::string_view();
   g.coated = !coating.empty();

@@ -301,7 +301,56 @@ class CommandLine {
     tune->add_flag("--json", out_.json, "JSON on standard output");
     tune->add_option("-o,--output", out_.outputs, "picture (SVG) of each step of which there are cases")
         ->expected(1);
-    tune->add_option("--today", out_.today, "date, e.g. 2016-06-28: later days of cases do not count as days");
+    tune->add_option("--today", out_.today,
+                     "date, e.g. 2016-06-28: later days of cases do not count as days");
+  }
+
+  void case_logs(CLI::App& cases) {
+    auto* in = on_base(cases, "import", "keep what logs of machines show of a plan's workingsteps as cases",
+                       Command::kCasesImport);
+    LogImport& l = out_.log;
+    in->add_option("format", l.format, "trace (MTConnect), csv, linuxcnc or times (a table of times)")
+        ->required();
+    files(in, "files", "logs", 1, 1000);
+    in->add_option("--plan", l.plan, "the plan that was cut, or a sheet (CSV) that describes a program")
+        ->required();
+    in->add_option("--program", l.program, "the plan's program: its markers tell a line's workingstep");
+    in->add_option("--inspection", l.inspection, "what was measured of the parts (CSV)");
+    in->add_option("--part", l.parts, "number of the part: once per file, in their order")
+        ->expected(1)
+        ->take_all();
+    in->add_option("--serial", l.machine, "serial number of the machine");
+    in->add_option("--unit", l.unit, "mm or inch, where a log does not say")
+        ->check(CLI::IsMember(std::vector<std::string>{"mm", "inch"}));
+    in->add_option("--trigger", l.triggers,
+                   "what makes a step a bad case, e.g. 'lag_mm>0.05' or 'load_percent>90:0.5' (for 0.5 s)")
+        ->expected(1)
+        ->take_all();
+    in->add_option("--column", l.columns, "name of a column, in order, of a table that does not say")
+        ->expected(1)
+        ->take_all();
+    in->add_option("--period", l.period_s, "of LinuxCNC's servo thread, s")->check(CLI::Range(1e-6, 1.0));
+    auto* trace = on_base(cases, "trace",
+                          "which part, step, tool edge, program line and measured value belong together",
+                          Command::kCasesTrace);
+    file(trace, "plan", "the plan, or the sheet");
+    trace->add_option("words", out_.words, "a verdict, a part of a workingstep, of a tool or of a source");
+    trace->add_option("--program", l.program, "the plan's program, whose lines are named");
+    trace->add_option("--part", l.parts, "of these parts alone")->expected(1)->take_all();
+    auto* report = on_base(cases, "report", "times, lags, loads and sizes by workingstep, tool and feature",
+                           Command::kCasesReport);
+    report->add_option("words", out_.words, "an origin, a verdict, a part of a category or of a source");
+    report
+        ->add_option("-o,--output", out_.outputs, "picture (SVG): what was observed over what was predicted")
+        ->expected(1)
+        ->take_all();
+    trace->add_option("-o,--output", out_.outputs, "a file by its ending: .jsonl, .csv or .db (a case base)")
+        ->expected(1)
+        ->take_all();
+    for (CLI::App* sub : {trace, report}) {
+      force(sub);
+      sub->add_flag("--json", out_.json, "JSON on standard output");
+    }
   }
 
   void cases() {
@@ -313,6 +362,7 @@ class CommandLine {
     files(add, "files", "CSV files or plans", 1, 1000);
     case_verbs(*cases);
     case_tuning(*cases);
+    case_logs(*cases);
     auto* near =
         command(*cases, "nearest", "the nearest cases, and the precedent they make", Command::kCasesNearest);
     near->add_option("base", raw_.of[kCases], "case base")->required();

@@ -39,6 +39,9 @@ enum class Command : std::uint8_t {
   kCasesMetric,
   kCasesNearest,
   kCasesTune,
+  kCasesImport,
+  kCasesTrace,
+  kCasesReport,
 };
 
 /// The question of `cases nearest`.
@@ -54,6 +57,17 @@ struct CaseQuestion {
 /// What `cases judge` and `cases remove` say of cases.
 struct CaseJudgement {
   std::string verdict, by, time_utc, reason;
+};
+
+/// What `cases import` knows of a log beside the log.
+struct LogImport {
+  std::string format, plan, program, inspection;  ///< a word; files
+  std::vector<std::string> parts;                 ///< numbers of the parts: one per file, or none
+  std::string machine;                            ///< serial number
+  std::string unit;                               ///< mm or inch, where a log does not say
+  std::vector<std::string> triggers;              ///< "lag_mm>0.05:0.2"
+  std::vector<std::string> columns;
+  double period_s = 0.001;
 };
 
 /// How tool libraries are read and written.
@@ -80,6 +94,7 @@ struct Options {
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
   CaseJudgement judgement;
   bool learn = false;  ///< cases metric
+  LogImport log;
 };
 
 /// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).

@@ -66,6 +66,12 @@ int dispatch(Session& s) {
       return run_cases_nearest(s);
     case Command::kCasesTune:
       return run_cases_tune(s);
+    case Command::kCasesImport:
+      return run_cases_import(s);
+    case Command::kCasesTrace:
+      return run_cases_trace(s);
+    case Command::kCasesReport:
+      return run_cases_report(s);
   }
   return kUsage;
 }
@@ -77,7 +83,9 @@ std::vector<std::string> read_by(const Options& o) {
   for (const auto& path : {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding}) {
     if (path) out.push_back(*path);
   }
-  if (!o.tools.column_map.empty()) out.push_back(o.tools.column_map);
+  for (const std::string& path : {o.tools.column_map, o.log.plan, o.log.program, o.log.inspection}) {
+    if (!path.empty()) out.push_back(path);
+  }
   return out;
 }
 

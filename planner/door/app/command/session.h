@@ -70,5 +70,8 @@ int run_cases_export(Session& s);
 int run_cases_metric(Session& s);
 int run_cases_nearest(Session& s);
 int run_cases_tune(Session& s);
+int run_cases_import(Session& s);
+int run_cases_trace(Session& s);
+int run_cases_report(Session& s);
 
 }  // namespace capstan::app

@@ -148,6 +148,7 @@ std::optional<engagement::Measurement> measured_thread(const model::Model& m, co
                                                        const model::CutterPath& path, const Means& means) {
   auto out = means.stocks.measure(step.setup, path, step.cutter);
   if (out) return *std::move(out);
+  if (out.error().code != "ENG-UNDERCUT") return measured(m, step, path, means.stocks, means.job);
   const ThreadBound bound = thread_bound(step.cutter, step.shapes.front());
   means.job.note("PIP-BOUND", "step '" + draft::name_of(m, step) +
                                   "': its cut under an overhang is not measured but bounded, by " +

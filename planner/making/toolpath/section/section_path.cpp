@@ -34,9 +34,10 @@ constexpr double kOwnAllowance = 0.3;
 constexpr double kOwnLevel = 0.25;
 constexpr double kTellRest = 0.01;  ///< mm
 
+constexpr double kCrumb = 0.02;  ///< mm, of a path's pieces; default, unsourced
+
 /// A place on the track, moved to the nearest end of a segment when it is almost there: no crumbs of arcs.
 Spot snapped(const Track& t, Spot s) {
-  constexpr double kCrumb = 0.02;  // mm
   const Vec2 from = s.segment == 0 ? t.start : t.segments[s.segment - 1].to;
   const double l = length_of(from, t.segments[s.segment]);
   if (s.t * l < kCrumb) {
@@ -316,7 +317,10 @@ class SectionCutter {
     }
     const int rounds = std::min(kMostWays, static_cast<int>(std::floor(fall / way_mm)));
     for (int i = 1; i <= rounds; ++i) writer_.follow_down(t, top - i * way_mm, descent, MoveRole::kRamp);
-    const Spot down = snapped(t, at_length(t, descent.length_for(t, fall - rounds * way_mm)));
+    const double needed = descent.length_for(t, fall - rounds * way_mm);
+    Spot down = snapped(t, at_length(t, needed));
+    // A crumb before an end may be left out, not a crumb of the way down.
+    if (length_to(t, down) < needed) down = snapped(t, at_length(t, std::min(length, needed + kCrumb)));
     const double rest = length_to(t, down);
     if (rest > 1e-6 && rest < length - 1e-6) {
       writer_.follow_down(part_of(t, 0.0, rest), z, descent, MoveRole::kRamp);

@@ -86,12 +86,14 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
     chosen_ramp(m, angle);
   }
   if (!is_arc(m.kind)) return;
-  // A helix turns round one centre; the corners of a ramp along a ring turn round several and leave no core
-  // by it.
-  if (norm(m.centre - helix_centre_) > kSameCentre) helix_turned_ = 0.0;
-  helix_centre_ = m.centre;
-  helix_turned_ += sweep_of(m);
+  // A helix turns round one centre, or near it by less than its core is wide; the corners of a ramp along a
+  // ring turn round several and leave no core by it.
   const double helix = norm(xy(m.to) - m.centre);
+  if (norm(m.centre - helix_centre_) > std::max(kSameCentre, helix - radius_)) {
+    helix_turned_ = 0.0;
+    helix_centre_ = m.centre;
+  }
+  helix_turned_ += sweep_of(m);
   if (helix_turned_ > 2.0 * std::numbers::pi - 1e-6 && helix > radius_ + 1e-6) {
     out_.error(14, "CHK-HELIX", at(m),
                "a helix of diameter " + mm(2.0 * helix) + " leaves a core; the cutter's diameter is " +

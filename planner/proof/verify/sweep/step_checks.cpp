@@ -24,6 +24,15 @@ constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
 
 std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
 
+/// Whether a shank goes into the hole behind the flutes without touching it. A reamer cuts with its lead:
+/// once that is through, what it goes further cuts nothing, and the flutes need not stand out of the hole's
+/// mouth.
+bool follows_its_lead(const model::Cutter& c) {
+  constexpr double kThinnerMm = 0.1;  // on the diameter; default, unsourced
+  return c.cutter_class == CutterClass::kReamer && c.shank_diameter_mm > 0.0 &&
+         c.shank_diameter_mm + kThinnerMm <= c.cutting_diameter_mm;
+}
+
 bool is_mill(const model::Cutter& c) { return !works_along_axis(c) && !mills_threads(c.cutter_class); }
 /// How far the head, its tip at p, is in the walls of the feature's upright holes, mm; 0 where there are
 /// none. A back countersink's cone ends at its neck, at the head's top.
@@ -208,7 +217,8 @@ void StepChecks::feed(const Move& m) {
                   {.allowed_mm = judge_gouge_ ? allowed : 1e300,
                    .judge = &target_,
                    .advance_mm = !feed_limit_.per_revolution && fz > thickest_chip() ? fz : 0.0,
-                   .contact = flutes > 0.0 && grid_.top() - low > flutes + kSlackMm});
+                   .contact = flutes > 0.0 && grid_.top() - low > flutes + kSlackMm,
+                   .above_underside = follows_its_lead(cutter_)});
   if (before_ != nullptr) of_a_ring(bite, flutes);
   cut_mm3_ += bite.volume_mm3;
   chips(m, bite, fz);

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
@@ -7,24 +5,6 @@
 namespace capstan::app {
 
 using casebase::Case;
-
-namespace {
-
-/// Whether a case holds all words of a filter: each is its origin, its verdict, or a part of a category, of
-/// its source, part, workingstep or tool.
-bool wanted(const Case& c, const std::vector<std::string>& words) {
-  return std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-    if (word == to_text(c.origin) || word == to_text(c.observed.verdict)) return true;
-    for (const std::string* text :
-         {&c.asked.operation, &c.asked.material_group, &c.asked.tool_class, &c.asked.machine_class,
-          &c.from.source, &c.from.part, &c.from.workingstep, &c.from.tool_instance}) {
-      if (text->find(word) != std::string::npos) return true;
-    }
-    return false;
-  });
-}
-
-}  // namespace
 
 int run_cases_list(Session& s) {
   const auto base = casebase::CaseBase::open(*s.options.inputs.cases, s.job);

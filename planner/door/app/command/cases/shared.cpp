@@ -1,5 +1,7 @@
 #include "planner/door/app/command/cases/shared.h"
 
+#include <algorithm>
+
 #include "casebase/record/fields.h"
 #include "planner/ground/base/number.h"
 
@@ -11,6 +13,27 @@ void report_faults(Session& s, const casebase::CaseBase& base) {
   for (Diagnostic& d : base.take_faults()) s.job.report(std::move(d));
 }
 
+std::string json_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;  // a case holds no control character
+  }
+  return out + '"';
+}
+
+bool wanted(const casebase::Case& c, const std::vector<std::string>& words) {
+  return std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+    if (word == to_text(c.origin) || word == to_text(c.observed.verdict)) return true;
+    for (const std::string* text :
+         {&c.asked.operation, &c.asked.material_group, &c.asked.tool_class, &c.asked.machine_class,
+          &c.from.source, &c.from.part, &c.from.workingstep, &c.from.tool_instance}) {
+      if (text->find(word) != std::string::npos) return true;
+    }
+    return false;
+  });
+}
+
 std::string number_text(double v) { return v != 0.0 ? trimmed(v, 4) : std::string("-"); }
 
 std::string figure_text(const std::optional<casebase::Figure>& f) {
@@ -20,24 +43,15 @@ std::string figure_text(const std::optional<casebase::Figure>& f) {
 
 namespace {
 
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;  // a case holds no control character
-  }
-  return out + '"';
-}
-
 std::string json_of(const Field& f, const casebase::Case& c) {
   using casebase::value;
-  if (const auto* t = std::get_if<casebase::TextAt>(&f.at)) return quoted(value(*t, c));
+  if (const auto* t = std::get_if<casebase::TextAt>(&f.at)) return json_text(value(*t, c));
   if (const auto* n = std::get_if<casebase::NumberAt>(&f.at)) return shortest(value(*n, c));
   if (const auto* i = std::get_if<casebase::CountAt>(&f.at)) return std::to_string(value(*i, c));
-  if (const auto* w = std::get_if<casebase::WordAt>(&f.at)) return quoted(w->get(c));
+  if (const auto* w = std::get_if<casebase::WordAt>(&f.at)) return json_text(w->get(c));
   if (const auto* s = std::get_if<casebase::SeriesAt>(&f.at)) {
     const casebase::Series& series = value(*s, c);
-    std::string out = "{\"origin\": " + quoted(to_text(series.origin)) + ", \"samples\": [";
+    std::string out = "{\"origin\": " + json_text(to_text(series.origin)) + ", \"samples\": [";
     for (const casebase::Sample& sample : series.samples) {
       out += (&sample == series.samples.data() ? "[" : ", [") + shortest(sample.t_s) + ", " +
              shortest(sample.value) + ']';
@@ -46,15 +60,15 @@ std::string json_of(const Field& f, const casebase::Case& c) {
   }
   const casebase::Figure& figure = *value(std::get<casebase::FigureAt>(f.at), c);
   return "{\"value\": " + shortest(figure.value) + ", \"std_dev\": " + shortest(figure.std_dev) +
-         ", \"origin\": " + quoted(to_text(figure.origin)) + '}';
+         ", \"origin\": " + json_text(to_text(figure.origin)) + '}';
 }
 
 }  // namespace
 
 std::string case_json(const casebase::Case& c) {
-  std::string out = "{\"id\": " + quoted(c.id);
+  std::string out = "{\"id\": " + json_text(c.id);
   for (const Field& f : casebase::fields()) {
-    if (!is_default(f, c)) out += ", " + quoted(f.name) + ": " + json_of(f, c);
+    if (!is_default(f, c)) out += ", " + json_text(f.name) + ": " + json_of(f, c);
   }
   return out + '}';
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "casebase/casebase.h"
+#include "casebase/retain/join/join.h"
 #include "planner/door/app/command/session.h"
 
 /// What the verbs of `capstan cases` have in common.
@@ -11,10 +14,24 @@ namespace capstan::app {
 
 /// Reports what was found altered or gone in a base.
 void report_faults(Session& s, const casebase::CaseBase& base);
+/// Whether a case holds all words of a filter: each is its origin, its verdict, or a part of a category, of
+/// its source, part, workingstep or tool.
+[[nodiscard]] bool wanted(const casebase::Case& c, const std::vector<std::string>& words);
+/// The steps of a plan's file, or of a sheet (`casebase::retain::read_sheet`); the plan, where it is one.
+struct PlannedSteps {
+  std::optional<model::Plan> plan;
+  std::vector<casebase::retain::Step> steps;
+};
+[[nodiscard]] Result<PlannedSteps> read_steps(const std::string& path, Job& job);
+/// The markers of a plan's program. Fails LOG-PROGRAM.
+[[nodiscard]] Result<casebase::retain::ProgramMarks> read_marks(const std::string& path,
+                                                                const PlannedSteps& planned);
 /// A number of a table; "-" for one that is not known.
 [[nodiscard]] std::string number_text(double v);
 /// The same for an observed figure, with its standard deviation where it is known.
 [[nodiscard]] std::string figure_text(const std::optional<casebase::Figure>& f);
+/// A text of a case as JSON has it.
+[[nodiscard]] std::string json_text(std::string_view text);
 /// A case as one JSON object, fields that are known alone, with the names of the table of fields.
 [[nodiscard]] std::string case_json(const casebase::Case& c);
 /// Cases as a JSON array, one a line.

@@ -47,7 +47,8 @@ struct Knife {
       bite.volume_mm3 += (s - std::max(z, floor)) * grid.cell() * grid.cell();
       const double taken = s - std::max(z, floor);
       if (from_axis <= rim) {
-        if (asks.contact) bite.contact_mm = std::max(bite.contact_mm, s - tip_z);
+        const double from_z = asks.above_underside ? std::max(tip_z, floor) : tip_z;
+        if (asks.contact) bite.contact_mm = std::max(bite.contact_mm, s - from_z);
         bite.thickest_mm = std::max(bite.thickest_mm, taken);
       }
       if (from_axis <= core) bite.core_mm = std::max(bite.core_mm, taken);

@@ -106,6 +106,8 @@ struct CutAsks {
   /// overhang, which heights do not hold: it stays.
   double head_mm = 0.0;
   bool contact = true;  ///< `Bite::contact_mm`
+  /// Contact ends at the stock's underside: what the cutter has below it cuts nothing.
+  bool above_underside = false;
 };
 
 /// Cuts with the move and says what it took. Exact at cell centres for lines and arcs, level or not; an arc

@@ -269,9 +269,10 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
       before.insert(before.end(), row + w.x0, row + w.x1);
     }
     std::vector<Findings::Said> said;
-    findings.record(&said);
-    out = anew();
-    findings.record(nullptr);
+    {
+      const Findings::Recording recording(findings, said);
+      out = anew();
+    }
     Known made{{}, {}, {}, out.cuts, out.speed_share};
     lowered(setup.grid, w, before, made);
     auto placed = by_place(std::move(said), step);

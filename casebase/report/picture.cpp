@@ -1,0 +1,109 @@
+#include "casebase/report/picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "casebase/report/svg.h"
+
+namespace capstan::casebase::report {
+namespace {
+
+constexpr double kWidth = 900.0, kLeft = 260.0, kRight = 870.0, kRow = 20.0, kHead = 46.0, kGap = 44.0;
+constexpr std::size_t kLongestName = 36;
+
+struct Axis {
+  double low = 0.5, high = 2.0;  // ratios at its ends
+  [[nodiscard]] double x(double ratio) const {
+    return kLeft + (kRight - kLeft) * std::log(ratio / low) / std::log(high / low);
+  }
+};
+
+// A panel has room for all ratios, at least from a half to two.
+Axis axis_of(const Quantity& q, const std::vector<const Group*>& rows) {
+  Axis out;
+  for (const Group* g : rows) {
+    for (const Case* c : g->cases) {
+      const double r = ratio_of(q, *c);
+      if (!(r > 0.0)) continue;
+      out.low = std::min(out.low, r / 1.1);
+      out.high = std::max(out.high, r * 1.1);
+    }
+  }
+  return out;
+}
+
+std::string line(double x1, double y1, double x2, double y2, std::string_view style) {
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2,
+                     style);
+}
+
+std::string grid(const Axis& axis, double top, double bottom) {
+  std::string out;
+  for (const double tick : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
+    if (tick < axis.low || tick > axis.high) continue;
+    const double x = axis.x(tick);
+    out += line(x, top, x, bottom, tick == 1.0 ? "stroke=\"#c00\"" : "stroke=\"#ddd\"");
+    out += svg_words(x, bottom + 15.0, fmt::format("{:g}", tick), "text-anchor=\"middle\" font-size=\"11\"");
+  }
+  return out;
+}
+
+std::string row_of(const Quantity& q, const Group& g, const Axis& axis, double y) {
+  std::string out =
+      svg_words(kLeft - 8.0, y + 4.0,
+                g.name.size() > kLongestName ? g.name.substr(0, kLongestName - 3) + "..." : g.name,
+                "text-anchor=\"end\"");
+  double sum = 0.0;
+  int n = 0;
+  for (const bool bad : {false, true}) {  // bad ones last: they cover the others
+    for (const Case* c : g.cases) {
+      const double r = ratio_of(q, *c);
+      if (!(r > 0.0) || bad != (c->observed.verdict == Verdict::kBad)) continue;
+      out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\" fill-opacity=\"{}\"/>\n",
+                         axis.x(r), y, bad ? "#d55e00" : "#0072b2", bad ? "0.9" : "0.5");
+      sum += std::log(r);
+      ++n;
+    }
+  }
+  const double x = axis.x(std::exp(sum / n));
+  return out + line(x, y - 8.0, x, y + 8.0, "stroke=\"#000\" stroke-width=\"2\"");
+}
+
+bool knows(const Quantity& q, const Group& g) {
+  return std::any_of(g.cases.begin(), g.cases.end(), [&](const Case* c) { return ratio_of(q, *c) > 0.0; });
+}
+
+}  // namespace
+
+std::string picture_of(const std::string& title, std::span<const Group> groups) {
+  std::string panels;
+  double y = kHead;
+  for (const Quantity& q : quantities()) {
+    std::vector<const Group*> rows;
+    for (const Group& g : groups) {
+      if (knows(q, g)) rows.push_back(&g);
+    }
+    if (rows.empty()) continue;
+    const Axis axis = axis_of(q, rows);
+    panels +=
+        svg_words(kLeft, y + 8.0, std::string(q.name) + ": observed over predicted", "font-weight=\"bold\"");
+    const double top = y + 16.0, bottom = top + kRow * static_cast<double>(rows.size());
+    panels += grid(axis, top, bottom);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      panels += row_of(q, *rows[i], axis, top + kRow * (static_cast<double>(i) + 0.5));
+    y = bottom + kGap;
+  }
+  if (panels.empty()) panels = svg_words(20.0, y + 8.0, "no case was both predicted and observed");
+  std::string out = svg_head(kWidth, y + 20.0);
+  out += svg_words(20.0, 24.0, title, "font-size=\"14\" font-weight=\"bold\"");
+  out += panels;
+  out +=
+      svg_words(20.0, y, "a point: a case (orange: a bad one); black: the geometric mean; red: as predicted",
+                "font-size=\"11\"");
+  return out + "</svg>\n";
+}
+
+}  // namespace capstan::casebase::report

@@ -1,0 +1,242 @@
+#include "casebase/retain/inspection.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "casebase/retain/cells.h"
+#include "casebase/retain/lines.h"
+#include "planner/ground/base/no_number.h"
+#include "planner/ground/base/number.h"
+#include "planner/ground/base/tables/separated.h"
+
+namespace capstan::casebase::retain {
+namespace {
+
+constexpr double kInch = 25.4;
+constexpr double kLengthMax = 1e5, kTimeMax = 1e7,
+                 kPathMax = 1e9;  // against wrong units; defaults, unsourced
+
+// A column by any of its names, with the units that a name may end in.
+struct Suffix {
+  std::string_view text;
+  double factor;
+};
+constexpr std::array kLengths = {Suffix{"_mm", 1.0}, Suffix{"_in", kInch}};
+constexpr std::array kFeeds = {Suffix{"_ipm", kInch}, Suffix{"_in_min", kInch}, Suffix{"_mm_min", 1.0},
+                               Suffix{"_mm_s", 60.0}};
+
+struct Found {
+  std::size_t at = 0;
+  double factor = 0.0;  // 0: the name says no unit
+};
+
+std::string lower(std::string_view text) {
+  std::string out(without_blanks(text));
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return out;
+}
+
+std::optional<Found> find(const std::vector<std::string>& head, std::span<const std::string_view> names,
+                          std::span<const Suffix> suffixes) {
+  for (std::size_t i = 0; i < head.size(); ++i) {
+    const std::string cell = lower(head[i]);
+    for (const std::string_view name : names) {
+      if (cell == name) return Found{i, 0.0};
+      for (const Suffix& s : suffixes) {
+        if (cell == std::string(name) + std::string(s.text)) return Found{i, s.factor};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+using Names = std::span<const std::string_view>;
+constexpr std::array<std::string_view, 4> kPart = {"part", "part_index", "part_number", "serial"};
+
+Diagnostic no_column(const std::string& file, std::uint64_t line, const std::string& expected) {
+  return {.code = "LOG-COLUMNS",
+          .message = "a column is missing",
+          .file = file,
+          .line = line,
+          .expected = expected,
+          .hint = "the first row names the columns"};
+}
+
+// Reads rows by a function that says what is wrong with one.
+template <class Row>
+Result<std::vector<Row>> rows_of(
+    const std::vector<SeparatedRow>& rows, const std::string& file, const std::string& expected, Job& job,
+    const std::function<std::optional<std::string>(const std::vector<std::string>&, Row&)>& read) {
+  std::vector<Row> out;
+  LostLines lost;
+  const std::size_t width = rows.front().cells.size();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    Row row;
+    row.line = rows[i].line;
+    std::optional<std::string> wrong;
+    if (rows[i].cells.size() != width) {
+      wrong = counted(rows[i].cells.size(), "cell", "cells") + " instead of " + std::to_string(width);
+    } else {
+      wrong = read(rows[i].cells, row);
+    }
+    if (wrong) {
+      lost.lose(rows[i].line, *std::move(wrong));
+    } else {
+      out.push_back(std::move(row));
+    }
+  }
+  if (auto ok = lost.end(file, rows.size() - 1, expected, job); !ok) return tl::unexpected(ok.error());
+  if (out.empty()) {
+    return fail(Diagnostic{
+        .code = "LOG-EMPTY", .message = "there is no row in it", .file = file, .expected = expected});
+  }
+  return out;
+}
+
+// A number within limits; nothing when the cell is empty. `wrong` is set when it is no number.
+std::optional<double> number(const std::vector<std::string>& cells, const std::optional<Found>& column,
+                             double factor, double most, std::optional<std::string>& wrong) {
+  if (!column) return std::nullopt;
+  const std::string_view cell = without_blanks(cells[column->at]);
+  if (cell.empty()) return std::nullopt;
+  const auto v = parse_double(cell);
+  if (!v) {
+    wrong = no_number(std::string(cell.substr(0, 40)));
+    return std::nullopt;
+  }
+  const double value = *v * (column->factor > 0.0 ? column->factor : factor);
+  if (std::abs(value) > most) {
+    wrong = shortest(*v) + " is out of range";
+    return std::nullopt;
+  }
+  return value;
+}
+
+Result<std::vector<SeparatedRow>> table_of(std::string_view text, const std::string& file,
+                                           const std::string& expected) {
+  const char separator = separator_of(text);
+  auto rows = separated_rows(text, separator == '\0' ? ',' : separator, file, "LOG-TEXT", StrayQuotes::kKept);
+  if (rows && rows->empty()) {
+    return fail(Diagnostic{
+        .code = "LOG-EMPTY", .message = "there is nothing in it", .file = file, .expected = expected});
+  }
+  return rows;
+}
+
+}  // namespace
+
+Result<std::vector<Inspected>> read_inspection(std::string_view text, const std::string& file, double unit_mm,
+                                               Job& job) {
+  constexpr std::array<std::string_view, 3> kCharacteristic = {"designator", "characteristic", "feature"};
+  constexpr std::array<std::string_view, 1> kType = {"type"}, kNominal = {"nominal"}, kUnit = {"unit"};
+  constexpr std::array<std::string_view, 3> kUpper = {"tol_plus", "upper", "upper_tolerance"},
+                                            kLower = {"tol_minus", "lower", "lower_tolerance"},
+                                            kValue = {"value", "actual", "measured"};
+  const std::string expected = "columns part, characteristic and value; nominal, tol_plus, tol_minus, unit";
+  const auto rows = table_of(text, file, expected);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto& head = rows->front().cells;
+  const auto part = find(head, kPart, {}), name = find(head, kCharacteristic, {}),
+             value = find(head, kValue, kLengths), type = find(head, kType, {}),
+             nominal = find(head, kNominal, kLengths), upper = find(head, kUpper, kLengths),
+             low = find(head, kLower, kLengths), unit = find(head, kUnit, {});
+  if (!part || !name || !value) return fail(no_column(file, rows->front().line, expected));
+  return rows_of<Inspected>(
+      *rows, file, expected, job,
+      [&](const std::vector<std::string>& cells, Inspected& row) -> std::optional<std::string> {
+        row.part = without_blanks(cells[part->at]);
+        row.characteristic = without_blanks(cells[name->at]);
+        if (type) row.type = without_blanks(cells[type->at]);
+        if (row.part.empty() || row.characteristic.empty()) return "part or characteristic is empty";
+        double factor = unit_mm;
+        if (unit) {
+          const std::string word = lower(cells[unit->at]);
+          if (word == "mm") {
+            factor = 1.0;
+          } else if (word == "in" || word == "inch") {
+            factor = kInch;
+          } else if (!word.empty()) {
+            return "the unit '" + word.substr(0, 20) + "' is neither mm nor in";
+          }
+        }
+        std::optional<std::string> wrong;
+        const auto v = number(cells, value, factor, kLengthMax, wrong);
+        const auto n = number(cells, nominal, factor, kLengthMax, wrong);
+        const auto u = number(cells, upper, factor, kLengthMax, wrong);
+        const auto l = number(cells, low, factor, kLengthMax, wrong);
+        if (wrong) return wrong;
+        if (!v) return "there is no value";
+        row.value_mm = *v;
+        row.has_nominal = n.has_value();
+        row.nominal_mm = n.value_or(0.0);
+        row.toleranced = u && l;
+        row.upper_mm = u.value_or(0.0);
+        row.lower_mm = l.value_or(0.0);
+        if (row.toleranced && row.lower_mm > row.upper_mm) return "the lower limit is above the upper one";
+        return std::nullopt;
+      });
+}
+
+Result<std::vector<Timed>> read_times(std::string_view text, const std::string& file, Job& job) {
+  constexpr std::array<std::string_view, 3> kTool = {"tool", "tool_number", "t"};
+  constexpr std::array<std::string_view, 1> kStep = {"workingstep"};
+  constexpr std::array<std::string_view, 2> kActive = {"executed_active_s", "active_s"},
+                                            kMoving = {"executed_feeding_s", "moving_s"},
+                                            kSpeed = {"spindle_rpm", "rpm"}, kFeed = {"main_feed", "feed"},
+                                            kPath = {"feed_length", "path"},
+                                            kBlocks = {"feed_blocks", "blocks"};
+  const std::string expected = "columns part, tool or workingstep, executed_active_s or executed_feeding_s";
+  const auto rows = table_of(text, file, expected);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto& head = rows->front().cells;
+  const auto part = find(head, kPart, {}), tool = find(head, kTool, {}), step = find(head, kStep, {}),
+             active = find(head, kActive, {}), moving = find(head, kMoving, {}),
+             speed = find(head, kSpeed, {}), feed = find(head, kFeed, kFeeds),
+             path = find(head, kPath, kLengths), blocks = find(head, kBlocks, {});
+  if (!part || (!tool && !step) || (!active && !moving)) {
+    return fail(no_column(file, rows->front().line, expected));
+  }
+  for (const auto* column : {&feed, &path}) {
+    if (*column && (*column)->factor <= 0.0) {
+      return fail(Diagnostic{.code = "LOG-COLUMNS",
+                             .message = "the unit of '" + head[(*column)->at].substr(0, 40) + "' is not said",
+                             .file = file,
+                             .line = rows->front().line,
+                             .expected = "a name that ends in _mm, _in, _mm_min or _ipm"});
+    }
+  }
+  return rows_of<Timed>(*rows, file, expected, job,
+                        [&](const std::vector<std::string>& cells, Timed& row) -> std::optional<std::string> {
+                          row.part = without_blanks(cells[part->at]);
+                          if (row.part.empty()) return "the part is empty";
+                          if (step) row.workingstep = without_blanks(cells[step->at]);
+                          std::optional<std::string> wrong;
+                          const double number_of_tool = number(cells, tool, 1.0, 1e6, wrong).value_or(0.0);
+                          const double count = number(cells, blocks, 1.0, 1e9, wrong).value_or(0.0);
+                          row.spindle_rpm = number(cells, speed, 1.0, 1e6, wrong).value_or(0.0);
+                          row.feed_mm_min = number(cells, feed, 1.0, 1e6, wrong).value_or(0.0);
+                          row.path_mm = number(cells, path, 1.0, kPathMax, wrong).value_or(0.0);
+                          const auto all = number(cells, active, 1.0, kTimeMax, wrong);
+                          const auto moved = number(cells, moving, 1.0, kTimeMax, wrong);
+                          if (wrong) return wrong;
+                          if (!all && !moved) return "there is no time";
+                          row.tool = static_cast<int>(number_of_tool);
+                          row.blocks = static_cast<int>(count);
+                          row.active_s = all.value_or(0.0);
+                          row.moving_s = moved.value_or(0.0);
+                          const bool negative = row.active_s < 0.0 || row.moving_s < 0.0 ||
+                                                row.path_mm < 0.0 || row.feed_mm_min < 0.0 ||
+                                                number_of_tool < 0.0 || count < 0.0;
+                          if (negative) return "a number is negative";
+                          if (all && moved && row.moving_s > row.active_s + 0.01)
+                            return "it moved for longer than it was active";
+                          return std::nullopt;
+                        });
+}
+
+}  // namespace capstan::casebase::retain

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "casebase/casebase.h"
+#include "casebase/retain/executed.h"
+#include "casebase/retain/inspection.h"
+#include "casebase/retain/join/steps.h"
+#include "casebase/retain/program_marks.h"
+
+/// What was executed and measured, joined with the plan that it was cut by: cases.
+namespace capstan::casebase::retain {
+
+/// Where a log is from, as the caller knows it. Empty: not known.
+struct LogFrom {
+  std::string part = {};     ///< number of the part
+  std::string machine = {};  ///< serial number of the machine
+  std::string file = {};
+  std::string inspection = {};  ///< file of what was measured, where there is one
+  bool dated = false;           ///< the log's times are seconds since 1970-01-01 UTC
+};
+
+/// `Executed::run` of times that were summed up over a part: of no run, and told of the right program.
+inline constexpr int kSummedUp = 0;
+
+/// Gives the markers of a program the ids that the plan has. Fails LOG-PROGRAM when the program has no
+/// markers, or those of another plan.
+[[nodiscard]] Status match(ProgramMarks& marks, const model::Plan& plan, const std::string& file);
+
+/// A case of each step that the log shows whole, with its observed figures: executed time (moving: waits for
+/// the operator are not the cut's), peak of the following error and of the spindle's load, the load over
+/// time. A step is found by its id, or where the log names none by a tool that one step uses alone. A step in
+/// which an event was kept (`Trigger`) is a bad case; the verdict of others is not known.
+///
+/// Where a step states no speed or feed, those that held longest are its own. Where it has a length of path
+/// and predicts no time, the length over that feed is what was predicted.
+///
+/// Told as notes (LOG-STEP) and left out: what belongs to no step, or to one of several; steps that are shown
+/// in part only (the log begins or ends within, or has gaps of more than 2 % of the time: default,
+/// unsourced); a run without a named step that shows fewer than half of the tools: it is one of another
+/// program, or was broken off.
+[[nodiscard]] std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Executed>& executed,
+                                         const ProgramMarks* marks, const LogFrom& from, Job& job);
+
+/// Adds what was measured of the part to the cases of one log: the row's characteristic is one of a step's,
+/// or the id of a workingstep, or of one and a remark ("HOLE1_WS.1/diameter"). Diameters, widths and lengths
+/// with a nominal give the deviation of size, positions that of place; of several values their mean, and
+/// their spread as standard deviation. A value beyond its limits makes a bad case, a measured one within them
+/// a good one, unless the log made it bad. Rows of other parts are passed over; others that find no case are
+/// told (LOG-STEP).
+void add_inspection(std::span<const Inspected> rows, std::span<const Step> steps, const LogFrom& from,
+                    std::vector<Case>& cases, Job& job);
+
+}  // namespace capstan::casebase::retain

@@ -1,0 +1,115 @@
+#include "casebase/report/summary.h"
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "casebase/report/picture.h"
+#include "planner/door/app/command/cases/shared.h"
+#include "planner/door/service/explain/values.h"
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
+
+// `capstan cases report`: tables of what was observed, and where prediction and observation part.
+
+namespace capstan::app {
+namespace {
+
+namespace report = casebase::report;
+using service::table;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string spread_text(const report::Spread& s, int decimals) {
+  if (s.count == 0) return "-";
+  return trimmed(s.mean, decimals) + (s.count > 1 ? " +- " + trimmed(s.std_dev, decimals) : std::string());
+}
+
+std::string tables_of(std::string_view by, const std::vector<report::Group>& groups) {
+  Rows rows = {
+      {"by " + std::string(by), "cases", "good", "bad", "time s", "lag mm", "load %", "size off mm"}};
+  for (const report::Group& g : groups) {
+    rows.push_back({g.name, std::to_string(g.cases.size()), std::to_string(g.good), std::to_string(g.bad),
+                    spread_text(g.time_s, 2), spread_text(g.lag_mm, 4), spread_text(g.load_percent, 1),
+                    spread_text(g.size_mm, 4)});
+  }
+  return table(rows, "") + "\n";
+}
+
+std::string partings_text(const std::vector<report::Group>& steps) {
+  Rows rows = {{"workingstep", "quantity", "cases", "observed/predicted", "spread", "so"}};
+  for (const report::Group& g : steps) {
+    for (const report::Parting& p : report::partings_of(g.cases)) {
+      rows.push_back({g.name, std::string(p.quantity->name), std::to_string(p.count), trimmed(p.ratio, 3),
+                      p.count > 1 ? "x/ " + trimmed(std::exp(p.ln_std_dev), 3) : std::string("-"),
+                      p.apart        ? "apart: " + std::string(p.quantity->model)
+                      : p.count == 1 ? std::string("one case tells nothing")
+                                     : std::string("as predicted, within chance")});
+    }
+  }
+  return rows.size() == 1 ? std::string("no case was both predicted and observed\n") : table(rows, "");
+}
+
+std::string json_number(const report::Spread& s) {
+  return "{\"count\": " + std::to_string(s.count) + ", \"mean\": " + shortest(s.mean) +
+         ", \"std_dev\": " + shortest(s.std_dev) + ", \"low\": " + shortest(s.low) +
+         ", \"high\": " + shortest(s.high) + "}";
+}
+
+std::string groups_json(const std::vector<report::Group>& groups) {
+  std::string out = "[";
+  for (const report::Group& g : groups) {
+    out += std::string(&g == groups.data() ? "\n" : ",\n") + "{\"name\": " + json_text(g.name) +
+           ", \"cases\": " + std::to_string(g.cases.size()) + ", \"good\": " + std::to_string(g.good) +
+           ", \"bad\": " + std::to_string(g.bad) + ", \"time_s\": " + json_number(g.time_s) +
+           ", \"lag_mm\": " + json_number(g.lag_mm) + ", \"load_percent\": " + json_number(g.load_percent) +
+           ", \"size_deviation_mm\": " + json_number(g.size_mm) + ", \"partings\": [";
+    bool first = true;
+    for (const report::Parting& p : report::partings_of(g.cases)) {
+      out += std::string(std::exchange(first, false) ? "" : ", ") +
+             "{\"quantity\": " + json_text(p.quantity->name) +
+             ", \"model\": " + json_text(p.quantity->model) + ", \"count\": " + std::to_string(p.count) +
+             ", \"ratio\": " + shortest(p.ratio) + ", \"ln_std_dev\": " + shortest(p.ln_std_dev) +
+             ", \"apart\": " + (p.apart ? "true" : "false") + "}";
+    }
+    out += "]}";
+  }
+  return out + "]";
+}
+
+}  // namespace
+
+int run_cases_report(Session& s) {
+  const auto base = casebase::CaseBase::open(*s.options.inputs.cases, s.job);
+  if (!base) return s.end(base.error(), kUnreadable);
+  std::vector<casebase::Case> cases = base->cases();
+  report_faults(s, *base);
+  // What a planner computed was not observed.
+  std::erase_if(cases, [&](const casebase::Case& c) {
+    return c.origin == casebase::Origin::kSimulated || !wanted(c, s.options.words);
+  });
+  const auto steps = report::grouped(cases, report::By::kWorkingstep);
+  const auto tools = report::grouped(cases, report::By::kTool);
+  const auto features = report::grouped(cases, report::By::kFeature);
+  for (const std::string& file : s.options.outputs) {
+    const std::string title =
+        "What was observed over what was predicted: " + counted(cases.size(), "case", "cases") + " of " +
+        *s.options.inputs.cases;
+    if (auto drawn = write_file(file, report::picture_of(title, steps)); !drawn)
+      return s.end(drawn.error(), kImpossible);
+  }
+  s.summary = counted(cases.size(), "observed case", "observed cases") + " of " +
+              counted(base->size(), "case", "cases");
+  if (s.options.json) {
+    return print("{\"workingsteps\": " + groups_json(steps) + ",\n\"tools\": " + groups_json(tools) +
+                 ",\n\"features\": " + groups_json(features) + "}\n")
+               ? kDone
+               : kImpossible;
+  }
+  if (cases.empty()) return print("no observed case\n") ? kDone : kImpossible;
+  return print(tables_of("workingstep", steps) + tables_of("tool", tools) + tables_of("feature", features) +
+               partings_text(steps))
+             ? kDone
+             : kImpossible;
+}
+
+}  // namespace capstan::app

@@ -1,0 +1,151 @@
+#include "casebase/retain/join/import.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/casebase/sample.h"
+
+namespace capstan::casebase::retain {
+namespace {
+
+// Two tools; tool 2 mills a bore of which a characteristic is measured.
+std::vector<Step> two_steps() {
+  std::vector<Step> out;
+  for (const int tool : {1, 2}) {
+    Case planned = sample();
+    planned.observed = {};
+    planned.asked.teeth = 2;
+    planned.bound = {};
+    planned.bound.path_length_mm = 100.0;
+    planned.from.workingstep = tool == 1 ? "DRILL" : "BORE";
+    out.push_back(
+        {.id = planned.from.workingstep,
+         .tool = tool,
+         .planned = planned,
+         .characteristics = tool == 2 ? std::vector<std::string>{"DIAMETER5"} : std::vector<std::string>{},
+         .parts = {}});
+  }
+  return out;
+}
+
+const std::string kLog =
+    "time_s,tool,feed_mm_min,spindle_rpm,lag_mm\n"
+    "0,1,600,3000,0.01\n8,1,600,3000,0.02\n10,2,0,3000,0\n12,2,300,3000,0.06\n18,2,300,3000,0.01\n25,2,300,"
+    "3000,0.01\n"
+    "32,2,0,3000,0\n";
+
+Result<std::vector<Case>> import(const std::string& text, LogFormat format, const ImportOptions& options,
+                                 Job& job, const std::string& part = "7") {
+  std::istringstream in(text);
+  const auto steps = two_steps();
+  return import_log(in, format, steps, {.part = part, .machine = "M1", .file = "log"}, options, job);
+}
+
+TEST(Import, TimeSpeedAndFeedOfAStepAreThoseOfTheLog) {
+  Job job;
+  const auto cases = import(kLog, LogFormat::kCsv, {}, job);
+  ASSERT_TRUE(cases) << to_text(cases.error());
+  ASSERT_EQ(cases->size(), 2U);
+  const Case& drill = cases->front();
+  EXPECT_EQ(drill.from.workingstep, "DRILL");
+  EXPECT_EQ(drill.from.part, "7");
+  EXPECT_EQ(drill.from.machine, "M1");
+  EXPECT_EQ(drill.origin, Origin::kMeasured);
+  EXPECT_DOUBLE_EQ(drill.observed.time_s->value, 10.0);
+  EXPECT_NEAR(drill.bound.fz_mm, 0.1, 1e-9);                     // 600 / 3000 / 2
+  EXPECT_NEAR(drill.predicted.time_s, 10.0, 1e-9);               // 100 mm at 600 mm/min
+  EXPECT_NEAR(drill.bound.vc_m_min, 94.2478, 1e-3);              // 10 mm at 3000 1/min
+  EXPECT_DOUBLE_EQ(cases->back().observed.time_s->value, 20.0);  // not the two seconds of standing still
+  EXPECT_EQ(cases->back().observed.verdict, Verdict::kUnknown);
+}
+
+TEST(Import, StepInWhichALimitIsExceededIsABadCase) {
+  Job job;
+  const auto cases = import(kLog, LogFormat::kCsv, {.triggers = {*trigger_of("lag_mm>0.05")}}, job);
+  ASSERT_TRUE(cases);
+  EXPECT_EQ(cases->front().observed.verdict, Verdict::kUnknown);
+  EXPECT_EQ(cases->back().observed.verdict, Verdict::kBad);
+  Job shorter;
+  const auto patient = import(kLog, LogFormat::kCsv, {.triggers = {*trigger_of("lag_mm>0.05:7")}}, shorter);
+  ASSERT_TRUE(patient);
+  EXPECT_EQ(patient->back().observed.verdict, Verdict::kUnknown);
+}
+
+TEST(Import, MeasuredSizesGoToTheStepOfTheirCharacteristicAndPart) {
+  Job job;
+  const auto row = [](const char* part, double value) {
+    return Inspected{.part = part,
+                     .characteristic = "DIAMETER5",
+                     .type = "Diameter",
+                     .has_nominal = true,
+                     .nominal_mm = 4.0,
+                     .upper_mm = 0.2,
+                     .lower_mm = -0.2,
+                     .value_mm = value,
+                     .toleranced = true};
+  };
+  const auto cases =
+      import(kLog, LogFormat::kCsv, {.inspection = {row("7", 4.1), row("7", 4.3), row("8", 9.0)}}, job);
+  ASSERT_TRUE(cases);
+  EXPECT_FALSE(cases->front().observed.size_deviation_mm);
+  ASSERT_TRUE(cases->back().observed.size_deviation_mm);
+  EXPECT_NEAR(cases->back().observed.size_deviation_mm->value, 0.2, 1e-12);
+  EXPECT_EQ(cases->back().observed.verdict, Verdict::kBad);
+}
+
+TEST(Import, TableOfTimesMakesCasesOfEachOfItsParts) {
+  Job job;
+  const std::string table =
+      "part,tool,spindle_rpm,feed_mm_min,executed_active_s,executed_feeding_s\n"
+      "1,1,3000,600,12,10\n1,2,3000,300,25,20\n2,1,3000,600,12,11\n2,2,3000,300,25,21\n";
+  const auto all = import(table, LogFormat::kTimes, {}, job, "");
+  ASSERT_TRUE(all) << to_text(all.error());
+  EXPECT_EQ(all->size(), 4U);
+  const auto one = import(table, LogFormat::kTimes, {}, job, "2");
+  ASSERT_TRUE(one);
+  ASSERT_EQ(one->size(), 2U);
+  EXPECT_DOUBLE_EQ(one->front().observed.time_s->value, 11.0);
+}
+
+TEST(Import, RunOfAnotherProgramWithAToolThatIsLeftMakesNoCase) {
+  Job job;
+  std::vector<Step> steps = two_steps();
+  steps.push_back(steps.front());
+  steps.back().tool = 3;
+  steps.back().id = steps.back().planned.from.workingstep = "ENGRAVE";
+  const std::string log =
+      "2017-02-01T10:00:00Z|execution|ACTIVE|tool|1|spindle_speed|3000|feed_rate|10\n"
+      "2017-02-01T10:00:05Z|tool|2\n2017-02-01T10:00:09Z|tool|3\n2017-02-01T10:00:12Z|execution|STOPPED\n"
+      "2017-02-04T10:00:00Z|execution|ACTIVE\n2017-02-04T10:00:30Z|execution|STOPPED\n";
+  std::istringstream in(log);
+  const auto cases = import_log(in, LogFormat::kTrace, steps, {.part = "1", .file = "log"}, {}, job);
+  ASSERT_TRUE(cases) << to_text(cases.error());
+  ASSERT_EQ(cases->size(), 3U);
+  EXPECT_DOUBLE_EQ(cases->back().observed.time_s->value, 3.0);
+  EXPECT_EQ(cases->back().from.time_utc, "2017-02-01T10:00:12Z");
+}
+
+TEST(Import, LogThatShowsNoStepIsRefused) {
+  Job job;
+  const auto none =
+      import("time_s,tool,feed_mm_min,spindle_rpm\n0,9,600,3000\n9,9,600,3000\n", LogFormat::kCsv, {}, job);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, "LOG-JOIN");
+  EXPECT_FALSE(job.diagnostics().empty());  // what was left out, and why
+}
+
+TEST(Import, TriggersAndFormatsAreReadFromText) {
+  const auto t = trigger_of("load_percent>90:0.5");
+  ASSERT_TRUE(t);
+  EXPECT_EQ(t->item, Item::kLoad);
+  EXPECT_DOUBLE_EQ(t->above, 90.0);
+  EXPECT_DOUBLE_EQ(t->for_s, 0.5);
+  for (const char* wrong : {"", "lag_mm", "lag_mm>", "colour>3", "lag_mm>x", "lag_mm>-1", "lag_mm>1:x"})
+    EXPECT_FALSE(trigger_of(wrong)) << wrong;
+  EXPECT_EQ(log_format_of("trace"), LogFormat::kTrace);
+  EXPECT_FALSE(log_format_of("qif"));
+}
+
+}  // namespace
+}  // namespace capstan::casebase::retain

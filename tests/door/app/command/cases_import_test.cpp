@@ -1,0 +1,112 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/door/app/command/command.h"
+#include "tests/support/corpus.h"
+
+// `capstan cases import`, `trace` and `report`, run as a user runs them.
+
+namespace capstan::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const char* const kSheet =
+    "tool,workingstep,characteristics,operation,material_group,tool_class,machine_class,cutter_diameter_mm,"
+    "teeth,path_length_mm\n"
+    "1,DRILL,,DRILLING,N/aluminium,carbide/twist_drill,mill,10,2,100\n"
+    "2,BORE,DIAMETER5,BORING,N/aluminium,carbide/endmill,mill,4,2,200\n";
+const char* const kLog =
+    "time_s,tool,feed_mm_min,spindle_rpm,lag_mm\n"
+    "0,1,600,3000,0.01\n10,2,0,3000,0\n12,2,300,3000,0.06\n22,2,300,3000,0.01\n32,2,0,3000,0\n";
+const char* const kMeasured =
+    "part,characteristic,type,nominal,tol_plus,tol_minus,value\n7,DIAMETER5,Diameter,4,0.2,-0.2,4.3\n";
+
+class CasesImport : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    put("sheet.csv", kSheet);
+    put("log.csv", kLog);
+    put("cmm.csv", kMeasured);
+  }
+  Ran import_all() const {
+    return run("cases import base.db csv log.csv --plan sheet.csv --part 7 --serial M1 --inspection cmm.csv");
+  }
+};
+
+TEST_F(CasesImport, MakesACaseOfEachStepOnce) {
+  const Ran first = import_all();
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.err, HasSubstr("1 log: 2 cases, 2 of them new; the base holds 2 cases"));
+  EXPECT_THAT(import_all().err, HasSubstr("0 of them new"));
+  EXPECT_THAT(run("cases list base.db bad").out, HasSubstr("BORING"));
+}
+
+TEST_F(CasesImport, TracesPartStepAndMeasuredValueTogether) {
+  ASSERT_EQ(import_all().code, 0);
+  const Ran traced = run("cases trace base.db sheet.csv -o trace.jsonl -o trace.csv -o trace.db");
+  ASSERT_EQ(traced.code, 0) << traced.err;
+  EXPECT_THAT(traced.out,
+              ::testing::ContainsRegex("7 +BORE +carbide/endmill D4 .* 20 .* 0\\.06 .* 0\\.3 .* bad"));
+  EXPECT_THAT(slurp(folder_ / "trace.jsonl"), HasSubstr("\"workingstep\": \"BORE\""));
+  EXPECT_THAT(slurp(folder_ / "trace.csv"), HasSubstr("BORE"));
+  EXPECT_EQ(run("cases list trace.db").out, run("cases list base.db").out);
+  EXPECT_THAT(run("cases trace base.db sheet.csv --part 8").out, HasSubstr("no case of this plan"));
+  EXPECT_THAT(run("cases trace base.db sheet.csv bad").out, Not(HasSubstr("DRILL ")));
+  EXPECT_EQ(run("cases trace base.db sheet.csv -o trace.txt").code, 2);
+}
+
+TEST_F(CasesImport, ReportsByStepToolAndFeatureWithAPicture) {
+  ASSERT_EQ(import_all().code, 0);
+  const Ran told = run("cases report base.db -o report.svg");
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("by workingstep"));
+  EXPECT_THAT(told.out, HasSubstr("carbide/endmill D4"));
+  EXPECT_THAT(told.out, HasSubstr("one case tells nothing"));
+  EXPECT_THAT(slurp(folder_ / "report.svg"), StartsWith("<svg"));
+  EXPECT_THAT(run("cases report base.db --json").out, HasSubstr("\"workingsteps\": ["));
+}
+
+TEST_F(CasesImport, JoinsALogWithAPlanByTheMarkersOfItsProgram) {
+  const Ran planned =
+      run("plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o plan.json -o plan.ngc");
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  // A machine that takes a tenth of a second per line of the program.
+  const std::string program = slurp(folder_ / "plan.ngc");
+  const long lines = std::count(program.begin(), program.end(), '\n');
+  std::string log = "time_s,line,feed_mm_min,spindle_rpm\n";
+  for (long i = 1; i <= lines; ++i)
+    log += std::to_string(0.1 * static_cast<double>(i)) + "," + std::to_string(i) + ",500,3000\n";
+  put("log.csv", log);
+  const Ran in = run("cases import base.db csv log.csv --plan plan.json --program plan.ngc --part 3");
+  ASSERT_EQ(in.code, 0) << in.err;
+  const Ran traced = run("cases trace base.db plan.json --program plan.ngc --part 3");
+  EXPECT_THAT(traced.out, HasSubstr("POCKET area_rough"));
+  EXPECT_THAT(traced.out, ::testing::ContainsRegex("POCKET area_rough.* [0-9]+-[0-9]+ "));
+}
+
+TEST_F(CasesImport, RefusesWhatItCannotUseAndKeepsNothing) {
+  const std::pair<const char*, int> wrong[] = {
+      {"cases import base.db qif log.csv --plan sheet.csv", 2},
+      {"cases import base.db csv log.csv --plan sheet.csv --part 1 --part 2", 2},
+      {"cases import base.db csv log.csv --plan sheet.csv --trigger colour", 2},
+      {"cases import base.db csv none.csv --plan sheet.csv", 3},
+      {"cases import base.db csv log.csv --plan log.csv", 3},
+      {"cases import base.db csv log.csv --plan sheet.csv --inspection log.csv", 3},
+      {"cases import base.db csv log.csv --plan sheet.csv --program sheet.csv", 3},
+      {"cases import base.db trace log.csv --plan sheet.csv", 3}};
+  for (const auto& [line, code] : wrong) {
+    const Ran ran = run(line);
+    EXPECT_EQ(ran.code, code) << line << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("error")) << line;
+  }
+  EXPECT_THAT(files(), Not(::testing::Contains("base.db")));
+}
+
+}  // namespace
+}  // namespace capstan::app
