@@ -211,7 +211,12 @@ std::string to_csv(std::span<const Case> cases) {
 
 Result<std::vector<Case>> from_csv(std::string_view text, const std::string& file) {
   const auto wrong = [&](std::uint64_t line, std::string message) {
-    return fail(Diagnostic{.code = "CASE-CSV", .message = std::move(message), .file = file, .line = line});
+    return fail(Diagnostic{.code = "CASE-CSV",
+                           .message = std::move(message),
+                           .file = file,
+                           .line = line,
+                           .expected = "a table as 'capstan cases export' writes it",
+                           .hint = "mend the line, or take it out"});
   };
   const auto rows = separated_rows(text, ',', file, "CASE-CSV", StrayQuotes::kRefused);
   if (!rows) return fail(rows.error());

@@ -25,15 +25,18 @@ namespace {
 // Lengths and sizes of what departs from the lines. Default, unsourced; learnt where there are enough cases.
 constexpr double kQuestionLength = 1.0, kSettingLength = 0.4, kWearLength = 1.0;
 constexpr double kLoadField = 0.05;
-constexpr double kTimeField = 0.02, kTimeNoise = 0.03, kTimeEdges = 0.01, kTimeSlope = 0.3;
+constexpr double kTimeField = 0.02, kTimeNoise = 0.03, kTimeEdges = 0.01;
+constexpr double kTimeSlope = 0.3;  // std dev of ln time, and of its exponents. Default, unsourced
 // A question at a distance of 1 (a size twice as large) has ln loads this different, its limits known.
+// Default, unsourced.
 constexpr double kQuestionSlope = 0.3;
-// Failures come in bands of speed (lobes), and more of them at a harder cut.
+// Failures come in bands of speed (lobes), and more of them at a harder cut. In ln vc, and in z of the normal
+// distribution. Default, unsourced.
 constexpr double kLobeLength = 0.15, kFailureField = 0.5;
 constexpr double kZ95 = 1.6449;  // of the normal distribution
-// A gentler setting that would fail as often as not mends nothing: another depth or tool is needed.
+// A gentler setting that would fail as often as not mends nothing: another depth or tool is needed (derived).
 constexpr double kWorthLowering = 0.5;
-constexpr double kFailureSlope = 1.0, kFailureSlopeSpread = 1.0;
+constexpr double kFailureSlope = 1.0, kFailureSlopeSpread = 1.0;  // of z by ln vc, ln fz. Default, unsourced
 
 std::vector<double> place(const std::vector<double>& question, const Setting& at, double worn) {
   std::vector<double> x = question;
@@ -178,6 +181,17 @@ class Gate {
   SettingView before_;
 };
 
+/// The handbook without the loads that need evidence and have none.
+Handbook told_by(const std::vector<Evidence>& evidence, Handbook handbook) {
+  for (std::size_t i = 0; i < kWatchedCount; ++i) {
+    LoadPrior& l = handbook.loads[i];
+    const bool told =
+        std::any_of(evidence.begin(), evidence.end(), [&](const Evidence& e) { return e.ln_load[i]; });
+    l.watched = l.watched && (told || !l.needs_evidence);
+  }
+  return handbook;
+}
+
 std::vector<Setting> settings_of(const std::vector<Evidence>& evidence) {
   std::vector<Setting> out;
   for (const Evidence& e : evidence) {
@@ -281,9 +295,10 @@ std::string binding_of(const Learnt& learnt, const Gate& gate, const Setting& at
 
 }  // namespace
 
-Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, const TuneOptions& options) {
-  Heard said = heard(evidence, handbook.machine, options.today);
+Advice advise(std::span<const Evidence> evidence, const Handbook& all, const TuneOptions& options) {
+  Heard said = heard(evidence, all.machine, options.today);
   keep_nearest(said.evidence, options.most_cases);
+  const Handbook handbook = told_by(said.evidence, all);
   Advice out{.heard = said.evidence.size(),
              .refused = std::move(said.refused),
              .days_in_future = said.days_in_future};
@@ -345,10 +360,11 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& handbook, cons
   return out;
 }
 
-std::vector<LinePoint> along(std::span<const Evidence> evidence, const Handbook& handbook,
+std::vector<LinePoint> along(std::span<const Evidence> evidence, const Handbook& all,
                              const TuneOptions& options, const Setting& through, bool of_feed) {
-  Heard said = heard(evidence, handbook.machine, options.today);
+  Heard said = heard(evidence, all.machine, options.today);
   keep_nearest(said.evidence, options.most_cases);
+  const Handbook handbook = told_by(said.evidence, all);
   const Learnt learnt(said.evidence, handbook, options);
   std::vector<LinePoint> out;
   const double low = std::log(0.6), high = std::log(1.7);  // of the plot

@@ -15,7 +15,8 @@ namespace capstan::casebase::tune {
 /// What the handbook and the planner's models hold of one load before anything was cut: ln(load / limit) at
 /// the handbook's setting with a sharp edge, and how it changes with ln vc, ln fz and wear (0 sharp, 1 worn).
 struct LoadPrior {
-  bool watched = false;  ///< there is such a limit
+  bool watched = false;         ///< there is such a limit
+  bool needs_evidence = false;  ///< what is expected is so little sure that it counts with a case of it alone
   PriorTerm ln_load, by_vc, by_fz, by_wear;
   double noise = 0.1;  ///< std dev of ln load from part to part on one edge
   double edges = 0.1;  ///< from edge to edge
@@ -38,7 +39,9 @@ struct Handbook {
   double most_vc = kMostMultiplier, most_fz = kMostMultiplier;  ///< at most that
 };
 
-/// How tuning learns. `kRegression`: lines only; `kProcess`: what departs from the lines, too.
+/// How tuning learns. `kRegression`: lines only; `kProcess`: what departs from the lines, too. The default is
+/// the second, though lines took less time in the shops of docs/validation.md, section 15: lines that are
+/// sure by many cases stay sure where a load bends away from them, and limits come before time.
 enum class Learner : unsigned char { kRegression, kProcess };
 
 struct TuneOptions {

@@ -16,22 +16,27 @@ namespace capstan::casebase::tune {
 namespace {
 
 // Kienzle's exponents of steels, cast irons and light metals lie between 0.1 and 0.35 (reference tables of
-// Mitsubishi and Roehm, docs/validation.md): half the width.
+// Mitsubishi and Roehm, docs/validation.md): about a quarter of that width, two std devs to either side.
 constexpr double kMcSpread = 0.06;
 // 1 / n of carbide: 2 to 5 (Kalpakjian & Schmid: n 0.2 to 0.5); of feed and depth about 1 and less.
 constexpr double kLifeBySpeedSpread = 1.0, kLifeByFeedSpread = 0.7, kLifeByDepthSpread = 0.7;
-constexpr double kLifeSpread = 0.5;   // ln T0 of a table. Default, unsourced
-constexpr double kLifeScatter = 0.3;  // as mechanics/life
-constexpr double kForceNoise = 0.08;  // std dev of ln kc between cuts of one edge. Default, unsourced
-constexpr double kForceEdges = 0.08;  // and between edges. Default, unsourced
-// Wear runs in fast and goes on slower: an exponent below 1. Default, unsourced.
-constexpr double kWearByTime = 0.7, kWearByTimeSpread = 0.3;
-constexpr double kWearNoise = 0.1;        // std dev of ln VB of a reading. Default, unsourced
-constexpr double kLeastReadingMm = 0.05;  // less is the scatter of the reading
-constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;  // edges or parts
-constexpr double kZ90 = 1.6449;                               // of the normal distribution, both sides
-constexpr double kBlock0S = 0.1, kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
+constexpr double kLifeSpread = 0.5;        // ln T0 of a table. Default, unsourced
+constexpr double kLifeScatter = 0.3;       // as mechanics/life
+constexpr double kForceNoise = 0.08;       // std dev of ln kc between cuts of one edge. Default, unsourced
+constexpr double kForceEdges = 0.08;       // and between edges. Default, unsourced
+constexpr double kWearByTimeSpread = 0.3;  // of kWearByTime. Default, unsourced
+constexpr double kWearNoise = 0.1;         // std dev of ln VB of a reading. Default, unsourced
+constexpr double kLeastReadingMm = 0.05;   // less is the scatter of the reading
+// Edges or parts that are left out in turn: fewer tell nothing, more take long. Default, unsourced.
+constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;
+constexpr double kZ90 = 1.6449;   // of the normal distribution, both sides
+constexpr double kBlock0S = 0.1;  // where the time's first term counts
+// Std devs of ln(observed / planned), of its slope by ln of the block's time, and of one part. Default,
+// unsourced.
+constexpr double kTimeSpread = 0.3, kTimeSlope = 0.3, kTimeNoise = 0.03;
+// Feed per turn, and stick-out over D, where the first term counts.
 constexpr double kFeed0Mm = 0.05, kStickOut0 = 4.0;
+// Std devs of each term, and of one part. Default, unsourced.
 constexpr double kBoreSpreadMm = 0.1, kBoreNoiseMm = 0.02;
 
 bool usable(std::initializer_list<double> values) {
@@ -95,19 +100,41 @@ std::optional<ForceCorrection> correct_force(std::span<const ForceSample> sample
   return out;
 }
 
-std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm) {
+namespace {
+
+/// ln VB = ln c + b ln t through the readings that can be used.
+struct WearCurve {
+  std::size_t readings = 0;
+  double most_mm = 0.0;
+  Regression fit;
+};
+WearCurve wear_curve(std::span<const WearReading> readings) {
   std::vector<Row> rows;
-  double most = 0.0;
+  WearCurve out;
   for (const WearReading& r : readings) {
     if (!usable({r.time_min, r.wear_mm}) || r.wear_mm < kLeastReadingMm) continue;
     rows.push_back({{1.0, std::log(r.time_min)}, std::log(r.wear_mm), 1.0, rows.size()});
-    most = std::max(most, r.wear_mm);
+    out.most_mm = std::max(out.most_mm, r.wear_mm);
   }
-  if (rows.size() < 2 || most < allowed_mm || !usable({allowed_mm})) return std::nullopt;
-  const Regression fit =
-      regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kWearNoise});
-  if (fit.coefficient[1] <= 0.0) return std::nullopt;
-  return std::exp((std::log(allowed_mm) - fit.coefficient[0]) / fit.coefficient[1]);
+  out.readings = rows.size();
+  if (!rows.empty())
+    out.fit = regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kWearNoise});
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm) {
+  const WearCurve c = wear_curve(readings);
+  if (c.readings < 2 || c.most_mm < allowed_mm || !usable({allowed_mm})) return std::nullopt;
+  if (c.fit.coefficient[1] <= 0.0) return std::nullopt;
+  return std::exp((std::log(allowed_mm) - c.fit.coefficient[0]) / c.fit.coefficient[1]);
+}
+
+std::optional<double> wear_after(std::span<const WearReading> readings, double time_min) {
+  const WearCurve c = wear_curve(readings);
+  if (c.readings == 0 || !usable({time_min})) return std::nullopt;
+  return std::exp(c.fit.coefficient[0] + c.fit.coefficient[1] * std::log(time_min));
 }
 
 std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,

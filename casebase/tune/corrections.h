@@ -63,6 +63,12 @@ struct WearReading {
 /// fewer than two can be used or none is as worn as that: no life is told beyond what was seen.
 [[nodiscard]] std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm);
 
+/// b of VB = c t^b where readings do not tell it: wear runs in fast and goes on slower. Default, unsourced.
+inline constexpr double kWearByTime = 0.7;
+/// Wear of the edge after a time in the cut, mm, by the same curve through the readings of at least 0.05 mm,
+/// of which one is enough: then b is `kWearByTime`. Nothing where none can be used.
+[[nodiscard]] std::optional<double> wear_after(std::span<const WearReading> readings, double time_min);
+
 /// One edge's life to the wear that is allowed.
 struct LifeSample {
   double vc_m_min = 0.0, feed_mm = 0.0, depth_mm = 0.0, life_min = 0.0;

@@ -48,7 +48,7 @@ Heard heard(std::span<const Evidence> evidence, std::string_view machine, std::o
     }
     const auto [first, fresh] = sources.emplace(e.source, i);
     if (!fresh) {
-      out.refused.push_back({i, "its source, " + e.source + ", was heard already"});
+      out.refused.push_back({i, "its source (" + e.source + ") was heard already"});
       continue;
     }
     e.worn = std::clamp(e.worn, 0.0, 1.5);

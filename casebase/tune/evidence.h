@@ -37,7 +37,7 @@ struct Evidence {
   bool failed = false;                                            ///< chatter, breakage, or a bad verdict
   bool judged = true;    ///< somebody or some instrument said whether it went well
   bool measured = true;  ///< neither simulated nor entered by hand
-  std::string source;    ///< rows of one source are one observation
+  std::string source;    ///< rows of one source are one observation; in one line, for messages
   std::string machine;
   std::string edge;         ///< the tool instance; empty: not known, and all of those are taken as one edge
   std::optional<long> day;  ///< days since 1970-01-01; not known: no day of its own

@@ -13,16 +13,24 @@
 namespace capstan::casebase::tune {
 namespace {
 
-// How loads depend on speed, feed and wear before anything was cut, beside what the models say: std devs of
-// the exponents. Default, unsourced, unless a line says more.
-constexpr double kForceExponentSpread = 0.15;
-constexpr double kWornForce = 1.3,
-                 kWornForceSpread = 0.15;                // Dietrich & Tschaetsch, as mechanics/constants.h
-constexpr double kUsualShare = 0.5, kUsualSpread = 0.6;  // of size and surface in what is asked
-// Ra of measured turning hardly follows f^2: exponents 0.18 to 0.52 against 2 by geometry.
+// How loads depend on speed, feed and wear before anything was cut, beside what the models say: means and std
+// devs of the exponents of a load; spreads, noise and edges are std devs of ln load. All of them default,
+// unsourced, unless a line says more.
+constexpr double kForceExponentSpread = 0.15;                // of speed and feed
+constexpr double kWornForce = 1.3, kWornForceSpread = 0.15;  // mean: Dietrich & Tschaetsch, K_ver
+constexpr double kUsualShare = 0.5, kUsualSpread = 0.6;      // of size and surface in what is asked
+constexpr double kSizeBySpeedSpread = 0.4, kSizeByFeedSpread = 0.3, kSizeByWearSpread = 0.2;
+constexpr double kSizeNoise = 0.2, kSizeEdges = 0.15;
+// Feed marks by geometry grow with f^2; what the edge tears and its floor do not.
 constexpr double kRaByFeed = 1.2, kRaByFeedSpread = 0.5;
-constexpr double kWearSpread = 0.4;
+constexpr double kRaBySpeedSpread = 0.2, kRaByWear = 0.2, kRaByWearSpread = 0.2;
+constexpr double kRaNoise = 0.12, kRaEdges = 0.2;
+constexpr double kWearSpread = 0.4, kWearBySpeedSpread = 0.8, kWearByFeedSpread = 0.4;
+constexpr double kLifeByFeed = 0.6;         // exponent of the feed in the life
+constexpr double kWearByWearSpread = 0.05;  // when the edge is changed is in the load already
+constexpr double kWearNoise = 0.12, kWearEdges = 0.3;
 constexpr double kHeavyChatter = 0.5;  // of the level 0 to 1
+constexpr double kLeastShare = 0.02;   // of a limit: less is below what can be measured
 
 bool evidence(const std::optional<Figure>& f) { return f && f->origin != Origin::kSimulated; }
 
@@ -51,12 +59,64 @@ double limit_of(const PlannedStep& p, Watched w) {
   return 0.0;
 }
 
-/// Names of edges as numbers, in the order in which they come.
+std::vector<WearReading> readings_of(const Series& wear) {
+  std::vector<WearReading> out;
+  if (wear.origin == Origin::kSimulated) return out;
+  for (const Sample& s : wear.samples) out.push_back({s.t_s / 60.0, s.value});
+  return out;
+}
+
+/// The wear before the cut, mm: between the readings, at the last's time less that of the step; 0: not known.
+double worn_before_mm(const Observed& o) {
+  const std::vector<WearReading> all = readings_of(o.wear_series_mm);
+  if (all.empty()) return 0.0;
+  const double start = all.back().time_min - (o.time_s ? o.time_s->value / 60.0 : 0.0);
+  for (std::size_t i = all.size() - 1; i > 0; --i) {
+    const WearReading &a = all[i - 1], &b = all[i];
+    if (start < a.time_min || !(b.time_min > a.time_min)) continue;
+    const double share = std::min(1.0, (start - a.time_min) / (b.time_min - a.time_min));
+    return a.wear_mm + share * (b.wear_mm - a.wear_mm);
+  }
+  return all.front().wear_mm;
+}
+
+/// After how much cutting at the planned values an edge is changed, min; 0: not known.
+double edge_min(const PlannedStep& p) {
+  return positive(p.edge_min) ? p.edge_min : kLifeUsed * p.step.predicted.tool_life_min;
+}
+
+/// The wear of a case's edge when this step's edge is changed, mm; nothing where nobody can tell.
+std::optional<double> wear_at_change_mm(const Observed& o, const Setting& at, const PlannedStep& p) {
+  const std::vector<WearReading> all = readings_of(o.wear_series_mm);
+  // A series that begins worn has another clock than its edge.
+  const bool of_edge = !all.empty() && !(all.front().time_min <= 0.0 && all.front().wear_mm > 0.0);
+  const double until = edge_min(p) * std::exp(-at.ln_vc - at.ln_fz);  // the same parts take longer or less
+  if (of_edge && positive(until)) {
+    if (const auto wear = wear_after(all, until)) return wear;
+  }
+  if (evidence(o.wear_mm) && o.wear_mm->value > kAllowedWearMm) return o.wear_mm->value;
+  return std::nullopt;
+}
+
+/// The edge that a case was cut with; where it is not known, an edge of its part.
+std::string edge_name(const From& f) {
+  const std::string edge = edge_of(f);
+  return edge.empty() ? "?" + f.part + f.source : edge;
+}
+
+/// The part that a case is of; where it is not known, what its source and its time tell apart.
+std::string part_name(const From& f) { return f.part.empty() ? "?" + f.source + f.time_utc : f.part; }
+
+/// Whether a step mills a bore, whose size is the path's: of a drill, a reamer or a tap it is the tool's.
+bool mills_bore(const Question& q) {
+  const bool round = positive(q.diameter_mm) && !positive(q.width_mm);
+  return round && q.operation.ends_with("MILLING") && q.feature.find("THREAD") == std::string::npos;
+}
+
+/// Names as numbers, in the order in which they come.
 class Groups {
  public:
-  std::size_t of(const Case& c) {
-    std::string name = edge_of(c.from);
-    if (name.empty()) name = "?" + c.from.part + c.from.source;
+  std::size_t of(std::string name) {
     return numbers_.emplace(std::move(name), numbers_.size()).first->second;
   }
 
@@ -106,25 +166,28 @@ Handbook handbook_of(const PlannedStep& p) {
   power.by_fz = by_fz;
   power.by_wear = worn;
   LoadPrior& size = watch(Watched::kSize, kUsualShare * limit_of(p, Watched::kSize), kUsualSpread);
-  size.by_vc = {0.0, 0.4};
-  size.by_fz = {1.0 - p.mc, 0.3};
-  size.by_wear = {worn.mean, 0.2};
-  size.noise = 0.2;
-  size.edges = 0.15;
+  size.by_vc = {0.0, kSizeBySpeedSpread};
+  size.by_fz = {1.0 - p.mc, kSizeByFeedSpread};
+  size.by_wear = {worn.mean, kSizeByWearSpread};
+  size.noise = kSizeNoise;
+  size.edges = kSizeEdges;
   LoadPrior& finish = watch(Watched::kFinish, kUsualShare * limit_of(p, Watched::kFinish), kUsualSpread);
-  finish.by_vc = {0.0, 0.2};
+  finish.by_vc = {0.0, kRaBySpeedSpread};
   finish.by_fz = {kRaByFeed, kRaByFeedSpread};
-  finish.by_wear = {0.2, 0.2};
-  finish.noise = 0.12;
-  finish.edges = 0.2;
-  // Wear at the end of this step: its share of the life that is expected, on a sharp edge.
-  const double use = positive(expected.tool_life_min) ? expected.time_s / 60.0 / expected.tool_life_min : 0.0;
-  LoadPrior& wear = watch(Watched::kWear, use * kAllowedWearMm, kWearSpread);
-  wear.by_vc = {1.0 / p.taylor_n - 1.0, 0.8};
-  wear.by_fz = {-0.4, 0.4};
-  wear.by_wear = {0.0, 0.05};
-  wear.noise = 0.12;
-  wear.edges = 0.3;
+  finish.by_wear = {kRaByWear, kRaByWearSpread};
+  finish.noise = kRaNoise;
+  finish.edges = kRaEdges;
+  const double used =
+      positive(expected.tool_life_min) ? edge_min(p) / expected.tool_life_min : 0.0;  // of a life
+  LoadPrior& wear = watch(Watched::kWear, kAllowedWearMm * std::pow(used, kWearByTime), kWearSpread);
+  // As many parts at another speed: wear goes as (t / T)^b, time as 1 / (v f), life as v^(-1/n) and
+  // f^-kLifeByFeed.
+  wear.by_vc = {kWearByTime * (1.0 / p.taylor_n - 1.0), kWearBySpeedSpread};
+  wear.by_fz = {kWearByTime * (kLifeByFeed - 1.0), kWearByFeedSpread};
+  wear.by_wear = {0.0, kWearByWearSpread};
+  wear.noise = kWearNoise;
+  wear.needs_evidence = !positive(p.edge_min);
+  wear.edges = kWearEdges;
   return h;
 }
 
@@ -142,9 +205,7 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   e.at = {std::log(c.bound.vc_m_min / p.step.bound.vc_m_min),
           std::log(c.bound.fz_mm / p.step.bound.fz_mm / wider)};
   const Observed& o = c.observed;
-  if (!o.wear_series_mm.samples.empty() && o.wear_series_mm.origin != Origin::kSimulated) {
-    e.worn = std::max(0.0, o.wear_series_mm.samples.front().value) / kAllowedWearMm;
-  }
+  e.worn = std::max(0.0, worn_before_mm(o)) / kAllowedWearMm;
   const bool same_step = c.from.plan_hash == p.step.from.plan_hash &&
                          c.from.workingstep == p.step.from.workingstep && !c.from.workingstep.empty();
   if (evidence(o.time_s) && positive(o.time_s->value) && positive(p.step.predicted.time_s)) {
@@ -156,20 +217,22 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
     const double limit = limit_of(p, w);
     if (!evidence(f) || !positive(limit) || !std::isfinite(f->value)) return;
     // A deviation of nothing is one below what can be measured.
-    e.ln_load[static_cast<std::size_t>(w)] = std::log(std::max(std::abs(f->value) / limit, 0.02));
+    e.ln_load[static_cast<std::size_t>(w)] = std::log(std::max(std::abs(f->value) / limit, kLeastShare));
   };
   load(Watched::kForce, o.peak_force_n);
   load(Watched::kPower, o.power_w);
   load(Watched::kSize, o.size_deviation_mm);
   load(Watched::kFinish, o.surface_ra_um);
-  load(Watched::kWear, o.wear_mm);
+  if (const auto wear = wear_at_change_mm(o, e.at, p)) load(Watched::kWear, Figure{.value = *wear});
   const bool chatter = evidence(o.chatter), broke = evidence(o.breakage);
   e.failed = o.verdict == Verdict::kBad || (chatter && o.chatter->value >= kHeavyChatter) ||
              (broke && o.breakage->value >= 0.5);
   e.judged = o.verdict != Verdict::kUnknown || chatter || broke;
   e.measured = c.origin == Origin::kMeasured;
-  e.source = c.from.source + '\n' + c.from.part + '\n' + c.from.workingstep + '\n' + c.from.time_utc + '\n' +
-             edge_of(c.from);
+  for (const std::string& one :
+       {c.from.source, c.from.part, c.from.workingstep, c.from.time_utc, edge_of(c.from)}) {
+    e.source += (e.source.empty() ? "'" : ", '") + one + "'";
+  }
   e.machine = c.asked.machine_class;
   e.edge = edge_of(c.from);
   e.day = day_of(c.from.time_utc);
@@ -181,10 +244,10 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
   std::vector<LifeSample> lives;
   std::vector<TimeSample> times;
   std::vector<BoreSample> bores;
-  Groups edges;
+  Groups edges, parts;
   for (const Case& c : cases) {
     if (c.origin != Origin::kMeasured) continue;
-    const std::size_t edge = edges.of(c);
+    const std::size_t edge = edges.of(edge_name(c.from)), part = parts.of(part_name(c.from));
     const Observed& o = c.observed;
     const Bound& b = c.bound;
     if (evidence(o.peak_force_n) && positive(c.predicted.peak_force_n) && positive(b.mean_chip_mm)) {
@@ -193,19 +256,14 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
       forces.push_back({b.mean_chip_mm, kc * o.peak_force_n->value / expected, edge});
     }
     if (evidence(o.time_s) && positive(c.predicted.time_s) && b.path_blocks > 0) {
-      times.push_back({c.predicted.time_s, o.time_s->value, c.predicted.time_s / b.path_blocks, edge});
+      times.push_back({c.predicted.time_s, o.time_s->value, c.predicted.time_s / b.path_blocks, part});
     }
-    const bool bore = positive(c.asked.diameter_mm) && !positive(c.asked.width_mm);
-    if (bore && evidence(o.size_deviation_mm) && positive(c.asked.cutter_diameter_mm)) {
+    if (mills_bore(c.asked) && evidence(o.size_deviation_mm) && positive(c.asked.cutter_diameter_mm)) {
       bores.push_back({o.size_deviation_mm->value, b.fz_mm * std::max(1, c.asked.teeth),
-                       c.asked.stick_out_mm / c.asked.cutter_diameter_mm, edge});
+                       c.asked.stick_out_mm / c.asked.cutter_diameter_mm, part});
     }
-    if (o.wear_series_mm.origin != Origin::kSimulated) {
-      std::vector<WearReading> readings;
-      for (const Sample& s : o.wear_series_mm.samples) readings.push_back({s.t_s / 60.0, s.value});
-      if (const auto life = life_of(readings, kAllowedWearMm))
-        lives.push_back({b.vc_m_min, b.fz_mm, b.ap_mm, *life, edge});
-    }
+    if (const auto life = life_of(readings_of(o.wear_series_mm), kAllowedWearMm))
+      lives.push_back({b.vc_m_min, b.fz_mm, b.ap_mm, *life, edge});
   }
   return {correct_force(forces, handbook.force), correct_life(lives, handbook.life), correct_time(times),
           correct_bores(bores)};

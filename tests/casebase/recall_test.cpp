@@ -192,6 +192,8 @@ TEST(Csv, SaysWhichLineIsWrong) {
   altered = text;
   altered.replace(altered.rfind(",30,"), 4, ",30;");
   EXPECT_EQ(from_csv(altered, "cases.csv").error().line, 3u);
+  EXPECT_FALSE(from_csv(altered, "cases.csv").error().expected.empty());
+  EXPECT_FALSE(from_csv(altered, "cases.csv").error().hint.empty());
   EXPECT_FALSE(from_csv("", "cases.csv").has_value());
   EXPECT_FALSE(from_csv("id,operation\n", "cases.csv").has_value());
   EXPECT_FALSE(from_csv("\"", "cases.csv").has_value());

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/life/life.h"
 
 namespace capstan::testing {
 namespace {
@@ -15,107 +14,73 @@ namespace tune = casebase::tune;
 using tune::Watched;
 
 constexpr int kPartsADay = 8;
-constexpr double kFloorRaUm = 0.4;  // of a milled wall, beside its feed marks. Default, unsourced
 
 double rpm_of(const PlannedJob& j, double vc) {
   return 1000.0 * vc / (std::numbers::pi * j.question.cutter.cutting_diameter_mm);
 }
 
+double planned_cut_s(const PlannedJob& j, double vc, double fz) {
+  return 60.0 * j.job.length_mm / (rpm_of(j, vc) * j.question.cutter.teeth * fz);
+}
+
 double planned_s(const PlannedJob& j, double vc, double fz) {
-  const double feed = rpm_of(j, vc) * j.question.cutter.teeth * fz;
-  return j.job.other_s + 60.0 * j.job.length_mm / feed + 60.0 / j.job.parts_per_edge;
+  return j.job.other_s + planned_cut_s(j, vc, fz) + 60.0 / j.job.parts_per_edge;
 }
 
-double limit_of(const PlannedJob& j, Watched w) {
-  switch (w) {
-    case Watched::kForce:
-      return j.job.force_n;
-    case Watched::kPower:
-      return j.job.power_w;
-    case Watched::kSize:
-      return j.job.size_mm;
-    case Watched::kFinish:
-      return j.job.ra_um;
-    case Watched::kWear:
-      return j.job.wear_mm;
-  }
-  return 1.0;
+/// The step as planning would keep it, for the shipped functions to make a handbook of.
+void plan_step(PlannedJob& j, const model::StepLoads& loads) {
+  tune::PlannedStep& p = j.planned;
+  casebase::Case& c = p.step;
+  c.asked.operation = "SIDE_FINISH_MILLING";
+  c.asked.material_group = "P/steel";
+  c.asked.tool_class = "carbide/endmill";
+  c.asked.machine_class = "mill_1";
+  c.asked.depth_mm = j.ap_mm;
+  c.asked.width_mm = j.ae_mm;
+  c.asked.cutter_diameter_mm = j.question.cutter.cutting_diameter_mm;
+  c.asked.teeth = j.question.cutter.teeth;
+  c.asked.stick_out_mm = j.question.cutter.stick_out_mm;
+  c.asked.tolerance_mm = 2.0 * j.job.size_mm;
+  c.asked.asked_ra_um = j.job.ra_um;
+  c.bound.vc_m_min = j.vc_m_min;
+  c.bound.fz_mm = j.fz_mm;
+  c.bound.path_length_mm = j.job.length_mm;
+  c.predicted.time_s = j.time_s;
+  c.predicted.peak_force_n = loads.peak_force_n;
+  c.predicted.power_w = loads.power_w;
+  c.predicted.tool_life_min = j.tables.life_min;
+  p.force_margin = loads.force_margin;  // the planner's loads carry it
+  p.force_spread = mechanics::kForceUncertaintyFactor;
+  p.power_limit_w = j.job.power_w;
+  p.mc = j.question.material.mc;
+  p.taylor_n = mechanics::kTaylorExponentCarbide;
+  p.edge_min = j.job.parts_per_edge * planned_cut_s(j, j.vc_m_min, j.fz_mm) / 60.0;
 }
 
-double& load_of(Loads& l, Watched w) {
-  switch (w) {
-    case Watched::kForce:
-      return l.force_n;
-    case Watched::kPower:
-      return l.power_w;
-    case Watched::kSize:
-      return l.size_mm;
-    case Watched::kFinish:
-      return l.ra_um;
-    case Watched::kWear:
-      break;
-  }
-  return l.wear_mm;
-}
-
-/// What the planner's models expect at its start values, and how the loads change.
-void expect(PlannedJob& j, const model::StepLoads& loads) {
-  const double sharp = loads.force_margin;  // the planner's loads carry the margin
-  const double mc = j.question.material.mc;
-  const double spread = std::log(mechanics::kForceUncertaintyFactor);
-  const double worn = std::log(mechanics::kWearForceFactor);
-  auto& all = j.handbook.loads;
-  const auto prior = [&](Watched w, double load, double std_dev) -> tune::LoadPrior& {
-    tune::LoadPrior& p = all[static_cast<std::size_t>(w)];
-    p.watched = true;
-    p.ln_load = {std::log(load / limit_of(j, w)), std_dev};
-    return p;
-  };
-  tune::LoadPrior& force = prior(Watched::kForce, loads.peak_force_n / sharp, spread);
-  force.by_vc = {0.0, 0.15};
-  force.by_fz = {1.0 - mc, 0.15};
-  force.by_wear = {worn, 0.15};
-  tune::LoadPrior& power = prior(Watched::kPower, loads.power_w / sharp, spread);
-  power = {true, power.ln_load, {1.0, 0.15}, {1.0 - mc, 0.15}, {worn, 0.15}, 0.1, 0.1};
-  tune::LoadPrior& size = prior(Watched::kSize, loads.deflection_mm / sharp, 0.6);
-  size = {true, size.ln_load, {0.0, 0.4}, {1.0 - mc, 0.3}, {worn, 0.2}, 0.2, 0.15};
-  const double ra = kFloorRaUm + 257.0 * optimise::kRoughnessOverGeometry * loads.surface_rz_mm;
-  tune::LoadPrior& finish = prior(Watched::kFinish, ra, 0.6);
-  finish = {true, finish.ln_load, {0.0, 0.2}, {1.2, 0.5}, {0.2, 0.2}, 0.12, 0.2};
-  const double use = j.job.parts_per_edge *
-                     (60.0 * j.job.length_mm / (rpm_of(j, j.vc_m_min) * j.question.cutter.teeth * j.fz_mm)) /
-                     60.0 / j.tables.life_min;
-  tune::LoadPrior& wear = prior(Watched::kWear, use * j.job.wear_mm, 0.4);
-  const double n = mechanics::kTaylorExponentCarbide;
-  wear = {true, wear.ln_load, {1.0 / n - 1.0, 0.8}, {-0.4, 0.4}, {0.0, 0.05}, 0.12, mechanics::kLifeScatter};
-}
-
-/// What the shop's instruments say of a part, as a case would hold it.
-tune::Evidence evidence_of(const PlannedJob& j, const tune::Setting& at, const CutPart& part,
-                           const ShopEdge& edge, const std::vector<double>& wear_seen, int number) {
-  tune::Evidence e;
-  e.id = "part " + std::to_string(number);
-  e.at = at;
-  e.worn = wear_seen.size() > 1 ? wear_seen[wear_seen.size() - 2] / j.job.wear_mm : 0.0;
-  e.ln_time = std::log(part.time_s / j.time_s);
-  Loads seen = part.seen;
-  for (std::size_t i = 0; i < tune::kWatchedCount; ++i) {
-    const auto w = static_cast<Watched>(i);
-    double load = std::max(1e-6, load_of(seen, w));
-    if (w == Watched::kWear) {
-      // What the edge's wear will be when its parts are done: evenly on after the first, which runs it in.
-      const int left = j.job.parts_per_edge - edge.parts;
-      if (left > 0 && edge.parts < 3) continue;
-      if (left > 0) load += left * std::max(0.0, load - wear_seen.front()) / (edge.parts - 1);
-    }
-    e.ln_load[i] = std::log(load / limit_of(j, w));
-  }
-  e.failed = part.chatter_seen;
-  e.source = e.id;
-  e.machine = j.handbook.machine;
-  e.edge = std::to_string(edge.number);
-  e.day = number / kPartsADay;
-  return e;
+/// What the shop's instruments say of a part, as a case holds it.
+casebase::Case case_of(const PlannedJob& j, const tune::Setting& at, const CutPart& part,
+                       const ShopEdge& edge, const casebase::Series& wear_seen, int number) {
+  casebase::Case c = j.planned.step;
+  c.id = "part " + std::to_string(number);
+  c.origin = casebase::Origin::kMeasured;
+  c.bound.vc_m_min *= std::exp(at.ln_vc);
+  c.bound.fz_mm *= std::exp(at.ln_fz);
+  const auto figure = [](double v) { return casebase::Figure{.value = v}; };
+  c.observed.time_s = figure(part.time_s);
+  c.observed.peak_force_n = figure(part.seen.force_n);
+  c.observed.power_w = figure(part.seen.power_w);
+  c.observed.size_deviation_mm = figure(part.seen.size_mm);
+  c.observed.surface_ra_um = figure(part.seen.ra_um);
+  c.observed.wear_mm = figure(part.seen.wear_mm);
+  c.observed.wear_series_mm = wear_seen;
+  c.observed.chatter = figure(part.chatter_seen ? 1.0 : 0.0);
+  c.from.part = std::to_string(number);
+  c.from.source = "log";
+  c.from.tool_instance = std::to_string(edge.number);
+  // ISO 8601: day 1 is the first of January; no campaign is longer than that month.
+  const std::string day = std::to_string(101 + number / kPartsADay);
+  c.from.time_utc = "2026-01-" + day.substr(1) + "T08:00:00Z";
+  return c;
 }
 
 }  // namespace
@@ -180,9 +145,7 @@ PlannedJob drawn_job(std::uint64_t seed) {
   q.deflection_limit_mm = j.job.size_mm;
   q.surface_ra_um = j.job.ra_um;
   j.time_s = planned_s(j, j.vc_m_min, j.fz_mm);
-  j.handbook.machine = "mill 1";
-  j.handbook.most_fz = 1.5;
-  expect(j, *loads);
+  plan_step(j, *loads);
   return j;
 }
 
@@ -202,23 +165,24 @@ double planner_excess(const PlannedJob& j, const tune::Setting& at) {
 
 Campaign run_campaign(std::uint64_t seed, Arm arm, int parts) {
   PlannedJob planned = drawn_job(seed);
-  planned.handbook.hard = [&planned](const tune::Setting& s) { return 1.0 + planner_excess(planned, s); };
+  planned.planned.hard = [&planned](const tune::Setting& s) { return 1.0 + planner_excess(planned, s); };
+  const tune::Handbook handbook = tune::handbook_of(planned.planned);
   HiddenShop shop(seed, planned.tables);
   tune::TuneOptions options;
   options.learner = arm == Arm::kRegression ? tune::Learner::kRegression : tune::Learner::kProcess;
   Campaign out;
   ShopEdge edge = shop.new_edge();
-  std::vector<double> wear_seen;  // of this edge, part by part
+  casebase::Series wear_seen{.samples = {{0.0, 0.0}}};  // of this edge, part by part
   const auto change_edge = [&] {
     edge = shop.new_edge();
-    wear_seen.clear();
+    wear_seen.samples = {{0.0, 0.0}};
   };
   for (int i = 0; i < parts; ++i) {
     if (i % kPartsADay == 0) shop.new_day();
     if (edge.parts >= planned.job.parts_per_edge) change_edge();
     tune::Setting at;
     if (arm != Arm::kHandbook) {
-      out.last = tune::advise(out.evidence, planned.handbook, options);
+      out.last = tune::advise(out.evidence, handbook, options);
       at = out.last.trial.at;
     }
     const CutPart part = shop.cut(planned.job, planned.vc_m_min * std::exp(at.ln_vc),
@@ -232,8 +196,11 @@ Campaign run_campaign(std::uint64_t seed, Arm arm, int parts) {
                          .over_finish = part.truth.ra_um > planned.job.ra_um,
                          .over_wear = part.truth.wear_mm > planned.job.wear_mm,
                          .chatter = part.chatter});
-    wear_seen.push_back(part.seen.wear_mm);
-    out.evidence.push_back(evidence_of(planned, at, part, edge, wear_seen, i));
+    const double cut_s =
+        planned_cut_s(planned, planned.vc_m_min * std::exp(at.ln_vc), planned.fz_mm * std::exp(at.ln_fz));
+    wear_seen.samples.push_back({wear_seen.samples.back().t_s + cut_s, part.seen.wear_mm});
+    out.evidence.push_back(
+        tune::evidence_of(case_of(planned, at, part, edge, wear_seen, i), planned.planned));
     // An edge that is measured as worn out is changed.
     if (part.seen.wear_mm > planned.job.wear_mm) change_edge();
   }

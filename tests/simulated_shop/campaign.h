@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "casebase/tune/advise.h"
+#include "casebase/tune/from_case.h"
 #include "planner/making/optimise/cut.h"
 #include "tests/simulated_shop/shop.h"
 
@@ -21,7 +22,7 @@ struct PlannedJob {
   double ap_mm = 0.0, ae_mm = 0.0, vc_m_min = 0.0, fz_mm = 0.0;
   ShopJob job;
   ShopTables tables;
-  casebase::tune::Handbook handbook;
+  casebase::tune::PlannedStep planned;
   double time_s = 0.0;  ///< as planned
 };
 /// Drawn by the seed: sizes, and how far the limits lie from what the planner expects of its start values.

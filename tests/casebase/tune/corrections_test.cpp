@@ -27,6 +27,17 @@ std::vector<ForceSample> soft(std::size_t edges, std::size_t each) {
   return out;
 }
 
+TEST(WearAfter, IsTheCurveOfLifeOf) {
+  std::vector<WearReading> readings;
+  for (const double t : {4.0, 8.0, 12.0, 20.0}) readings.push_back({t, 0.05 * std::pow(t / 2.0, 0.8)});
+  const auto life = life_of(readings, 0.3);
+  ASSERT_TRUE(life);
+  EXPECT_NEAR(wear_after(readings, *life).value(), 0.3, 1e-9);
+  EXPECT_FALSE(wear_after(std::vector<WearReading>{{1.0, 0.01}}, 5.0))
+      << "less than the scatter of a reading";
+  EXPECT_FALSE(wear_after({}, 5.0));
+}
+
 TEST(CorrectForce, FindsTheCoefficientsOfTheCuts) {
   const auto c = correct_force(soft(12, 6), kSteel);
   ASSERT_TRUE(c);

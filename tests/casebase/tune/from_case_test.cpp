@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace capstan::casebase::tune {
@@ -105,6 +106,83 @@ TEST(EvidenceOf, AFeedIsComparedPerDiameterOfTheCutter) {
   EXPECT_GT(e.question[5], 0.0);  // the cutter's diameter
 }
 
+/// Readings of one edge since it was new: 0.08 mm after two minutes, then t^0.7.
+Series worn_edge(double until_min) {
+  Series out{.samples = {{0.0, 0.0}}};
+  for (double t = 2.0; t <= until_min; t += 1.0)
+    out.samples.push_back({60.0 * t, 0.08 * std::pow(t / 2.0, kWearByTime)});
+  return out;
+}
+
+TEST(HandbookOf, ExpectsTheWearOfAnEdgeThatIsChangedAfterHalfItsLife) {
+  const Handbook usual = handbook_of(planned());
+  const LoadPrior& wear = usual.loads[static_cast<std::size_t>(Watched::kWear)];
+  EXPECT_NEAR(std::exp(wear.ln_load.mean), std::pow(0.5, kWearByTime), 1e-12);
+  EXPECT_TRUE(wear.needs_evidence);
+  PlannedStep longer = planned();
+  longer.edge_min = 15.0;  // all of the life that is expected
+  const Handbook stated = handbook_of(longer);
+  EXPECT_NEAR(stated.loads[static_cast<std::size_t>(Watched::kWear)].ln_load.mean, 0.0, 1e-12);
+  EXPECT_FALSE(stated.loads[static_cast<std::size_t>(Watched::kWear)].needs_evidence);
+}
+
+TEST(EvidenceOf, CarriesWearToTheChangeOfTheEdgeByTheLawOfTheHandbook) {
+  PlannedStep p = planned();
+  p.edge_min = 10.0;
+  Case c = cut(1);
+  c.observed.wear_series_mm = worn_edge(4.0);
+  c.observed.wear_mm = Figure{.value = c.observed.wear_series_mm.samples.back().value};
+  const double at_change = 0.08 * std::pow(10.0 / 2.0, kWearByTime);
+  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear), at_change / kAllowedWearMm, 1e-3);
+  // The same edge a few parts later says the same.
+  c.observed.wear_series_mm = worn_edge(8.0);
+  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear), at_change / kAllowedWearMm, 1e-3);
+  // As many parts at twice the feed are half the time in the cut.
+  c.bound.fz_mm *= 2.0;
+  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear),
+              0.08 * std::pow(5.0 / 2.0, kWearByTime) / kAllowedWearMm, 1e-3);
+}
+
+TEST(EvidenceOf, WearOfUnknownAgeCountsOnlyBeyondWhatIsAllowed) {
+  Case c = cut(1);
+  c.observed.wear_mm = Figure{.value = 0.1};
+  EXPECT_FALSE(evidence_of(c, planned()).ln_load[static_cast<std::size_t>(Watched::kWear)]);
+  c.observed.wear_mm = Figure{.value = 0.36};
+  EXPECT_NEAR(load(evidence_of(c, planned()), Watched::kWear), 1.2, 1e-12);
+  // A series that begins worn has the step's clock, not the edge's.
+  c.observed.wear_mm.reset();
+  c.observed.wear_series_mm = {.samples = {{0.0, 0.1}, {60.0, 0.12}}};
+  EXPECT_FALSE(evidence_of(c, planned()).ln_load[static_cast<std::size_t>(Watched::kWear)]);
+}
+
+TEST(EvidenceOf, AnEdgeIsAsWornAsItWasBeforeTheCut) {
+  Case c = cut(1);  // 66 s
+  EXPECT_EQ(evidence_of(c, planned()).worn, 0.0);
+  c.observed.wear_series_mm = {.samples = {{0.0, 0.0}, {66.0, 0.06}}};
+  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.0, 1e-12) << "its first part";
+  c.observed.wear_series_mm.samples.push_back({132.0, 0.09});
+  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.06 / kAllowedWearMm, 1e-12);
+}
+
+TEST(EvidenceOf, NamesItsSourceInOneLine) {
+  EXPECT_EQ(evidence_of(cut(1), planned()).source.find('\n'), std::string::npos);
+}
+
+TEST(Advise, AWearThatNobodyMeasuredIsNotWatched) {
+  const Handbook handbook = handbook_of(planned());
+  std::vector<Evidence> evidence = {evidence_of(cut(1), planned())};
+  const auto watches = [&] {
+    const Advice a = advise(evidence, handbook, {});
+    return std::any_of(a.trial.limits.begin(), a.trial.limits.end(),
+                       [](const LimitView& l) { return l.name == "wear of the edge"; });
+  };
+  EXPECT_FALSE(watches());
+  Case measured = cut(2);
+  measured.observed.wear_series_mm = worn_edge(4.0);
+  evidence.push_back(evidence_of(measured, planned()));
+  EXPECT_TRUE(watches());
+}
+
 TEST(EvidenceOf, BreakageAndBadVerdictsAreFailures) {
   Case broken = cut(1), bad = cut(2);
   broken.observed.breakage = Figure{.value = 1.0};
@@ -136,6 +214,30 @@ TEST(CorrectionsOf, MeasuredCasesAlone) {
   EXPECT_FALSE(c.life);
   for (Case& one : cases) one.origin = Origin::kSimulated;
   EXPECT_FALSE(corrections_of(cases, handbook).force);
+}
+
+TEST(CorrectionsOf, BoresThatAreMilledAloneByPart) {
+  const CorrectionHandbook handbook{.force = {1800.0, 0.2, 1.5}, .force_margin = 1.8, .life = {}};
+  const auto bores = [&](const char* operation, const char* feature) {
+    std::vector<Case> cases;
+    for (int i = 0; i < 8; ++i) {
+      Case c = cut(i / 2);  // two of each part, on one edge
+      c.asked.operation = operation;
+      c.asked.feature = feature;
+      c.asked.width_mm = 0.0;
+      c.asked.diameter_mm = 20.0;
+      c.asked.stick_out_mm = 40.0;
+      c.from.tool_instance = "T1";
+      cases.push_back(c);
+    }
+    return corrections_of(cases, handbook).bores;
+  };
+  const auto milled = bores("BOTTOM_AND_SIDE_FINISH_MILLING", "ROUND_HOLE");
+  ASSERT_TRUE(milled);
+  EXPECT_EQ(milled->how.groups, 4U);
+  EXPECT_FALSE(bores("REAMING", "ROUND_HOLE"));
+  EXPECT_FALSE(bores("DRILLING", "ROUND_HOLE"));
+  EXPECT_FALSE(bores("SIDE_FINISH_MILLING", "DEFINED_THREAD"));
 }
 
 }  // namespace

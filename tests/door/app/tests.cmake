@@ -1,4 +1,4 @@
-capstan_test(app DEPENDS base geometry model p21 exchange motion json controls casebase service app)
+capstan_test(app DEPENDS base geometry model p21 exchange motion json optimise mechanics controls casebase service app)
 if(TARGET app_test)
   # The command is tested as it is run: as a program.
   add_dependencies(app_test capstan)

@@ -299,7 +299,8 @@ class CommandLine {
     tune->add_option("plan", out_.files, "a plan, whose steps are tuned; without it the models alone")
         ->expected(0, 1);
     tune->add_flag("--json", out_.json, "JSON on standard output");
-    tune->add_option("-o,--output", out_.outputs, "picture (SVG) of each step of which there are cases");
+    tune->add_option("-o,--output", out_.outputs, "picture (SVG) of each step of which there are cases")
+        ->expected(1);
     tune->add_option("--today", out_.today,
                      "date, e.g. 2016-06-28: later days of cases do not count as days");
   }

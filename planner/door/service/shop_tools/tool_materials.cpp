@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "planner/model/plan/order/step_ids.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
 
@@ -45,9 +46,14 @@ std::vector<model::Finding> other_tool_materials(const model::Plan& plan, const 
     f.property = kToolMaterial;
     f.code = "CHK-TOOL-MATERIAL";
     f.severity = burns ? Severity::kError : Severity::kWarning;
-    f.message = "T" + std::to_string(planned.pocket) + " ('" + planned.id + "') is of " +
-                std::string(model::to_text(is->substrate)) + " in the shop's tools ('" + is->description +
-                "'); the plan's speeds, feeds and stiffness are of " +
+    const auto used = std::find_if(plan.steps.begin(), plan.steps.end(),
+                                   [&](const model::StepResult& s) { return s.cutter_id == planned.id; });
+    if (used != plan.steps.end()) f.step = model::step_id(plan, *used);
+    const std::string name = planned.pocket > 0
+                                 ? "T" + std::to_string(planned.pocket) + " ('" + planned.id + "')"
+                                 : "'" + planned.id + "'";
+    f.message = name + " is of " + std::string(model::to_text(is->substrate)) + " in the shop's tools ('" +
+                is->description + "'); the plan's speeds, feeds and stiffness are of " +
                 std::string(model::to_text(planned.substrate)) +
                 ": load the tool that is planned, or plan again";
     out.push_back(std::move(f));

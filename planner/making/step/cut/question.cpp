@@ -57,11 +57,7 @@ CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
 }
 
 double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& s) {
-  double width = 0.0;
-  for (const auto& t : {s.width, s.length, s.diameter}) {
-    if (t.given && t.width() > 0.0) width = width > 0.0 ? std::min(width, t.width()) : t.width();
-  }
-  if (width > 0.0) return width;
+  if (const double width = stated_zone_mm(s); width > 0.0) return width;
   if (const auto* f = p.plan.model.get<model::ManufacturingFeature>(step.feature)) {
     if (const auto* piece = p.plan.model.get<model::Workpiece>(f->its_workpiece)) {
       return 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
@@ -86,23 +82,14 @@ double zone_across(const PlanSoFar& p, const StepDraft& step, const toolpath::Pa
   return surface || !(width_mm > 0.0) ? 0.0 : general_zone_mm(p, width_mm);
 }
 
-/// What a cut before the last may bend at its tip, mm.
-///
-/// A wall is pushed off by no more than the tip is bent. Where the step leaves an allowance, the bent cutter
-/// must not reach the finished wall, and should leave there what the next pass can cut at all, but at least
-/// half of it. Where it leaves none, its wall is the finished one: kWallOfZone.
+/// What a cut before the last may bend at its tip, mm. A wall is pushed off by no more than the tip is bent.
 double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
                         const optimise::CutQuestion& q) {
   if (p.plan.model.holds<model::PlaneMilling>(step.operation)) return optimise::kFaceDeflectionMm;
   const bool surface = p.plan.model.holds<model::FreeformOperation>(step.operation);
   const double left = surface ? freeform_allowance(p.plan.model, p.steps, step) : job.allowance_side_mm;
-  if (left > 0.0) {
-    const bool hss = q.cutter.substrate == model::Substrate::kHss;
-    const double least = mechanics::least_depth_mm(q.cutter.cutting_diameter_mm, hss, q.material.iso_group);
-    return std::max(0.5 * left, left - least);
-  }
-  const double zone = zone_across(p, step, job, q.width_mm);
-  return zone > 0.0 ? std::max(kLeastDeflection, kWallOfZone * zone) : kFinishDeflection;
+  if (left > 0.0) return bending_in_allowance_mm(left, q.cutter, q.material);
+  return bending_of_last_rough_mm(zone_across(p, step, job, q.width_mm));
 }
 
 /// How much more than its allowance the last step before left on the feature's walls at most, mm: what its
@@ -124,9 +111,7 @@ double left_by_bending_mm(const PlanSoFar& p, const StepDraft& step) {
 
 /// Sets the surface limits of a finishing step: roughness and form error. Roughing steps have none.
 ///
-/// If the wall error can be computed, it is limited to a share of the tolerance. Most of the tip's deflection
-/// is along the wall, or occurs while no tooth touches the wall: it may be as much as one wall may be off at
-/// all, so that the wall is within its tolerance even if it were pushed off by all of it.
+/// If the wall error can be computed, it is limited to a share of the tolerance (tip_beside_wall_mm).
 void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
                   optimise::CutQuestion& q) {
   const Model& m = p.plan.model;
@@ -140,8 +125,7 @@ void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::Pat
   if (q.kind != CutKind::kFinish || wall || !upright || m.holds<model::FreeformFinishMilling>(step.operation))
     return;
   q.wall_error_limit_mm = q.deflection_limit_mm;
-  q.deflection_limit_mm =
-      std::max(kWallOfZone / kDeflectionShare * q.deflection_limit_mm, mechanics::kQuietDeflectionMm);
+  q.deflection_limit_mm = tip_beside_wall_mm(q.wall_error_limit_mm);
 }
 
 /// Largest cutting force that the workholding holds, N; 0: unknown. Applies to milling cuts whose technology
@@ -260,6 +244,32 @@ double engaged_diameter_mm(TypeId operation, const model::Cutter& c, std::option
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
 }
 
+double stated_zone_mm(const model::FeatureShape& s) {
+  double width = 0.0;
+  for (const auto& t : {s.width, s.length, s.diameter}) {
+    if (t.given && t.width() > 0.0) width = width > 0.0 ? std::min(width, t.width()) : t.width();
+  }
+  return width;
+}
+
+double bending_in_allowance_mm(double left_mm, const model::Cutter& c, const model::WorkMaterial& material) {
+  const bool hss = c.substrate == model::Substrate::kHss;
+  const double least = mechanics::least_depth_mm(c.cutting_diameter_mm, hss, material.iso_group);
+  return std::max(0.5 * left_mm, left_mm - least);
+}
+
+double bending_of_last_rough_mm(double zone_mm) {
+  return zone_mm > 0.0 ? std::max(kLeastDeflection, kWallOfZone * zone_mm) : kFinishDeflection;
+}
+
+double bending_of_finish_mm(double zone_mm) {
+  return zone_mm > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone_mm) : kFinishDeflection;
+}
+
+double tip_beside_wall_mm(double wall_error_mm) {
+  return std::max(kWallOfZone / kDeflectionShare * wall_error_mm, mechanics::kQuietDeflectionMm);
+}
+
 bool leaves_terraces(const model::FeatureShape& s) {
   const bool narrows = s.kind == ShapeKind::kHole && s.bottom_diameter_mm > 0.0 &&
                        s.bottom_diameter_mm < s.diameter.nominal_mm - 1e-6;
@@ -334,9 +344,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     // unknown, the usual finishing allowance.
     q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
     if (job.left_on_side_mm) q.width_mm += left_by_bending_mm(p, step);
-    const double zone = zone_across(p, step, job, width_of(job.shape));
-    q.deflection_limit_mm =
-        zone > 0.0 ? std::max(kLeastDeflection, kDeflectionShare * zone) : kFinishDeflection;
+    q.deflection_limit_mm = bending_of_finish_mm(zone_across(p, step, job, width_of(job.shape)));
     // A semi-finishing pass may bend as a rough one: the tolerance is for the next step.
     if (job.allowance_side_mm > 0.0) q.deflection_limit_mm = rough_bending_mm(p, step, job, q);
     // A semi-finishing pass of a surface may bend within the allowance it leaves.

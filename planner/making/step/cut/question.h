@@ -30,8 +30,24 @@ namespace capstan::step {
 [[nodiscard]] double engaged_diameter_mm(model::TypeId operation, const model::Cutter& c,
                                          std::optional<double> depth_mm);
 
-/// True if levels leave terraces on the shape's walls: a slot whose section is not square, a hole that narrows
-/// downwards.
+/// The narrowest zone that the shape's sizes across state, mm; 0: none states one.
+[[nodiscard]] double stated_zone_mm(const model::FeatureShape& shape);
+
+/// What the tip may bend, mm, where the step leaves an allowance: the bent cutter must not reach the finished
+/// wall, and should leave there what the next pass can cut at all, but at least half of it.
+[[nodiscard]] double bending_in_allowance_mm(double left_mm, const model::Cutter& c,
+                                             const model::WorkMaterial& material);
+/// The same of a rough cut that leaves none: what one wall may be off. 0: no zone is known.
+[[nodiscard]] double bending_of_last_rough_mm(double zone_mm);
+/// What a finish may be off by bending, mm: a share of the zone. 0: no zone is known.
+[[nodiscard]] double bending_of_finish_mm(double zone_mm);
+/// What the tip of a finish may bend whose wall error is computed and held to this, mm. Most of the tip's
+/// deflection is along the wall, or occurs while no tooth touches the wall: it may be as much as one wall may
+/// be off at all, so that the wall is within its tolerance even if it were pushed off by all of it.
+[[nodiscard]] double tip_beside_wall_mm(double wall_error_mm);
+
+/// True if levels leave terraces on the shape's walls: a slot whose section is not square, a hole that
+/// narrows downwards.
 [[nodiscard]] bool leaves_terraces(const model::FeatureShape& shape);
 
 }  // namespace capstan::step

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "casebase/casebase.h"
@@ -28,11 +29,12 @@ class CasesTune : public CommandTest {
     ASSERT_TRUE(cases);
     for (const casebase::Case& c : *cases) {
       if (c.from.workingstep == kStep) planned_ = c;
+      if (c.from.workingstep == "SLOT area_rough") other_ = c;
     }
     ASSERT_GT(planned_.predicted.peak_force_n, 0.0);
   }
-  /// A part that was cut as planned, at half of the force and power that planning allows for; three parts an
-  /// edge.
+  /// A part that was cut as planned, at two fifths of the force and power that planning allows for; three
+  /// parts an edge.
   [[nodiscard]] casebase::Case cut(int part, double speed = 1.0, double feed = 1.0) const {
     casebase::Case c = planned_;
     c.origin = casebase::Origin::kMeasured;
@@ -41,8 +43,8 @@ class CasesTune : public CommandTest {
     c.bound.vc_m_min *= speed;
     c.bound.fz_mm *= feed;
     c.observed.time_s = casebase::Figure{.value = planned_.predicted.time_s / speed / feed};
-    c.observed.peak_force_n = casebase::Figure{.value = 0.5 * planned_.predicted.peak_force_n};
-    c.observed.power_w = casebase::Figure{.value = 0.5 * planned_.predicted.power_w * speed};
+    c.observed.peak_force_n = casebase::Figure{.value = 0.4 * planned_.predicted.peak_force_n};
+    c.observed.power_w = casebase::Figure{.value = 0.4 * planned_.predicted.power_w * speed};
     c.observed.verdict = casebase::Verdict::kGood;
     c.from.tool_instance = "E" + std::to_string(part / 3);
     c.from.part = std::to_string(part);
@@ -67,7 +69,7 @@ class CasesTune : public CommandTest {
     for (int i = 0; i < count; ++i) out.push_back(cut(i));
     return out;
   }
-  casebase::Case planned_;
+  casebase::Case planned_, other_;  ///< other_: a second step, whose cases are not near the first
 };
 
 TEST_F(CasesTune, SaysThatTheHandbookHoldsWhereNothingWasCut) {
@@ -107,6 +109,23 @@ TEST_F(CasesTune, NamesACaseThatIsNotHeardAndWhy) {
               HasSubstr("its feed per tooth is 10 times the handbook's; within a factor of 2 is heard"));
   const nlohmann::json step = step_of(run("cases tune base.db plan.json --json").out);
   EXPECT_LE(step["trial"]["planner_load_over_limit"].get<double>(), 1.0 + 1e-9);
+}
+
+TEST_F(CasesTune, DrawsAPictureForEachStepBesideTheFirstsName) {
+  std::vector<casebase::Case> cases = good(3);
+  planned_ = other_;
+  for (const casebase::Case& c : good(3)) cases.push_back(c);
+  keep(cases);
+  std::filesystem::create_directory(folder_ / "a.folder");
+  const Ran ran = run("cases tune base.db plan.json -o a.folder/pic");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(slurp(folder_ / "a.folder" / "pic"), StartsWith("<svg"));
+  EXPECT_THAT(slurp(folder_ / "a.folder" / "pic-2"), StartsWith("<svg"));
+  // The second cannot be written: neither is.
+  std::filesystem::create_directory(folder_ / "b-2.svg");
+  EXPECT_NE(run("cases tune base.db plan.json -o b.svg").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "b.svg"));
+  EXPECT_EQ(run("cases tune base.db plan.json -o c.svg -o d.svg").code, 2);
 }
 
 TEST_F(CasesTune, DoesNotHearACaseOfAnotherMachine) {

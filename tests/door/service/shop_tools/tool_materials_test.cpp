@@ -47,5 +47,15 @@ TEST(OtherToolMaterials, WhatIsNotStatedOrIsTheSameIsNoFinding) {
       found(cutter(Substrate::kHss, "default: assumed"), cutter(Substrate::kCarbide, "stated")).empty());
 }
 
+TEST(OtherToolMaterials, AToolWithoutAPocketIsNamedByItsName) {
+  Cutter planned = cutter(Substrate::kCarbide, "stated");
+  planned.pocket = 0;
+  model::Plan plan;
+  plan.cutters.push_back(planned);
+  const auto f = other_tool_materials(plan, {cutter(Substrate::kHss, "stated")});
+  ASSERT_EQ(f.size(), 1U);
+  EXPECT_TRUE(f[0].message.starts_with("'em10' is of ")) << f[0].message;
+}
+
 }  // namespace
 }  // namespace capstan::service

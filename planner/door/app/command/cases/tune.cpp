@@ -1,12 +1,14 @@
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "casebase/tune/picture.h"
-#include "planner/door/app/command/cases/planned_limits.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
+#include "planner/door/service/outputs.h"
 #include "planner/door/service/reading.h"
+#include "planner/door/service/tuning/planned_limits.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -216,7 +218,7 @@ Result<std::vector<StepAdvice>> advise_steps(const model::Plan& plan, const case
                                              const tune::TuneOptions& options, Job& job) {
   std::vector<StepAdvice> out;
   for (const model::StepResult& step : plan.steps) {
-    auto planned = planned_step(plan, step);
+    auto planned = service::planned_step(plan, step);
     if (!planned) {
       Diagnostic d = planned.error();
       d.severity = Severity::kNote;
@@ -271,31 +273,31 @@ Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase
   return out;
 }
 
-/// A picture of each step of which cases were heard: FILE, or FILE-2.svg and on where there are more.
-Status write_pictures(const std::string& file, const std::vector<StepAdvice>& steps,
-                      const tune::TuneOptions& options) {
-  int number = 0;
+/// A picture of each step of which cases were heard: FILE, or FILE-2.svg and on where there are more. All of
+/// them or none.
+Status write_pictures(const std::filesystem::path& file, const std::vector<StepAdvice>& steps,
+                      const tune::TuneOptions& options, const Job& job) {
+  std::vector<service::Output> pictures;
   for (const StepAdvice& s : steps) {
     if (s.advice.heard == 0) continue;
     const tune::Handbook handbook = tune::handbook_of(s.planned);
     const tune::Setting through = s.advice.trial.at;
-    std::string name = file;
-    if (++number > 1) {
-      const auto dot = file.rfind('.');
-      name = file.substr(0, dot) + '-' + std::to_string(number) +
-             (dot == std::string::npos ? std::string() : file.substr(dot));
+    std::filesystem::path name = file;
+    if (!pictures.empty()) {
+      name.replace_filename(file.stem().string() + '-' + std::to_string(pictures.size() + 1) +
+                            file.extension().string());
     }
-    const std::string picture =
-        tune::picture_of(s.name, s.advice, tune::along(s.evidence, handbook, options, through, false),
-                         tune::along(s.evidence, handbook, options, through, true));
-    if (auto written = write_file(name, picture); !written) return written;
+    pictures.push_back({.path = name.string(),
+                        .bytes = tune::picture_of(
+                            s.name, s.advice, tune::along(s.evidence, handbook, options, through, false),
+                            tune::along(s.evidence, handbook, options, through, true))});
   }
-  if (number == 0) {
+  if (pictures.empty()) {
     return fail(Diagnostic{.code = "CASE-NONE-NEAR",
                            .message = "no measured case is near a step: there is nothing to draw",
                            .hint = "leave -o out"});
   }
-  return {};
+  return service::write_all(pictures, job);
 }
 
 }  // namespace
@@ -326,7 +328,7 @@ int run_cases_tune(Session& s) {
   if (!materials) return s.end(materials.error(), kUnreadable);
   report_faults(s, *base);
   if (!s.options.outputs.empty()) {
-    if (auto drawn = write_pictures(s.options.outputs.front(), steps, options); !drawn)
+    if (auto drawn = write_pictures(s.options.outputs.front(), steps, options, s.job); !drawn)
       return s.end(drawn.error(), kImpossible);
   }
   std::size_t faster = 0, lowered = 0;
