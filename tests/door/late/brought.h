@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -43,6 +44,10 @@ struct Brought {
   std::string table;
   double machining_s = 0.0;
 };
+/// How many tools its table has.
+inline int tools(const Brought& b) {
+  return static_cast<int>(std::count(b.table.begin(), b.table.end(), '\n'));
+}
 inline Brought brought(const std::string& part, pipeline::Format format) {
   Job job;
   pipeline::Inputs in = shop({});

@@ -21,8 +21,6 @@ const Brought& bracket() {
   return kBrought;
 }
 
-int tools(const Brought& b) { return static_cast<int>(std::count(b.table.begin(), b.table.end(), '\n')); }
-
 /// Paths and feeds of two plans, step by step.
 void expect_same_steps(const model::Plan& a, const model::Plan& b) {
   ASSERT_EQ(a.steps.size(), b.steps.size());
