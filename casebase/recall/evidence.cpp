@@ -3,22 +3,18 @@
 #include <algorithm>
 #include <optional>
 
+#include "casebase/record/failing.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::casebase {
 namespace {
-
-/// Flank wear that ends a tool's life, mm: ISO 8688-2:1989, 4.1 (uniform wear of end mills).
-constexpr double kWornMm = 0.3;
-constexpr double kHeavyChatter = 0.5;  // of 0 none, 1 heavy. Default, unsourced
-constexpr double kBroken = 0.5;        // between 0 and 1
 
 double value_of(const std::optional<Figure>& f) { return f ? f->value : 0.0; }
 
 Blame blame_of(const Case& c) {
   Blame out;
   if (value_of(c.observed.wear_mm) >= kWornMm) out.speed = true;
-  if (value_of(c.observed.breakage) > kBroken) out.feed = out.depth = true;
+  if (value_of(c.observed.breakage) >= kBroken) out.feed = out.depth = true;
   if (value_of(c.observed.chatter) >= kHeavyChatter) out.depth = true;
   if (out == Blame{}) out.speed = out.feed = true;
   return out;
