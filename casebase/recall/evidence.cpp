@@ -20,20 +20,26 @@ Blame blame_of(const Case& c) {
   return out;
 }
 
-/// Empty where nothing was observed: two cuts by the same values are two cuts then.
+/// Figures that, equal in two cases, make them one cut though part or time differ. Fewer are often equal: the
+/// times of repeats in whole seconds. Default, unsourced.
+constexpr int kTellsAlone = 3;
+
+/// Empty where nothing was observed: two cuts by the same values are two cuts then. Figures that were
+/// computed are the same for every cut by a plan, and tell of none that was made.
 std::string told_of(const Case& c) {
   const Observed& o = c.observed;
   std::string out;
-  bool any = false;
+  int figures = 0;
   for (const auto* f :
        {&o.time_s, &o.spindle_load_percent, &o.peak_force_n, &o.torque_nm, &o.power_w, &o.size_deviation_mm,
         &o.position_deviation_mm, &o.lag_mm, &o.surface_ra_um, &o.wear_mm}) {
     out += '/';
-    if (!*f) continue;
-    any = true;
+    if (!*f || ((*f)->origin == Origin::kSimulated && c.origin != Origin::kSimulated)) continue;
+    ++figures;
     out += shortest((*f)->value);
   }
-  if (!any) return {};
+  if (figures == 0) return {};
+  if (figures < kTellsAlone) out += '\n' + c.from.part + '\n' + c.from.time_utc;
   for (const double v : {c.bound.vc_m_min, c.bound.fz_mm, c.bound.ap_mm, c.bound.ae_mm, c.asked.diameter_mm,
                          c.asked.depth_mm, c.asked.width_mm, c.asked.cutter_diameter_mm})
     out += '/' + shortest(v);
