@@ -261,13 +261,19 @@ Advice advise(std::vector<Evidence> near, const Values& asked) {
     out.why = "no case is near enough";
     return out;
   }
+  std::set<const Evidence*> doubted;
   for (Evidence& e : near) {
     if (e.verdict != Verdict::kGood || !beyond_belief(e.cut, asked)) continue;
     e.verdict = Verdict::kUnknown;
-    e.told += "/doubted";
-    ++out.doubted;
+    if (!e.told.empty()) e.told += "/doubted";
+    doubted.insert(&e);
   }
   const std::vector<Weighted> all = weighed(near);
+  std::set<std::size_t> doubted_cuts;
+  for (const Weighted& w : all) {
+    if (doubted.contains(w.of)) doubted_cuts.insert(w.cut);
+  }
+  out.doubted = static_cast<int>(doubted_cuts.size());
   out.nearest = all.front().of->distance;
   out.good = cuts(all, Verdict::kGood);
   out.bad = cuts(all, Verdict::kBad);

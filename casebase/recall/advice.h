@@ -35,7 +35,7 @@ struct Advice {
   Values centre;                     ///< of good cuts, before it is held back or lowered
   int good = 0, bad = 0, unjudged = 0;  ///< near cuts, each told once
   int cut_good = 0;                     ///< of the good ones those that were not simulated
-  int doubted = 0;       ///< of the unjudged ones those that are said to have gone well, but too hard
+  int doubted = 0;       ///< of the unjudged ones those that are said to have gone well, but too hard; cuts
   double nearest = 0.0;  ///< distance of the nearest
   double success_asked = kTrustInTable;  ///< probability that the asked values (else the centre) go well
   double success = kTrustInTable;        ///< the same of `start`

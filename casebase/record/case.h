@@ -153,9 +153,9 @@ struct Remark {
   bool operator==(const Remark&) const = default;
 };
 
-/// 32 hexadecimal digits of a SHA-256 (FIPS 180-4). Of a measured or entered case: of everything but the id,
-/// so that equal cases have equal ids. Of a simulated one that names its plan: of the plan's hash, the
-/// workingstep and the question alone, so that one simulation is one case whatever file it came from.
+/// 32 hexadecimal digits of a SHA-256 (FIPS 180-4). Of a measured or entered case: of all but id and verdict,
+/// so that a cut has one id whatever is said of it. Of a simulated one that names its plan: of the plan's
+/// hash, the workingstep and the question alone: one simulation is one case whatever file it came from.
 [[nodiscard]] std::string id_of(const Case& c);
 
 /// Why a case cannot be one (a number that is not finite, beyond what any machine does, an unknown word);

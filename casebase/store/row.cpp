@@ -1,8 +1,13 @@
 #include "casebase/store/row.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <variant>
 
 #include "casebase/record/bytes.h"
+#include "casebase/record/fields.h"
 #include "planner/ground/base/file.h"
 
 namespace capstan::casebase {
@@ -28,6 +33,23 @@ std::optional<std::string_view> opened(std::string_view bytes, std::uint64_t see
   Bytes seal(bytes.substr(text.size()));
   if (seal.integer<std::uint64_t>() != sum_of(text, seed).low) return std::nullopt;
   return text;
+}
+/// Whether a question without fault may have this key: each known number is finite, above zero and within the
+/// limits of its field, teeth and coolant are whole. The dimensions stand in the order of the question's
+/// numbers, from the diameter on; coolant is the last.
+bool can_be(const Key& key) {
+  const auto fields = question_fields();
+  const auto first =
+      std::find_if(fields.begin(), fields.end(), [](const Field& f) { return f.name == "diameter_mm"; });
+  for (std::size_t i = 0; i < kDimensions; ++i) {
+    if ((key.known >> i & 1U) == 0) continue;
+    const Field& field = *(first + static_cast<std::ptrdiff_t>(i));
+    const bool word = i + 1 == kDimensions;
+    const double v = key.raw[i];
+    if (!(v > 0.0 && v <= (word ? static_cast<double>(Coolant::kThrough) : field.high))) return false;
+    if ((word || std::holds_alternative<CountAt>(field.at)) && v != std::floor(v)) return false;
+  }
+  return true;
 }
 std::string sealed(std::string text, std::uint64_t seed) {
   put(text, sum_of(text, seed).low);
@@ -91,6 +113,7 @@ std::optional<Head> head_of(std::string_view bytes, std::int64_t number) {
     for (std::size_t i = 0; i < kDimensions; ++i) {
       if ((head.key.known >> i & 1U) != 0) head.key.raw[i] = from.number();
     }
+    if (!can_be(head.key)) return std::nullopt;
   }
   if (!from.good() || !from.at_end()) return std::nullopt;
   return head;

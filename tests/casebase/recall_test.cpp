@@ -133,6 +133,42 @@ TEST_F(Recall, SeesPastAThousandCopiesOfOneCase) {
   EXPECT_EQ(a.start.vc_m_min, 30.0);
 }
 
+TEST_F(Recall, PartsWithOneLoggedTimeAreAsManyCuts) {
+  std::vector<Case> all;
+  for (int i = 0; i < 12; ++i) {
+    all.push_back(sample());
+    all.back().from.part = "part " + std::to_string(i);
+    all.back().observed.time_s = Figure{6.0};  // in whole seconds
+  }
+  keep(all);
+  EXPECT_EQ(advised(sample().asked).good, 12);
+}
+
+TEST_F(Recall, CopiesWithThreeEqualFiguresAreOneCutWhateverTheirParts) {
+  std::vector<Case> all;
+  for (int i = 0; i < 12; ++i) {
+    all.push_back(sample());
+    all.back().from.part = "part " + std::to_string(i);
+    all.back().observed.peak_force_n = Figure{312.7};
+    all.back().observed.power_w = Figure{418.2};
+  }
+  keep(all);
+  EXPECT_EQ(advised(sample().asked).good, 1);
+}
+
+TEST_F(Recall, ComputedFiguresMakeNoTwoCutsOne) {
+  std::vector<Case> all;
+  for (int i = 0; i < 4; ++i) {
+    all.push_back(sample());
+    all.back().from.part = "part " + std::to_string(i);
+    for (auto* f :
+         {&all.back().observed.peak_force_n, &all.back().observed.power_w, &all.back().observed.torque_nm})
+      *f = Figure{312.7, 0.0, Origin::kSimulated};
+  }
+  keep(all);
+  EXPECT_EQ(advised(sample().asked).good, 4);
+}
+
 TEST_F(Recall, MatchesEveryCategoryExactly) {
   keep({sample()});
   for (std::string Question::*const category :

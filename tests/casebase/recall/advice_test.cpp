@@ -142,6 +142,17 @@ TEST(Advice, TenTimesTheFeedThatWentWellIsNotBelieved) {
   EXPECT_EQ(advise(bad + std::vector(1, poison), kTable).start, advise(bad, kTable).start);
 }
 
+TEST(Advice, CutsThatAreNotBelievedAreCountedEachOnceAndApart) {
+  // Without observations two cuts by equal values are two.
+  std::vector<Evidence> wild = cuts(3, Verdict::kGood, 10.0);
+  EXPECT_EQ(advise(wild, kTable).unjudged, 3);
+  EXPECT_EQ(advise(wild, kTable).doubted, 3);
+  // Copies of one are one.
+  for (Evidence& e : wild) e.told = "12.5 s";
+  EXPECT_EQ(advise(wild, kTable).unjudged, 1);
+  EXPECT_EQ(advise(wild, kTable).doubted, 1);
+}
+
 TEST(Advice, FasterThanTheTableTakesRepeatsAndIsBounded) {
   EXPECT_EQ(advise(cuts(2, Verdict::kGood, 1.2), kTable).start, kTable);
   EXPECT_NEAR(advise(cuts(3, Verdict::kGood, 1.2), kTable).start.vc_m_min, 1.2 * kTable.vc_m_min, 1e-9);

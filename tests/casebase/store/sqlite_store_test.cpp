@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -183,6 +184,27 @@ TEST(CaseStore, BelievesNoForgedRowBeyondTheLimits) {
   const auto base = CaseBase::open(folder.file(), job);
   EXPECT_EQ(base->cases(), std::vector<Case>{sample()});
   EXPECT_THAT(base->take_faults().at(0).message, HasSubstr("1/min"));
+}
+
+TEST(CaseStore, BelievesNoForgedHeadOfANumberThatNoQuestionHas) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const auto read_back = [](std::size_t dimension, double number) {
+    const std::string categories = categories_of(sample().asked);
+    Head head;
+    head.categories = categories;
+    head.key = key_of(sample().asked);
+    head.key.raw.at(dimension) = number;
+    head.key.known = static_cast<std::uint16_t>(head.key.known | (1U << dimension));
+    return head_of(bytes_of(head, 1), 1).has_value();
+  };
+  constexpr std::size_t kTeeth = 6, kCoolant = 9;
+  for (std::size_t i = 0; i < kDimensions; ++i) {
+    EXPECT_TRUE(read_back(i, 1.0)) << i;
+    for (const double number : {kNan, kInfinite, 0.0, -1.0, 1e300}) EXPECT_FALSE(read_back(i, number)) << i;
+  }
+  EXPECT_FALSE(read_back(kTeeth, 2.5));
+  EXPECT_FALSE(read_back(kCoolant, 5.0));
 }
 
 TEST(CaseStore, NoticesThatRowsAreGone) {

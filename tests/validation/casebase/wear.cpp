@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "casebase/record/failing.h"
 #include "casebase/tune/corrections.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
@@ -11,7 +12,7 @@
 namespace capstan::validation {
 namespace {
 
-constexpr double kWorn_mm = 0.3;    // flank wear at which an edge is worn out
+constexpr double kWorn_mm = casebase::kWornMm;
 constexpr double kFeed0_mm = 0.5;   // the feed and
 constexpr double kDepth0_mm = 1.5;  // depth that the law is centred on
 constexpr std::size_t kTerms = 4;   // life, feed, depth, steel

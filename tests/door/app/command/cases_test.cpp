@@ -49,6 +49,20 @@ TEST_F(Cases, AreJudgedAndShownWithWhoSaidSo) {
   EXPECT_THAT(run("cases list base.db good").out, HasSubstr("no case"));
 }
 
+TEST_F(Cases, ThatAreAddedWithAnotherVerdictAreNamed) {
+  const std::string id = first();
+  ASSERT_EQ(run("cases judge base.db " + id + " --verdict good --by Smith --reason measured").code, 0);
+  put("good.csv", run("cases export base.db").out);
+  EXPECT_THAT(run("cases add base.db good.csv").err, Not(HasSubstr("CASE-VERDICT")));
+  ASSERT_EQ(run("cases judge base.db " + id + " --verdict bad --by Smith --reason chatter").code, 0);
+  const Ran again = run("cases add base.db good.csv");
+  EXPECT_THAT(again.err, HasSubstr(", 0 of them new"));
+  EXPECT_THAT(again.err, HasSubstr("1 case is there already with another verdict, which stays: " +
+                                   id.substr(0, 12) + " (bad, now good)"));
+  EXPECT_THAT(again.err, HasSubstr("CASE-VERDICT"));
+  EXPECT_THAT(run("cases list base.db bad").out, HasSubstr(id.substr(0, 12)));
+}
+
 TEST_F(Cases, ThatAreRemovedStayAway) {
   const std::string id = first();
   EXPECT_EQ(run("cases remove base.db " + id + " --by Smith --reason 'wrong machine'").code, 0);

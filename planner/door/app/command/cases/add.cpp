@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "casebase/casebase.h"
 #include "planner/door/app/command/cases/shared.h"
@@ -28,6 +31,35 @@ Result<std::vector<casebase::Case>> cases_of(const std::string& path, Job& job) 
   return casebase::cases_of(*plan, job);
 }
 
+/// Cases that are there already with another verdict, which adding does not change: by id, with both
+/// verdicts. A case that says nothing contradicts nothing.
+std::vector<std::string> judged_otherwise(const casebase::CaseBase& base,
+                                          const std::vector<casebase::Case>& cases) {
+  std::vector<std::string> out;
+  for (const casebase::Case& c : cases) {
+    if (c.observed.verdict == casebase::Verdict::kUnknown) continue;
+    const auto there = base.get(casebase::id_of(c));
+    if (!there || there->observed.verdict == c.observed.verdict) continue;
+    out.push_back(there->id.substr(0, 12) + " (" + std::string(to_text(there->observed.verdict)) + ", now " +
+                  std::string(to_text(c.observed.verdict)) + ')');
+  }
+  return out;
+}
+
+void tell_judged_otherwise(const std::vector<std::string>& ids, const std::string& base, Job& job) {
+  constexpr std::size_t kNamed = 5;
+  if (ids.empty()) return;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, ids.size()); ++i) text += (i == 0 ? "" : ", ") + ids[i];
+  if (ids.size() > kNamed) text += " and " + std::to_string(ids.size() - kNamed) + " more";
+  job.report({.code = "CASE-VERDICT",
+              .severity = Severity::kWarning,
+              .message = counted(ids.size(), "case is", "cases are") +
+                         " there already with another verdict, which stays: " + text,
+              .file = base,
+              .hint = "give another verdict by capstan cases judge"});
+}
+
 }  // namespace
 
 int run_cases_add(Session& s) {
@@ -39,9 +71,11 @@ int run_cases_add(Session& s) {
   }
   auto base = casebase::CaseBase::open_or_create(*s.options.inputs.cases, s.job);
   if (!base) return s.end(base.error(), kUnreadable);
+  const std::vector<std::string> otherwise = judged_otherwise(*base, cases);
   const std::size_t before = base->size();
   if (auto ok = base->add(cases); !ok) return s.end(ok.error(), kImpossible);
   report_faults(s, *base);
+  tell_judged_otherwise(otherwise, casebase::name_of(*s.options.inputs.cases), s.job);
   s.summary = "read " + counted(cases.size(), "case", "cases") + ", " +
               std::to_string(base->size() - before) + " of them new; the base holds " +
               counted(base->size(), "case", "cases");
