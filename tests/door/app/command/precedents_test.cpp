@@ -5,6 +5,7 @@
 
 #include "casebase/casebase.h"
 #include "planner/door/service/reading.h"
+#include "tests/casebase/sample.h"
 #include "tests/door/app/command/command.h"
 #include "tests/door/app/plans.h"
 #include "tests/support/corpus.h"
@@ -102,6 +103,18 @@ TEST_F(Precedents, PoisonThatIsRepeatedStaysBelowTheBoundAndTheCheck) {
         c.bound.vc_m_min *= 2.5;
       }));
   EXPECT_FALSE(program("poison.db").empty());  // and its check is clean
+}
+
+TEST_F(Precedents, ARowThatWasAlteredIsNamedByPlanning) {
+  add("shop.db", cut(3, Verdict::kBad));
+  casebase::tamper((folder_ / "shop.db").string(), "UPDATE capstan_body SET body = x'00'");
+  EXPECT_EQ(program("shop.db"), plain());
+  EXPECT_THAT(last_.err, HasSubstr("it was altered [CASE-ROW]"));
+  std::size_t told = 0;
+  for (std::size_t at = last_.err.find("is left out"); at != std::string::npos;
+       at = last_.err.find("is left out", at + 1))
+    ++told;
+  EXPECT_EQ(told, 3 * planned_.size());  // each once
 }
 
 TEST_F(Precedents, ACaseOfAnotherMachineCountsNothing) {
