@@ -82,7 +82,7 @@ TEST_F(PostgresStore, IsReadWhereItMayNotBeWritten) {
   Job job;
   auto base = CaseBase::open_or_create(place_->uri(), job);
   ASSERT_TRUE(base.has_value()) << to_text(base.error());
-  EXPECT_TRUE(base->recall(sample().asked).has_value());
+  EXPECT_TRUE(base->nearest(sample().asked, 1).has_value());
   EXPECT_EQ(base->add(sample(11.0)).error().code, "CASE-READ-ONLY");
 }
 
