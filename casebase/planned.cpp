@@ -1,10 +1,11 @@
+#include "casebase/planned.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "casebase/casebase.h"
 #include "casebase/record/sha256.h"
 #include "planner/model/features/quality.h"
 #include "planner/model/nouns/executable.h"
@@ -91,6 +92,24 @@ Question question_of(model::TypeId operation, const model::WorkMaterial& materia
   q.stick_out_mm = cutter.stick_out_mm;
   q.hardness_hb = material.hardness_hb;
   return q;
+}
+
+Question question_of(const model::Plan& plan, const OfStep& step, const model::Cutter& cutter,
+                     const Sizes& sizes) {
+  Question q = question_of(step.operation, plan.material, cutter, plan.machine, sizes);
+  q.coolant = step.coolant;
+  if (!step.feature.set()) return q;
+  const model::Ref<model::ManufacturingFeature> feature(step.feature);
+  q.feature = keyword(model::noun_type(step.feature.type).keyword);
+  q.asked_ra_um = std::max(0.0, model::quality_of(plan.model, feature).ra_um.value_or(0.0));
+  return q;
+}
+
+Coolant coolant_of(const model::StepResult& step) {
+  return step.through ? Coolant::kThrough
+         : step.flood ? Coolant::kFlood
+         : step.mist  ? Coolant::kMist
+                      : Coolant::kDry;
 }
 
 namespace {
@@ -192,13 +211,6 @@ void take_allowances(const model::Plan& plan, model::AnyRef operation, Bound& b)
     b.allowance_bottom_mm = std::max(0.0, plane->allowance_bottom.value_or(0.0));
 }
 
-Coolant coolant_of(const model::StepResult& step) {
-  return step.through ? Coolant::kThrough
-         : step.flood ? Coolant::kFlood
-         : step.mist  ? Coolant::kMist
-                      : Coolant::kDry;
-}
-
 /// A number as it is the same in every form of a file: to nine digits.
 std::string digits(double v) { return fmt::format("{:.8e}", v + 0.0); }
 
@@ -234,12 +246,7 @@ Result<Case> made(const model::Plan& plan, const model::StepResult& step, const 
 
   Case c;
   c.origin = Origin::kSimulated;
-  c.asked = question_of(ws->its_operation.type, plan.material, *cutter, plan.machine, asked);
-  c.asked.coolant = coolant_of(step);
-  if (ws->its_feature.set()) {
-    c.asked.feature = keyword(model::noun_type(model::AnyRef(ws->its_feature).type).keyword);
-    c.asked.asked_ra_um = std::max(0.0, model::quality_of(plan.model, ws->its_feature).ra_um.value_or(0.0));
-  }
+  c.asked = question_of(plan, {ws->its_operation.type, ws->its_feature, coolant_of(step)}, *cutter, asked);
   c.bound.vc_m_min = step.vc_m_min;
   c.bound.fz_mm = step.fz_mm;
   c.bound.ap_mm = step.axial_depth_mm;

@@ -254,7 +254,7 @@ double success_of(const std::vector<Evidence>& near, const Values& values) {
   return success(weighed(near), values);
 }
 
-Advice advise(std::vector<Evidence> near, const Values& asked) {
+Advice advise(std::vector<Evidence> near, const Values& asked, double least_fz_mm) {
   Advice out;
   out.start = asked;
   if (near.empty()) {
@@ -291,6 +291,7 @@ Advice advise(std::vector<Evidence> near, const Values& asked) {
       out.held_back = out.held_back || out.centre.*v > most;
       out.start.*v = std::min(out.centre.*v, most);
     }
+    out.start.fz_mm = std::max(out.start.fz_mm, least_fz_mm);
   }
   Values start = out.start;
   out.success_asked = success(all, open ? start : asked);

@@ -72,7 +72,9 @@ inline constexpr double kLeastSuccess = 0.75;
 /// what is asked counts as one without a verdict.
 ///
 /// Determinism  the same for any order of the cases. Neither their time nor their number in the base counts.
-[[nodiscard]] Advice advise(std::vector<Evidence> near, const Values& asked);
+///
+/// least_fz_mm   Good cuts start no lower; failed ones may still lower it. 0: no such bound.
+[[nodiscard]] Advice advise(std::vector<Evidence> near, const Values& asked, double least_fz_mm = 0.0);
 
 /// The probability that values go well, by these cases: what `advise` computes with. Falls, or stays, where
 /// any of the values rises.

@@ -10,11 +10,11 @@ constexpr std::size_t kMostLookedAt = 1U << 14U;
 
 }  // namespace
 
-std::vector<Evidence> evidence_near(const CaseBase& base, const Question& question) {
+Result<std::vector<Evidence>> evidence_near(const CaseBase& base, const Question& question) {
   std::vector<Evidence> out;
   for (std::size_t k = kNearAsked; k <= kMostLookedAt; k *= 4) {
     const auto near = base.nearest(question, k);
-    if (!near) return {};
+    if (!near) return tl::unexpected(near.error());
     out.clear();
     bool all = near->size() < k;
     for (const Neighbour& n : *near) {

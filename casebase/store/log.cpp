@@ -322,6 +322,7 @@ std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (out[i]) continue;
     shared_->damaged = true;
+    if (!shared_->told.insert(wanted[i]).second) continue;
     shared_->faults.push_back(
         {.code = "CASE-ROW",
          .severity = Severity::kWarning,
@@ -345,6 +346,7 @@ std::optional<Remark> Log::remark(const Note& note) const {
 std::vector<Diagnostic> Log::take_faults() const {
   const std::lock_guard lock(shared_->mutex);
   std::vector<Diagnostic> out = std::exchange(shared_->faults, {});
+  shared_->told.clear();
   for (Diagnostic& d : store_->take_told()) out.push_back(std::move(d));
   return out;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -82,7 +83,7 @@ class Log {
   [[nodiscard]] std::vector<std::optional<Case>> load(std::span<const std::uint32_t> entries) const;
   /// The remark of a note; nothing when it is not what was stored.
   [[nodiscard]] std::optional<Remark> remark(const Note& note) const;
-  /// What `load` found altered or gone since this was asked last.
+  /// What `load` found altered or gone since this was asked last, each row once.
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 
  private:
@@ -90,6 +91,7 @@ class Log {
     std::mutex indexing;  // of `by_id_`
     std::mutex mutex;     // of the store, and of what follows
     std::vector<Diagnostic> faults;
+    std::set<std::uint32_t> told;  // entries that `faults` speaks of
     bool damaged = false;
   };
   explicit Log(std::unique_ptr<Store> store)

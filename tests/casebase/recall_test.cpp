@@ -5,6 +5,7 @@
 
 #include "casebase/index/index.h"
 #include "casebase/key/normalisation.h"
+#include "casebase/planned.h"
 #include "casebase/record/sha256.h"
 #include "planner/model/nouns/all.h"
 #include "tests/casebase/sample.h"
@@ -16,7 +17,9 @@ class Recall : public testing::Test {
  protected:
   void keep(std::vector<Case> cases) { ASSERT_TRUE(base_.add(cases).has_value()); }
   /// What the base says where nothing else says where to start.
-  [[nodiscard]] Advice advised(const Question& q) const { return advise(evidence_near(base_, q), {}); }
+  [[nodiscard]] Advice advised(const Question& q) const {
+    return advise(evidence_near(base_, q).value(), {});
+  }
   Folder folder_;
   Job job_;
   CaseBase base_ = CaseBase::open_or_create(folder_.file(), job_).value();
@@ -111,7 +114,7 @@ TEST_F(Recall, TakesTheFeedOfALargerCutterByItsDiameter) {
   const auto of = [&](double diameter_mm) {
     Question q = sample().asked;
     q.cutter_diameter_mm = diameter_mm;
-    return evidence_near(base_, q).front().cut.fz_mm;
+    return evidence_near(base_, q)->front().cut.fz_mm;
   };
   EXPECT_DOUBLE_EQ(of(8.0), 0.08);
   EXPECT_DOUBLE_EQ(of(10.0), 0.1);
@@ -212,7 +215,7 @@ TEST_F(Recall, RefusesAQuestionThatCannotBe) {
   Question q = sample().asked;
   q.depth_mm = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(base_.nearest(q, 1).error().code, "CASE-INVALID");
-  EXPECT_FALSE(advised(q).any());
+  EXPECT_EQ(evidence_near(base_, q).error().code, "CASE-INVALID");
   q.depth_mm = -1.0;
   EXPECT_EQ(base_.nearest(q, 1).error().code, "CASE-INVALID");
 }
@@ -293,7 +296,25 @@ TEST(Retain, MakesASimulatedCaseThatTheSameQuestionFinds) {
   Job job;
   auto base = CaseBase::open_or_create(folder.file(), job).value();
   ASSERT_TRUE(base.add(*c).has_value());
-  EXPECT_EQ(evidence_near(base, c->asked).front().id, c->id);
+  EXPECT_EQ(evidence_near(base, c->asked)->front().id, c->id);
+}
+
+TEST(Retain, AsksWithTheCoolantThatItKeeps) {
+  const Planned p;
+  const Sizes sizes{.diameter_mm = 10.0, .depth_mm = 20.0};
+  const auto c = case_of(p.plan, p.plan.steps[0], sizes);
+  ASSERT_TRUE(c.has_value()) << to_text(c.error());
+  const auto& ws = *p.plan.model.get<model::MachiningWorkingstep>(p.plan.steps[0].step);
+  const auto asked = [&](Coolant coolant) {
+    return question_of(p.plan, {ws.its_operation.type, ws.its_feature, coolant}, p.plan.cutters[0], sizes);
+  };
+  EXPECT_EQ(asked(coolant_of(p.plan.steps[0])), c->asked);
+  const Folder folder;
+  Job job;
+  auto base = CaseBase::open_or_create(folder.file(), job).value();
+  ASSERT_TRUE(base.add(*c).has_value());
+  EXPECT_EQ(base.nearest(asked(Coolant::kFlood), 1)->front().distance, 0.0);
+  EXPECT_GT(base.nearest(asked(Coolant::kDry), 1)->front().distance, 0.0);
 }
 
 TEST(Retain, RefusesAStepWithoutACutter) {

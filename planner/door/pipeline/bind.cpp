@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "casebase/casebase.h"
 #include "planner/controls/controls.h"
 #include "planner/door/pipeline/checked.h"
 #include "planner/door/pipeline/profit.h"
@@ -303,6 +304,11 @@ Diagnostic stopped_planning(const model::Plan& plan) {
           .file = plan.file_name};
 }
 
+void tell_altered_cases(const Inputs& inputs, Job& job) {
+  if (!inputs.cases) return;
+  for (Diagnostic& d : inputs.cases->take_faults()) job.report(std::move(d));
+}
+
 Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                 Tries& tries, Job& job) {
   if (!tries.memo) tries.memo = inputs.memo ? inputs.memo : std::make_shared<memo::Memo>();
@@ -336,6 +342,7 @@ Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& p
   Tries tries;
   auto out = bind_within(plan, inputs, policy, tries, job);
   if (out) tell_tries(tries, job);
+  tell_altered_cases(inputs, job);
   return out;
 }
 

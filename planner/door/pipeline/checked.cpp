@@ -225,9 +225,11 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
 
 Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                              const Anew& anew) {
-  return stoppable(
+  auto out = stoppable(
       job, [&] { return bind_anew(plan, inputs, policy, job, anew); },
       [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });
+  tell_altered_cases(inputs, job);
+  return out;
 }
 
 }  // namespace capstan::pipeline

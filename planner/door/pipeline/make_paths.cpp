@@ -438,7 +438,7 @@ class PathMaker {
     r.path_deviation_mm = r.contour_tolerance_mm = deviation.mm;
     step::record_path(plan_, steps_, step, tried.path, deviation.why);
     step::keep(plan_, p_.recorded, step, std::move(r), tried.asked, job_);
-    step::tell_cases(plan_, p_, step, made, cuts_, told_, job_);
+    step::tell_cases(plan_, p_, step, made, tried.asked, cuts_, told_, job_);
     return {};
   }
 

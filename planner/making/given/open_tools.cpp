@@ -165,7 +165,7 @@ bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& us
   wanted.used = used;
   auto s = tooling::select(*requirement, choice.usable, plan.material, plan.machine, wanted);
   if (!step.shapes.empty())
-    step::weigh_by_cases(choice.cases, plan, step.operation.type, step.shapes.front(), s);
+    step::weigh_by_cases(choice.cases, plan, step::of_step(plan.model, step), step.shapes.front(), s);
   if (s.ranked.empty()) {
     if (auto lacks = tooling::needed_cutter(*requirement, plan.material, plan.machine, wanted))
       needed.push_back({step.feature, draft::name_of(plan.model, step), std::move(lacks->cutter),

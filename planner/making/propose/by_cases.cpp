@@ -8,6 +8,7 @@
 #include "casebase/recall/advice.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/propose/members.h"
+#include "planner/making/propose/operation_nouns.h"
 #include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/preferences.h"
 #include "tooling/selection/select.h"
@@ -26,7 +27,8 @@ struct Judged {
   std::string words;
 };
 
-Judged judge(const Choice& choice, std::vector<model::ProposedStep> chain, const model::FeatureShape& shape) {
+Judged judge(const Choice& choice, std::vector<model::ProposedStep> chain, model::AnyRef feature,
+             const model::FeatureShape& shape) {
   Judged out{std::move(chain), Known::kNothing, {}};
   const model::Plan& plan = choice.piece.plan;
   std::vector<model::Selection> tools;
@@ -35,12 +37,12 @@ Judged judge(const Choice& choice, std::vector<model::ProposedStep> chain, const
     const model::ProposedStep step = as_opened(out.chain, i, tools);
     const auto wanted = step::preferences_of(choice.piece, choice.batch, step, shape);
     auto s = tooling::select(step.tool, choice.usable, plan.material, plan.machine, wanted);
-    step::weigh_by_cases(choice.cases, plan, step.operation, shape, s);
+    const casebase::OfStep of{step.operation, feature, coolant_of(plan.machine, step)};
+    step::weigh_by_cases(choice.cases, plan, of, shape, s);
     tools.push_back(std::move(s));
     if (step.operation == model::TypeId::kWorkpieceProbing) continue;
     if (tools.back().ranked.empty()) return out;
-    const auto e =
-        step::experience_with(*choice.cases, plan, step.operation, shape, tools.back().ranked.front());
+    const auto e = step::experience_with(*choice.cases, plan, of, shape, tools.back().ranked.front());
     if (e.bad >= casebase::kRepeats && e.success < kLikelierToFail) {
       out.known = Known::kFailed;
       out.words = step.name + " " + trimmed(100.0 * e.success, 0) + " % likely to go well: " + e.words;
@@ -55,10 +57,11 @@ Judged judge(const Choice& choice, std::vector<model::ProposedStep> chain, const
 
 }  // namespace
 
-model::Proposal by_cases(const Choice& choice, model::Proposal proposal, const model::FeatureShape& shape) {
+model::Proposal by_cases(const Choice& choice, model::Proposal proposal, model::AnyRef feature,
+                         const model::FeatureShape& shape) {
   if (choice.cases == nullptr || proposal.chains.size() < 2) return proposal;
   std::vector<Judged> all;
-  for (auto& chain : proposal.chains) all.push_back(judge(choice, std::move(chain), shape));
+  for (auto& chain : proposal.chains) all.push_back(judge(choice, std::move(chain), feature, shape));
   const std::string was_first = draft::key_of(all.front().chain);
   std::stable_sort(all.begin(), all.end(),
                    [](const Judged& a, const Judged& b) { return a.known < b.known; });
@@ -70,9 +73,11 @@ model::Proposal by_cases(const Choice& choice, model::Proposal proposal, const m
   proposal.chains.clear();
   for (Judged& j : all) {
     proposal.failed_before += j.known == Known::kFailed ? 1 : 0;
+    const bool fell = &j != &first && draft::key_of(j.chain) == was_first;
     if (j.known == Known::kFailed)
       proposal.rejected.push_back(
-          {chain_text(j.chain, shape), "put last, for it went badly before: " + j.words});
+          {chain_text(j.chain, shape),
+           (fell ? std::string(step::kFirstFailed) : "put last, for it went badly before: ") + j.words});
     proposal.chains.push_back(std::move(j.chain));
   }
   return proposal;

@@ -10,8 +10,8 @@ namespace capstan::propose {
 /// those all of whose cuts went well before, at least casebase::kRepeats times each, then those of which
 /// nothing is known, in the rules' order; last those with a cut that failed as often and is likelier to fail
 /// than not. A chain that changed its place says so: the first in the reason of its steps, a failed one in
-/// `rejected`.
-[[nodiscard]] model::Proposal by_cases(const Choice& choice, model::Proposal proposal,
+/// `rejected`, the rules' first choice by step::kFirstFailed. `feature`: as the workingsteps name it.
+[[nodiscard]] model::Proposal by_cases(const Choice& choice, model::Proposal proposal, model::AnyRef feature,
                                        const model::FeatureShape& shape);
 
 }  // namespace capstan::propose

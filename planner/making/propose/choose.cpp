@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/making/propose/members.h"
+#include "planner/making/propose/operation_nouns.h"
 #include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/preferences.h"
 #include "planner/making/step/cut/question.h"
@@ -141,7 +142,8 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
     wanted.used = used;
     if (i > 0) take_what_is_left(chain[i - 1], step, wanted);
     auto s = tooling::select(step.tool, choice.usable, plan.material, plan.machine, wanted);
-    step::weigh_by_cases(choice.cases, plan, step.operation, shape, s);
+    const casebase::OfStep of{step.operation, member.feature, coolant_of(plan.machine, step)};
+    step::weigh_by_cases(choice.cases, plan, of, shape, s);
     if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
       tools.push_back(std::move(s));
       continue;

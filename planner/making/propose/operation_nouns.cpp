@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "casebase/planned.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/step/cut/preferences.h"
@@ -220,6 +221,15 @@ Ref<model::MachiningWorkingstep> add_nouns(model::Plan& plan, const model::Propo
       op, "retract_plane", Binder::kDefault,
       {"default.retract_plane", trimmed(kRetract, 3) + " mm above the raw piece", "default, unsourced"});
   return made;
+}
+
+casebase::Coolant coolant_of(const model::Machine& machine, const model::ProposedStep& step) {
+  const Coolant c = coolant_on(machine, step);
+  model::StepResult step_with;
+  step_with.flood = c.flood;
+  step_with.mist = c.mist;
+  step_with.through = c.through;
+  return casebase::coolant_of(step_with);
 }
 
 }  // namespace capstan::propose

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "casebase/record/case.h"
 #include "planner/ground/base/job.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/plan/plan.h"
@@ -15,5 +16,8 @@ namespace capstan::propose {
     model::Plan& plan, const model::ProposedStep& step, const model::Candidate& tool,
     const model::FeatureShape& shape, std::vector<model::Rejected> rejected_chains,
     std::vector<model::Rejected> rejected_tools, Job& job);
+
+/// What the step will be cut with on this machine.
+[[nodiscard]] casebase::Coolant coolant_of(const model::Machine& machine, const model::ProposedStep& step);
 
 }  // namespace capstan::propose

@@ -363,7 +363,7 @@ class Proposer {
       return {};
     }
     const model::Proposal p =
-        by_cases(choice_, piece::without_drills_at_edges(choice_.piece, given, proposed), given);
+        by_cases(choice_, piece::without_drills_at_edges(choice_.piece, given, proposed), f, given);
     if (p.chains.empty() && !proposed.chains.empty()) {
       fail_member(f, given, p.rejected.back().why);
       return {};

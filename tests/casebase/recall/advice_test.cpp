@@ -153,6 +153,15 @@ TEST(Advice, CutsThatAreNotBelievedAreCountedEachOnceAndApart) {
   EXPECT_EQ(advise(wild, kTable).doubted, 1);
 }
 
+TEST(Advice, GoodCutsStartNoLowerThanTheLeastFeedAndFailedOnesMay) {
+  const auto gentle = cuts(12, Verdict::kGood, 0.4);
+  EXPECT_DOUBLE_EQ(advise(gentle, kTable).start.fz_mm, 0.4 * kTable.fz_mm);
+  EXPECT_EQ(advise(gentle, kTable, kTable.fz_mm).start.fz_mm, kTable.fz_mm);
+  auto bad = cuts(13, Verdict::kBad, 0.4);  // slow, too, but with the table's feed
+  for (Evidence& e : bad) e.cut.fz_mm = kTable.fz_mm;
+  EXPECT_LT(advise(gentle + bad, kTable, kTable.fz_mm).start.fz_mm, kTable.fz_mm);
+}
+
 TEST(Advice, FasterThanTheTableTakesRepeatsAndIsBounded) {
   EXPECT_EQ(advise(cuts(2, Verdict::kGood, 1.2), kTable).start, kTable);
   EXPECT_NEAR(advise(cuts(3, Verdict::kGood, 1.2), kTable).start.vc_m_min, 1.2 * kTable.vc_m_min, 1e-9);

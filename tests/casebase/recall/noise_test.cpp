@@ -84,7 +84,7 @@ TEST(RecallPropertyOfNoise, OneWrongCaseInTenLeavesPrecedentsAndTheirSpeed) {
   for (int i = 0; i < kQueries; ++i) {
     const Question q = shop.question();
     const Values law = Shop::law(q);
-    const auto near = evidence_near(base, q);
+    const auto near = evidence_near(base, q).value();
     const Advice a = advise(near, {});
     const auto off = [&](const Values& v) {
       return std::max(std::abs(v.vc_m_min / law.vc_m_min - 1.0), std::abs(v.fz_mm / law.fz_mm - 1.0));

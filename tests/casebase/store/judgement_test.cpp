@@ -32,7 +32,7 @@ TEST_F(Judgement, SupersedesTheVerdictAndKeepsTheId) {
     const Case c = base->get(ids[0]).value();
     EXPECT_EQ(c.observed.verdict, Verdict::kBad);
     EXPECT_EQ(c.id, sample().id);
-    EXPECT_FALSE(advise(evidence_near(*base, sample().asked), {}).leads);
+    EXPECT_FALSE(advise(evidence_near(*base, sample().asked).value(), {}).leads);
     const auto said = base->said_of(ids[0]);
     ASSERT_EQ(said.size(), 1u);
     EXPECT_EQ(said[0].verdict, Verdict::kBad);

@@ -157,7 +157,7 @@ TEST(CaseStore, LeavesOutAndNamesARowWhoseBodyWasAlteredWhenItIsUsed) {
     Job job;
     auto base = CaseBase::open(folder.file(), job);
     ASSERT_TRUE(base.has_value()) << to_text(base.error());
-    EXPECT_TRUE(evidence_near(*base, sample(10.0).asked).empty());
+    EXPECT_TRUE(evidence_near(*base, sample(10.0).asked)->empty());
     const auto faults = base->take_faults();
     ASSERT_EQ(faults.size(), 1u);
     EXPECT_EQ(faults[0].code, "CASE-ROW");
@@ -205,6 +205,16 @@ TEST(CaseStore, BelievesNoForgedHeadOfANumberThatNoQuestionHas) {
   }
   EXPECT_FALSE(read_back(kTeeth, 2.5));
   EXPECT_FALSE(read_back(kCoolant, 5.0));
+}
+
+TEST(CaseStore, TellsAnAlteredRowOnceHoweverOftenItIsAsked) {
+  const Folder folder;
+  fill(folder.file(), {sample(10.0), sample(10.2)});
+  tamper(folder.file(), "DELETE FROM capstan_body WHERE number = 1");
+  Job job;
+  const auto base = CaseBase::open(folder.file(), job);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(evidence_near(*base, sample(10.0).asked)->size(), 1u);
+  EXPECT_EQ(base->take_faults().size(), 1u);
 }
 
 TEST(CaseStore, NoticesThatRowsAreGone) {

@@ -45,7 +45,7 @@ TEST(CaseStoreVersion1, IsReadWithoutBeingAltered) {
     EXPECT_EQ(c.from.source, "part 1");
   }
   Question q = sample().asked;
-  EXPECT_EQ(advise(evidence_near(*base, q), {}).start.vc_m_min, 30.0);
+  EXPECT_EQ(advise(evidence_near(*base, q).value(), {}).start.vc_m_min, 30.0);
   tamper(path, "UPDATE capstan_total SET count = count");  // still a table of version 1
 }
 

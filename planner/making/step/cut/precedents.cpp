@@ -9,7 +9,9 @@
 #include "casebase/casebase.h"
 #include "casebase/recall/recall.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/optimise/cut/limits.h"
 #include "planner/making/step/cut/question.h"
+#include "planner/making/step/record/results.h"
 #include "planner/model/plan/borne_feed.h"
 
 namespace capstan::step {
@@ -28,6 +30,8 @@ Values at_table_terms(Values cut, const optimise::CutQuestion& q) {
   const double d = q.cutter.cutting_diameter_mm;
   if (!(d > 0.0)) return cut;
   cut.vc_m_min *= optimise::speed_diameter_mm(q) / d;  // cases count it at the whole diameter
+  if (q.slot && q.kind == optimise::CutKind::kRough && cut.ap_mm > 0.0)
+    cut.vc_m_min /= optimise::deep_slot_share(cut.ap_mm, d);
   if (!mills(q) || !(cut.ae_mm > 0.0)) return cut;
   cut.vc_m_min /= optimise::speed_by_arc(q, cut.ae_mm);
   // The largest chip of a cut narrower than the radius: h = 2 fz sqrt(r (1 - r)), r = ae / D.
@@ -36,12 +40,25 @@ Values at_table_terms(Values cut, const optimise::CutQuestion& q) {
   return cut;
 }
 
-std::vector<Evidence> evidence_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& shape,
-                                  const optimise::CutQuestion& q) {
-  const auto asked = casebase::question_of(step.operation.type, p.plan.material, step.cutter, p.plan.machine,
-                                           casebase::sizes_of(shape));
-  auto near = casebase::evidence_near(*p.wishes.cases, asked);
-  for (Evidence& e : near) e.cut = at_table_terms(e.cut, q);
+/// Cases at the table's terms. The width of a case is that of its way in general: in corners its path took
+/// more, up to the table's chip, where its feed is that large. What went well is counted as having borne that
+/// chip; of what failed only the chip of its width is certain.
+void to_table_terms(std::vector<Evidence>& near, const optimise::CutQuestion& q, double table_fz_mm) {
+  for (Evidence& e : near) {
+    const double set_mm = e.cut.fz_mm;
+    e.cut = at_table_terms(e.cut, q);
+    if (mills(q) && e.verdict == casebase::Verdict::kGood)
+      e.cut.fz_mm = std::max(e.cut.fz_mm, std::min(set_mm, table_fz_mm));
+  }
+}
+
+Result<std::vector<Evidence>> evidence_of(const PlanSoFar& p, const StepDraft& step,
+                                          const model::FeatureShape& shape, const optimise::CutQuestion& q,
+                                          double table_fz_mm) {
+  auto near = casebase::evidence_near(
+      *p.wishes.cases,
+      casebase::question_of(p.plan, of_step(p.plan.model, step), step.cutter, casebase::sizes_of(shape)));
+  if (near) to_table_terms(*near, q, table_fz_mm);
   return near;
 }
 
@@ -55,7 +72,11 @@ std::optional<FromCases> start_from_cases(const PlanSoFar& p, const StepDraft& s
   out.table_fz_mm = q.fz_start_mm;
   out.table_ap_most_mm = q.ap_most_mm;
   const Values table{q.vc_start_m_min, q.fz_start_mm, q.ap_mm.value_or(0.0), q.ae_mm.value_or(0.0)};
-  out.advice = casebase::advise(evidence_of(p, step, shape, q), table);
+  // Where a mill's feed follows its sections no case tells the largest chip of its path: the table's stands.
+  const double least_fz_mm = mills(q) ? table.fz_mm : 0.0;
+  auto near = evidence_of(p, step, shape, q, table.fz_mm);
+  if (!near) out.why_unasked = near.error().message;
+  out.advice = casebase::advise(near ? *std::move(near) : std::vector<Evidence>{}, table, least_fz_mm);
   if (!out.bind()) return out;
   Values& start = out.advice.start;
   if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)
@@ -85,7 +106,9 @@ std::optional<Advice> judged_by_cases(const PlanSoFar& p, const StepDraft& step,
   if (!(d > 0.0) || !(a.n_rpm > 0.0)) return std::nullopt;
   const Values cut{std::numbers::pi * d * a.n_rpm / 1000.0, a.feed_mm_min / (a.n_rpm * teeth), a.ap_mm,
                    a.ae_mm};
-  Advice out = casebase::advise(evidence_of(p, step, shape, q), at_table_terms(cut, q));
+  auto near = evidence_of(p, step, shape, q, q.fz_start_mm);
+  if (!near) return std::nullopt;
+  Advice out = casebase::advise(*std::move(near), at_table_terms(cut, q));
   if (!out.any()) return std::nullopt;
   return out;
 }
@@ -99,6 +122,8 @@ model::Reason reason_of(const FromCases& from) {
     if (a.held_back)
       text += ", held at what the table bears (" + trimmed(casebase::kCaseReach, 2) +
               " times its values after " + std::to_string(casebase::kRepeats) + " repeats, before that once)";
+    if (a.centre.fz_mm < from.table_fz_mm && !a.lowered && a.start.fz_mm >= from.table_fz_mm)
+      text += ", with the table's chip, which their paths may have had in corners";
   }
   if (a.lowered) {
     text += (text.empty() ? "" : "; ") + std::string("below cuts that failed: ") + words_of(a.start) + ", " +
@@ -110,18 +135,24 @@ model::Reason reason_of(const FromCases& from) {
   return {"case." + first, std::move(text), "case base"};
 }
 
-Experience experience_with(const casebase::CaseBase& cases, const model::Plan& plan, model::TypeId operation,
-                           const model::FeatureShape& shape, const model::Candidate& candidate) {
+casebase::OfStep of_step(const model::Model& m, const StepDraft& step) {
+  return {step.operation.type, step.feature, casebase::coolant_of(result_of(m, step))};
+}
+
+Experience experience_with(const casebase::CaseBase& cases, const model::Plan& plan,
+                           const casebase::OfStep& of, const model::FeatureShape& shape,
+                           const model::Candidate& candidate) {
   Experience out;
-  const auto asked = casebase::question_of(operation, plan.material, candidate.cutter, plan.machine,
-                                           casebase::sizes_of(shape));
-  auto near = casebase::evidence_near(cases, asked);
+  auto found = casebase::evidence_near(
+      cases, casebase::question_of(plan, of, candidate.cutter, casebase::sizes_of(shape)));
+  if (!found) return out;  // the step itself says so: FromCases::why_unasked
+  std::vector<Evidence>& near = *found;
   std::erase_if(near, [](const Evidence& e) { return e.origin == casebase::Origin::kSimulated; });
   optimise::CutQuestion q;
   q.cutter = candidate.cutter;
-  q.kind = model::is_a(operation, model::TypeId::kDrillingTypeOperation) ? optimise::CutKind::kDrill
-                                                                         : optimise::CutKind::kRough;
-  for (Evidence& e : near) e.cut = at_table_terms(e.cut, q);
+  q.kind = model::is_a(of.operation, model::TypeId::kDrillingTypeOperation) ? optimise::CutKind::kDrill
+                                                                            : optimise::CutKind::kRough;
+  to_table_terms(near, q, candidate.fz_mm);
   if (near.empty() || !(candidate.vc_m_min > 0.0) || !(candidate.fz_mm > 0.0)) return out;
   const Advice advice = casebase::advise(std::move(near), {candidate.vc_m_min, candidate.fz_mm, 0.0, 0.0});
   out.good = advice.good;
@@ -137,14 +168,17 @@ Experience experience_with(const casebase::CaseBase& cases, const model::Plan& p
   return out;
 }
 
-void weigh_by_cases(const casebase::CaseBase* cases, const model::Plan& plan, model::TypeId operation,
+void weigh_by_cases(const casebase::CaseBase* cases, const model::Plan& plan, const casebase::OfStep& of,
                     const model::FeatureShape& shape, model::Selection& selection) {
-  if (cases == nullptr) return;
+  if (cases == nullptr || selection.ranked.empty()) return;
+  const std::string first = selection.ranked.front().cutter.id;
+  std::vector<model::Rejected> failed;
   bool any = false;
   for (model::Candidate& c : selection.ranked) {
-    const Experience e = experience_with(*cases, plan, operation, shape, c);
+    const Experience e = experience_with(*cases, plan, of, shape, c);
     if (e.words.empty()) continue;
     any = true;
+    if (e.bad > 0 && e.success < casebase::kLeastSuccess) failed.push_back({c.cutter.id, e.words});
     c.score += (e.time_factor - 1.0) * c.estimated_s;
     c.estimated_s *= e.time_factor;
     c.why.text += "; by cases " + trimmed(100.0 * e.success, 0) +
@@ -154,6 +188,10 @@ void weigh_by_cases(const casebase::CaseBase* cases, const model::Plan& plan, mo
   if (!any) return;
   std::stable_sort(selection.ranked.begin(), selection.ranked.end(),
                    [](const model::Candidate& a, const model::Candidate& b) { return a.score < b.score; });
+  if (selection.ranked.front().cutter.id == first) return;
+  for (model::Rejected& r : failed) {
+    if (r.what == first) selection.rejected.push_back({first, std::string(kFirstFailed) + r.why});
+  }
 }
 
 }  // namespace capstan::step

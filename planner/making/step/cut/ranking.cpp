@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,6 +83,7 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
   }
   const std::size_t n = std::min(kCompared, step.candidates.size());
   std::vector<std::pair<double, std::size_t>> times;
+  std::optional<model::Rejected> failed;  // the first, where near cases failed
   for (std::size_t i = 0; i < n; ++i) {
     StepDraft trial = step;
     trial.cutter = step.candidates[i].cutter;
@@ -110,8 +112,12 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
       t *= casebase::kTrustInTable / cases->advice.success;
     if (t < kNever && !is_used(used, trial.cutter)) t += plan.machine.tool_change_s;
     times.emplace_back(t, i);
+    if (i == 0 && cases && cases->advice.lowered)
+      failed = {trial.cutter.id, std::string(kFirstFailed) + cases->advice.why + ": " +
+                                     casebase::words_of(cases->advice.cases, 3)};
   }
   in_order(plan, steps, step, std::move(times));
+  if (failed && step.cutter.id != failed->what) step.rejected_tools.push_back(*std::move(failed));
 }
 
 void rank_by_path(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,

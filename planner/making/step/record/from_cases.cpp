@@ -26,6 +26,24 @@ double rate(const optimise::CutAnswer& a) {
   return a.feed_mm_min * (a.ap_mm > 0.0 ? a.ap_mm : 1.0) * (a.ae_mm > 0.0 ? a.ae_mm : 1.0);
 }
 
+/// Seconds of cutting as another answer to the step's question would take them, whose question is `without`.
+/// A path of the same depth and width is this step's: its feeds are scheduled again. Another path is not
+/// made for it; its time is that of this one by the nominal rates.
+double seconds_without(const model::Plan& plan, const PathWithCut& made, const optimise::FeedQuestion& asked,
+                       const optimise::CutQuestion& without, const optimise::CutAnswer& other) {
+  const model::StepResult& step = plan.steps.back();
+  if (other.ap_mm == made.answer.ap_mm && other.ae_mm == made.answer.ae_mm && step.path) {
+    optimise::FeedQuestion q = asked;
+    q.cut = without;
+    q.n_rpm = std::copysign(other.n_rpm, asked.n_rpm);
+    q.feed_mm_min = other.feed_mm_min;
+    q.explain = false;
+    const auto t = motion::time_of(*step.path, optimise::feeds(q, *step.path).schedule, plan.machine);
+    if (t) return t->cutting_s + t->dwell_s;
+  }
+  return step.cutting_s * rate(made.answer) / rate(other);
+}
+
 /// Where the decision on the speed stands, or on the feed where the speed is given.
 model::Decision* decision_of(model::Plan& plan, const StepDraft& step) {
   const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
@@ -34,18 +52,19 @@ model::Decision* decision_of(model::Plan& plan, const StepDraft& step) {
 }
 
 /// The cut by the table, and about how long it would take.
-void tell_without(model::Plan& plan, const StepDraft& step, const PathWithCut& made, Cuts& cuts,
-                  CasesTold& told) {
+void tell_without(model::Plan& plan, const StepDraft& step, const PathWithCut& made,
+                  const optimise::FeedQuestion& asked, Cuts& cuts, CasesTold& told) {
   const FromCases& from = *made.cases;
   std::string what = "the table without cases: " +
                      words_of({from.table_vc_m_min, from.table_fz_mm, from.table_ap_most_mm, 0.0});
   const double now_s = plan.steps.back().cutting_s;
   std::string why = percent(from.advice.success_asked) + " likely to go well by these cases";
-  auto other = cuts.answer(without_cases(from, made.question));
+  const optimise::CutQuestion without = without_cases(from, made.question);
+  auto other = cuts.answer(without);
   if (other && other->feasible && plan.model.holds<model::PlaneMilling>(step.operation))
-    other = cuts.in_one_pass(without_cases(from, made.question), *std::move(other));
+    other = cuts.in_one_pass(without, *std::move(other));
   if (other && other->feasible && rate(*other) > 0.0) {
-    const double then_s = now_s * rate(made.answer) / rate(*other);
+    const double then_s = seconds_without(plan, made, asked, without, *other);
     why +=
         ", about " + motion::duration_text(then_s) + " of cutting instead of " + motion::duration_text(now_s);
     told.with_s += now_s;
@@ -68,6 +87,23 @@ std::string failed_text(const casebase::Advice& a) {
          " failed (" + casebase::words_of(failed, 3) + ")";
 }
 
+/// Chains and cutters that failed cuts put behind what the step has.
+void tell_behind(const model::Plan& plan, const StepDraft& step, CasesTold& told, Job& job) {
+  std::vector<model::Rejected> all = step.rejected_tools;
+  if (const auto* d = plan.ledger.find(step.step, "its_operation"); d != nullptr)
+    all.insert(all.end(), d->rejected.begin(), d->rejected.end());
+  for (const model::Rejected& r : all) {
+    if (!r.why.starts_with(kFirstFailed) || r.what == step.cutter.id) continue;
+    if (!told.behind.emplace(step.feature, r.what).second) continue;
+    job.report({.code = "CASE-BAD-NEAR",
+                .severity = Severity::kWarning,
+                .message = step_text(plan, step) + "not made by " + r.what + ", which " + r.why,
+                .file = plan.file_name,
+                .hint = "look at the cases (capstan cases nearest); a case that is wrong can be judged anew "
+                        "or removed"});
+  }
+}
+
 constexpr const char* kWhatToDo =
     "look at them (capstan cases nearest); a case that is wrong can be judged anew or removed, and good "
     "repeats at these values lift this";
@@ -75,11 +111,14 @@ constexpr const char* kWhatToDo =
 }  // namespace
 
 void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, const PathWithCut& made,
-                Cuts& cuts, CasesTold& told, Job& job) {
+                const optimise::FeedQuestion& asked, Cuts& cuts, CasesTold& told, Job& job) {
   if (p.wishes.cases == nullptr || step.shapes.empty() || plan.steps.empty()) return;
+  tell_behind(plan, step, told, job);
+  if (made.cases && !made.cases->why_unasked.empty())
+    job.warn("CASE-INVALID", step_text(plan, step) + made.cases->why_unasked + "; the table holds");
   if (made.cases && made.cases->bind()) {
     ++told.leaning;
-    tell_without(plan, step, made, cuts, told);
+    tell_without(plan, step, made, asked, cuts, told);
   } else if (made.cases && made.cases->advice.any()) {
     ++told.weighed;
     if (auto* d = decision_of(plan, step); d != nullptr)
@@ -122,6 +161,9 @@ void tell_all_cases(const CasesTold& told, Job& job) {
                      counted(static_cast<std::size_t>(all), "step starts", "steps start") +
                      " from near cases";
   if (told.lowered > 0) text += ", " + std::to_string(told.lowered) + " of them below failed ones";
+  if (!told.behind.empty())
+    text += "; " + counted(told.behind.size(), "chain or cutter", "chains or cutters") +
+            " that failed before left for others";
   if (told.with_s > 0.0)
     text += ": about " + motion::duration_text(told.with_s) + " of cutting, by the table without cases " +
             motion::duration_text(told.without_s);

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 
 #include "casebase/casebase.h"
+#include "casebase/recall/advice.h"
 #include "planner/door/service/reading.h"
+#include "tests/casebase/sample.h"
 #include "tests/door/app/command/command.h"
 #include "tests/door/app/plans.h"
 #include "tests/support/corpus.h"
@@ -19,6 +22,17 @@ using casebase::Origin;
 using casebase::Verdict;
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+/// The steps of a plan as simulated cases.
+std::vector<Case> cases_of_plan(const std::filesystem::path& path) {
+  Job job;
+  const auto plan = service::read_plan(slurp(path), path.string(), job);
+  if (!plan) {
+    ADD_FAILURE() << to_text(plan.error());
+    return {};
+  }
+  return casebase::cases_of(*plan, job);
+}
 
 class Precedents : public CommandTest {
  protected:
@@ -39,10 +53,7 @@ class Precedents : public CommandTest {
     const Ran r =
         run("plan plate.p21 --material C45 --reopen all --tools shop.yaml -o plain.json -o plain.ngc");
     ASSERT_LE(r.code, 1) << r.err;
-    Job job;
-    const auto plan = service::read_plan(slurp(folder_ / "plain.json"), "plain.json", job);
-    ASSERT_TRUE(plan) << to_text(plan.error());
-    planned_ = casebase::cases_of(*plan, job);
+    planned_ = cases_of_plan(folder_ / "plain.json");
     ASSERT_FALSE(planned_.empty());
   }
 
@@ -102,6 +113,60 @@ TEST_F(Precedents, PoisonThatIsRepeatedStaysBelowTheBoundAndTheCheck) {
         c.bound.vc_m_min *= 2.5;
       }));
   EXPECT_FALSE(program("poison.db").empty());  // and its check is clean
+  const std::vector<Case> made = cases_of_plan(folder_ / "out.json");
+  ASSERT_EQ(made.size(), planned_.size());
+  // What was planned is the table's, rounded down to whole 1/min and mm/min: cases raise no more than that.
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const Case& was = planned_[i];
+    const double rpm_over_vc = 1000.0 / (std::numbers::pi * was.asked.cutter_diameter_mm);
+    const double most_vc = casebase::kCaseReach * (was.bound.vc_m_min + 1.0 / rpm_over_vc);
+    const double one_mm_min = 1.0 / (was.bound.vc_m_min * rpm_over_vc * was.asked.teeth);
+    EXPECT_LE(made[i].bound.vc_m_min, most_vc) << was.from.workingstep;
+    EXPECT_LE(made[i].bound.fz_mm, casebase::kCaseReach * (was.bound.fz_mm + one_mm_min));
+  }
+}
+
+TEST_F(Precedents, ARowThatWasAlteredIsNamedByPlanning) {
+  add("shop.db", cut(3, Verdict::kBad));
+  casebase::tamper((folder_ / "shop.db").string(), "UPDATE capstan_body SET body = x'00'");
+  EXPECT_EQ(program("shop.db"), plain());
+  EXPECT_THAT(last_.err, HasSubstr("it was altered [CASE-ROW]"));
+  std::size_t told = 0;
+  for (std::size_t at = last_.err.find("is left out"); at != std::string::npos;
+       at = last_.err.find("is left out", at + 1))
+    ++told;
+  EXPECT_EQ(told, 3 * planned_.size());  // each once
+}
+
+TEST_F(Precedents, FailedCutsOfADryShopSayLessOfAFloodedOne) {
+  const auto dry = [](Case& c) { c.asked.coolant = casebase::Coolant::kDry; };
+  add("flood.db", cut(5, Verdict::kBad));
+  add("dry.db", cut(5, Verdict::kBad, dry));
+  const std::string of_flood = program("flood.db");
+  EXPECT_NE(program("dry.db"), of_flood);
+  std::string explained;
+  for (const Case& c : planned_) explained += run("explain out.json '" + c.from.workingstep + "'").out;
+  EXPECT_THAT(explained, Not(HasSubstr("(measured, bad, 0 away)")));
+}
+
+TEST_F(Precedents, ACutterThatFailedCutsPutBehindAnotherIsNamed) {
+  std::string shop = slurp(folder_ / "shop.yaml"), line = shop.substr(shop.find("  - {id: drill"));
+  line.replace(line.find("id: drill"), 9, "id: other");
+  line.replace(line.find("substrate: hss"), 14, "substrate: carbide");
+  line.replace(line.find("pocket: 2"), 9, "pocket: 3");
+  put("shop.yaml", shop + line);
+  const std::string plan = "plan plate.p21 --material C45 --reopen all --tools shop.yaml ";
+  ASSERT_LE(run(plan + "-o plain.json").code, 1);
+  planned_ = cases_of_plan(folder_ / "plain.json");
+  // At two fifths of its values: what keeps below that is slower by more than the other drill.
+  add("bad.db", cut(13, Verdict::kBad, [](Case& c) {
+        c.bound.fz_mm *= 0.4;
+        c.bound.vc_m_min *= 0.4;
+      }));
+  last_ = run(plan + "--cases bad.db -o out.json");
+  ASSERT_LE(last_.code, 1) << last_.err;
+  EXPECT_THAT(last_.err, HasSubstr("would be first, but failed before"));
+  EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
 }
 
 TEST_F(Precedents, ACaseOfAnotherMachineCountsNothing) {
@@ -150,6 +215,23 @@ TEST_F(Precedents, ThirteenFailuresLowerTheCutAndLaterGoodRepeatsLiftIt) {
   add("shop.db", cut(60, Verdict::kGood));
   EXPECT_NE(program("shop.db"), lowered);
   EXPECT_THAT(last_.err, Not(HasSubstr("CASE-BAD-NEAR")));
+}
+
+TEST_F(Precedents, APlansOwnGoodCasesSlowNoStepOfIt) {
+  const std::string plan = "plan '" + testing::example("bracket.p21") + "' ";
+  ASSERT_LE(run(plan + "-o plain.json").code, 1);
+  planned_ = cases_of_plan(folder_ / "plain.json");
+  ASSERT_GE(planned_.size(), 10u);
+  add("own.db", cut(12, Verdict::kGood));
+  last_ = run(plan + "--cases own.db -o out.json");
+  ASSERT_LE(last_.code, 1) << last_.err;
+  const std::vector<Case> leaning = cases_of_plan(folder_ / "out.json");
+  ASSERT_EQ(leaning.size(), planned_.size());
+  // Spindle speeds are rounded down once more: to less than a thousandth of any of this plan.
+  constexpr double kRounding = 1.001;
+  for (std::size_t i = 0; i < planned_.size(); ++i)
+    EXPECT_LE(leaning[i].predicted.time_s, kRounding * planned_[i].predicted.time_s)
+        << planned_[i].from.workingstep;
 }
 
 TEST_F(Precedents, ThePlansOwnSimulationProvesNothing) {

@@ -43,7 +43,8 @@ int run_cases_nearest(Session& s) {
                     std::string(to_text(c.observed.verdict)), std::string(to_text(c.origin)), c.from.source});
   }
   std::string out = near->empty() ? "no case shares these categories\n" : table(rows, "");
-  const auto advice = casebase::advise(casebase::evidence_near(*base, question), {});
+  const auto advice = casebase::advise(
+      casebase::evidence_near(*base, question).value_or(std::vector<casebase::Evidence>{}), {});
   if (advice.leads) {
     out += "precedent (" + std::string(to_text(advice.origin)) + "): " + words_of(advice.start) + ", " +
            trimmed(100.0 * advice.success, 0) + " % likely to go well; " + advice.why + "\n";
