@@ -249,11 +249,14 @@ class Adapter:
             raise Refused(f'nobody knows what {verb} is')
 
     def serve(self):
-        pathlib.Path(SOCKET).unlink(missing_ok=True)
+        unheard = SOCKET + '.new'
+        pathlib.Path(unheard).unlink(missing_ok=True)
         with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as door:
-            door.bind(SOCKET)
-            os.chmod(SOCKET, 0o600)
+            # Under its name only when it listens: who sees it may ask.
+            door.bind(unheard)
+            os.chmod(unheard, 0o600)
             door.listen()
+            os.rename(unheard, SOCKET)
             while True:
                 with door.accept()[0] as caller:
                     self.one(caller)
