@@ -70,7 +70,7 @@ TEST(LateDeadlineSeed, WhatIsCalledInTimeIsAndEveryAnswerIsCheckedOrLate) {
   service::Session session;
   const Busy busy;
   for (int i = 0; i < binds; ++i) {
-    const int tool = 1 + static_cast<int>(random() % 10);
+    const int tool = 1 + static_cast<int>(random() % static_cast<unsigned>(tools(early)));
     const double by = 0.01 * static_cast<double>(random() % 50);
     const bool worn = random() % 8 == 0;
     std::ofstream(path) << (worn ? with(early.table, tool, "D", -0.02) : with(early.table, tool, "Z", by));
