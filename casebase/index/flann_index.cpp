@@ -8,8 +8,8 @@
 namespace capstan::casebase {
 namespace {
 
-/// Squared distance with weights, as FLANN asks for it. It keeps one functor for all searches, so the weights
-/// of the search of a thread are told it beside.
+/// Squared distance with weights, as FLANN asks for it. It keeps one functor for all searches, so each thread
+/// sets the weights of its search in a variable of its own.
 struct Weighted {
   using is_kdtree_distance = bool;
   using ElementType = double;

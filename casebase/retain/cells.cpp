@@ -138,4 +138,20 @@ std::optional<std::string> Clock::step(double t_s) {
   return std::nullopt;
 }
 
+Result<LogEnd> ended(const Lines& lines, const LostLines& lost, LogEnd out, const std::string& expected,
+                     Job& job) {
+  if (lines.fault()) return fail(*lines.fault());
+  out.lines = lines.number();
+  out.lost = lost.count();
+  if (auto ok = lost.end(lines.file(), out.lines, expected, job); !ok) return tl::unexpected(ok.error());
+  if (out.readings == 0) {
+    return fail(Diagnostic{.code = "LOG-EMPTY",
+                           .message = "there is no reading in it",
+                           .file = lines.file(),
+                           .expected = expected,
+                           .hint = "was the recorder running?"});
+  }
+  return out;
+}
+
 }  // namespace capstan::casebase::retain

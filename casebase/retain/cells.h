@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "casebase/retain/lines.h"
 #include "casebase/retain/log.h"
 
 /// What the readers of logs share.
@@ -14,6 +15,11 @@ namespace capstan::casebase::retain {
 /// Puts the value of one cell into a reading. What is wrong with it: no number, out of range; the reading is
 /// not to be used then. Texts point into `cell`.
 [[nodiscard]] std::optional<std::string> put(Reading& r, const Column& column, std::string_view cell);
+
+/// What was read of a log, at its end; `out` knows what its readings say, and how many there are.
+/// Fails   LOG-TEXT, LOG-FORMAT (as `Lines`, `LostLines`); LOG-EMPTY no reading.
+[[nodiscard]] Result<LogEnd> ended(const Lines& lines, const LostLines& lost, LogEnd out,
+                                   const std::string& expected, Job& job);
 
 /// Holds times together: readings that go back in time are refused.
 class Clock {

@@ -127,20 +127,9 @@ Result<LogEnd> read_rows(std::istream& in, const std::string& file, const LogUni
     out.says_running = out.says_running || r.running.has_value();
     sink(r);
   }
-  if (lines.fault()) return fail(*lines.fault());
-  out.lines = lines.number();
-  out.lost = lost.count();
   const std::string expected =
       columns ? counted(columns->of.size(), "cell", "cells") + " of numbers and names" : "a row of names";
-  if (auto ok = lost.end(file, out.lines, expected, job); !ok) return tl::unexpected(ok.error());
-  if (out.readings == 0) {
-    return fail(Diagnostic{.code = "LOG-EMPTY",
-                           .message = "there is no reading in it",
-                           .file = file,
-                           .expected = expected,
-                           .hint = "was the recorder running?"});
-  }
-  return out;
+  return ended(lines, lost, out, expected, job);
 }
 
 }  // namespace

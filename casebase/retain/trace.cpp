@@ -52,18 +52,7 @@ Result<LogEnd> read_trace(std::istream& in, const std::string& file, const LogUn
     out.says_running = out.says_running || r.running.has_value();
     sink(r);
   }
-  if (lines.fault()) return fail(*lines.fault());
-  out.lines = lines.number();
-  out.lost = lost.count();
-  if (auto ok = lost.end(file, out.lines, kExpected, job); !ok) return tl::unexpected(ok.error());
-  if (out.readings == 0) {
-    return fail(Diagnostic{.code = "LOG-EMPTY",
-                           .message = "there is no reading in it",
-                           .file = file,
-                           .expected = kExpected,
-                           .hint = "was the recorder running?"});
-  }
-  return out;
+  return ended(lines, lost, out, kExpected, job);
 }
 
 }  // namespace capstan::casebase::retain

@@ -9,8 +9,8 @@
 // added when a commit's outcome was unknown may stand in the copy, too; it is given once.
 //
 // The files are opened for each call and not kept open: another program may reach the server meanwhile, and
-// then the outbox is gone and the copy longer. Who appends after that is told to open the base again
-// (CASE-BUSY), and nothing is acknowledged to it. A lock between programs keeps appending and draining apart.
+// then the outbox is gone and the copy longer. Who appends after that gets CASE-BUSY (open the base
+// again), and no acknowledgement. A lock between programs keeps appending and draining apart.
 
 namespace capstan::casebase {
 namespace {

@@ -188,7 +188,7 @@ Status PostgresStore::guarded(std::string_view doing, const Do& act) {
 void PostgresStore::set_up(pqxx::transaction_base& t) {
   t.exec("SET LOCAL search_path = pg_catalog; SET LOCAL row_security = off; SET LOCAL lock_timeout = " +
          std::to_string(kBusyMs));
-  // A commit that is told must be on the server's disk; a stricter setting of the server stays.
+  // An acknowledged commit must be on the server's disk; a stricter setting of the server stays.
   t.exec(
       "SELECT set_config('synchronous_commit', 'local', true) "
       "WHERE current_setting('synchronous_commit') = 'off'");

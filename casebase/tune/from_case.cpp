@@ -29,8 +29,7 @@ constexpr double kWearSpread = 0.4, kWearBySpeedSpread = 0.8, kWearByFeedSpread 
 constexpr double kLifeByFeed = 0.6;         // exponent of the feed in the life
 constexpr double kWearByWearSpread = 0.05;  // when the edge is changed is in the load already
 constexpr double kWearNoise = 0.12, kWearEdges = 0.3;
-constexpr double kHeavyChatter = 0.5;  // of the level 0 to 1
-constexpr double kLeastShare = 0.02;   // of a limit: less is below what can be measured
+constexpr double kLeastShare = 0.02;  // of a limit: less is below what can be measured
 
 bool evidence(const std::optional<Figure>& f) { return f && f->origin != Origin::kSimulated; }
 
@@ -54,7 +53,7 @@ double limit_of(const PlannedStep& p, Watched w) {
     case Watched::kFinish:
       return p.step.asked.asked_ra_um;
     case Watched::kWear:
-      return kAllowedWearMm;
+      return kWornMm;
   }
   return 0.0;
 }
@@ -94,7 +93,7 @@ std::optional<double> wear_at_change_mm(const Observed& o, const Setting& at, co
   if (of_edge && positive(until)) {
     if (const auto wear = wear_after(all, until)) return wear;
   }
-  if (evidence(o.wear_mm) && o.wear_mm->value > kAllowedWearMm) return o.wear_mm->value;
+  if (evidence(o.wear_mm) && o.wear_mm->value > kWornMm) return o.wear_mm->value;
   return std::nullopt;
 }
 
@@ -179,7 +178,7 @@ Handbook handbook_of(const PlannedStep& p) {
   finish.edges = kRaEdges;
   const double used =
       positive(expected.tool_life_min) ? edge_min(p) / expected.tool_life_min : 0.0;  // of a life
-  LoadPrior& wear = watch(Watched::kWear, kAllowedWearMm * std::pow(used, kWearByTime), kWearSpread);
+  LoadPrior& wear = watch(Watched::kWear, kWornMm * std::pow(used, kWearByTime), kWearSpread);
   // As many parts at another speed: wear goes as (t / T)^b, time as 1 / (v f), life as v^(-1/n) and
   // f^-kLifeByFeed.
   wear.by_vc = {kWearByTime * (1.0 / p.taylor_n - 1.0), kWearBySpeedSpread};
@@ -205,7 +204,7 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   e.at = {std::log(c.bound.vc_m_min / p.step.bound.vc_m_min),
           std::log(c.bound.fz_mm / p.step.bound.fz_mm / wider)};
   const Observed& o = c.observed;
-  e.worn = std::max(0.0, worn_before_mm(o)) / kAllowedWearMm;
+  e.worn = std::max(0.0, worn_before_mm(o)) / kWornMm;
   const bool same_step = c.from.plan_hash == p.step.from.plan_hash &&
                          c.from.workingstep == p.step.from.workingstep && !c.from.workingstep.empty();
   if (evidence(o.time_s) && positive(o.time_s->value) && positive(p.step.predicted.time_s)) {
@@ -226,7 +225,7 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   if (const auto wear = wear_at_change_mm(o, e.at, p)) load(Watched::kWear, Figure{.value = *wear});
   const bool chatter = evidence(o.chatter), broke = evidence(o.breakage);
   e.failed = o.verdict == Verdict::kBad || (chatter && o.chatter->value >= kHeavyChatter) ||
-             (broke && o.breakage->value >= 0.5);
+             (broke && o.breakage->value >= kBroken);
   e.judged = o.verdict != Verdict::kUnknown || chatter || broke;
   e.measured = c.origin == Origin::kMeasured;
   for (const std::string& one :
@@ -262,7 +261,7 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
       bores.push_back({o.size_deviation_mm->value, b.fz_mm * std::max(1, c.asked.teeth),
                        c.asked.stick_out_mm / c.asked.cutter_diameter_mm, part});
     }
-    if (const auto life = life_of(readings_of(o.wear_series_mm), kAllowedWearMm))
+    if (const auto life = life_of(readings_of(o.wear_series_mm), kWornMm))
       lives.push_back({b.vc_m_min, b.fz_mm, b.ap_mm, *life, edge});
   }
   return {correct_force(forces, handbook.force), correct_life(lives, handbook.life), correct_time(times),

@@ -6,14 +6,12 @@
 #include <vector>
 
 #include "casebase/record/case.h"
+#include "casebase/record/failing.h"
 #include "casebase/tune/advise.h"
 #include "casebase/tune/corrections.h"
 
 /// From the records of the case base to what tuning sees.
 namespace capstan::casebase::tune {
-
-/// Uniform flank wear at which an end mill is worn out, mm. Source: ISO 8688-2:1989, tool-life criterion.
-inline constexpr double kAllowedWearMm = 0.3;
 
 /// Share of the life expected after which an edge is changed where nobody says when. Default, unsourced:
 /// edges of one kind differ by 30 to 40 %, and few may be worn out before.
@@ -38,8 +36,8 @@ struct PlannedStep {
 
 /// Of a force the limit is the one that the plan was proved with, its margin included: no case lifts it.
 /// Power against the spindle, size against half the tolerance, roughness against what is asked, wear when
-/// the edge is changed against `kAllowedWearMm`; what is not asked or not known is not watched. Wear grows
-/// with the time in the cut to the power of kWearByTime, and is kAllowedWearMm at the end of the life
+/// the edge is changed against `kWornMm`; what is not asked or not known is not watched. Wear grows
+/// with the time in the cut to the power of kWearByTime, and is kWornMm at the end of the life
 /// expected.
 [[nodiscard]] Handbook handbook_of(const PlannedStep& planned);
 

@@ -168,9 +168,8 @@ void read_chains(const DataNode& chains, Row& row) {
 
 void read_values(const DataNode& values, Row& row) {
   if (!is_map(values)) refuse("RULE-ROW", "values is not a map", values);
-  static const std::vector<std::string> kValues{"as_grade", "machined",        "probe",    "flood",
-                                                "peck",     "coolant_through", "under_mm", "none",
-                                                "retract_mm"};
+  static const std::vector<std::string> kValues{"as_grade",        "machined", "probe", "flood",     "peck",
+                                                "coolant_through", "under_mm", "none",  "retract_mm"};
   for (const auto& [key, value] : values.entries) {
     if (std::find(kValues.begin(), kValues.end(), key) == kValues.end())
       refuse("RULE-ROW", "no table asks for a value named " + key, values);
@@ -250,11 +249,14 @@ Table& open_table(RuleBase& base, const DataNode& root, const std::string& file,
   return base.tables.back();
 }
 
-void add_row(Table& table, Row row, const std::vector<std::string>& of_this_file, const DataNode& at) {
-  if (std::find(of_this_file.begin(), of_this_file.end(), row.id) != of_this_file.end())
-    refuse("RULE-ROW", "the id " + row.id + " stands twice", at);
+/// A shop's row replaces the shipped one of its id; of the shipped rows none replaces another.
+void add_row(Table& table, Row row, const std::vector<std::string>& of_this_file, bool shipped,
+             const DataNode& at) {
   const auto same =
       std::find_if(table.rows.begin(), table.rows.end(), [&](const Row& r) { return r.id == row.id; });
+  const bool here = std::find(of_this_file.begin(), of_this_file.end(), row.id) != of_this_file.end();
+  if (here || (shipped && same != table.rows.end()))
+    refuse("RULE-ROW", "the id " + row.id + " stands twice", at);
   if (same != table.rows.end()) {
     *same = std::move(row);
   } else {
@@ -262,7 +264,7 @@ void add_row(Table& table, Row row, const std::vector<std::string>& of_this_file
   }
 }
 
-void read_capabilities(const DataNode& node, RuleBase& base) {
+void read_capabilities(const DataNode& node, RuleBase& base, bool shipped) {
   if (is_map(node)) refuse("RULE-ROW", "capabilities is not a list", node);
   for (const DataNode& item : node.items) {
     Capability c;
@@ -289,6 +291,8 @@ void read_capabilities(const DataNode& node, RuleBase& base) {
     c.source = text_of(item, "source");
     const auto it = std::find_if(base.capabilities.begin(), base.capabilities.end(),
                                  [&](const Capability& k) { return k.action == c.action; });
+    if (shipped && it != base.capabilities.end())
+      refuse("RULE-ROW", "the capability of " + c.action + " stands twice", item);
     if (it != base.capabilities.end()) {
       *it = std::move(c);
     } else {
@@ -300,7 +304,7 @@ void read_capabilities(const DataNode& node, RuleBase& base) {
 void add_document(RuleBase& base, const DataNode& root, const std::string& file, bool shipped) {
   if (!is_map(root)) refuse("RULE-SYNTAX", "the file is not a map", root);
   const DataNode* capabilities = root.find("capabilities");
-  if (capabilities != nullptr) read_capabilities(*capabilities, base);
+  if (capabilities != nullptr) read_capabilities(*capabilities, base, shipped);
   if (root.find("table") == nullptr) {
     if (capabilities == nullptr) refuse("RULE-SYNTAX", "the file has neither table nor capabilities", root);
     return;
@@ -312,7 +316,7 @@ void add_document(RuleBase& base, const DataNode& root, const std::string& file,
   for (const DataNode& node : rows->items) {
     Row row = read_row(node, table, file);
     const std::string id = row.id;
-    add_row(table, std::move(row), ids, node);
+    add_row(table, std::move(row), ids, shipped, node);
     ids.push_back(id);
   }
 }
@@ -345,13 +349,19 @@ DataNode tree_of(const YAML::Node& node, int depth, std::size_t& values) {
   return out;
 }
 
-/// Adds what `documents` gives, and returns the fault that ended it.
-template <class Documents>
-Status add_documents(RuleBase& base, const std::string& name, bool shipped, Documents documents) {
+/// One document of a file; a file may hold several.
+struct Document {
+  std::string file;
+  DataNode root;
+};
+
+/// Does `work` on the file `name`, and returns the fault that ended it.
+template <class Work>
+Status on_file(const std::string& name, Work work) {
   Diagnostic d;
   d.file = name;
   try {
-    documents([&](const DataNode& root) { add_document(base, root, name, shipped); });
+    work();
     return {};
   } catch (const Fault& f) {
     d.code = f.code;
@@ -365,29 +375,41 @@ Status add_documents(RuleBase& base, const std::string& name, bool shipped, Docu
   return fail(std::move(d));
 }
 
-Status add_text(RuleBase& base, const std::string& name, const std::string& text, bool shipped) {
+/// Adds the documents of a text to those that are there.
+Status read_text(const std::string& name, const std::string& text, std::vector<Document>& documents) {
   if (const std::uint64_t line = stray_sign(text); line != 0)
     return fail({.code = "RULE-SYNTAX",
                  .message = "what stands here belongs to no value",
                  .file = name,
                  .line = line,
                  .expected = "a map of table, facts and rows, or of capabilities"});
-  return add_documents(base, name, shipped, [&text](const auto& add) {
+  return on_file(name, [&] {
     std::size_t values = 0;
-    for (const YAML::Node& root : YAML::LoadAll(text)) add(tree_of(root, 0, values));
+    for (const YAML::Node& root : YAML::LoadAll(text)) documents.push_back({name, tree_of(root, 0, values)});
   });
+}
+
+Status add(RuleBase& base, const Document& document, bool shipped) {
+  return on_file(document.file, [&] { add_document(base, document.root, document.file, shipped); });
+}
+
+/// The base that these documents make by themselves. A table's facts stand in one of them, rows of it in any.
+Result<RuleBase> base_of(std::vector<Document> documents) {
+  std::stable_partition(documents.begin(), documents.end(),
+                        [](const Document& d) { return is_map(d.root) && d.root.find("facts") != nullptr; });
+  RuleBase base;
+  for (const Document& d : documents)
+    if (auto ok = add(base, d, true); !ok) return fail(ok.error());
+  return base;
 }
 
 /// What is compiled in, without parsing.
 Result<RuleBase> shipped_rules() {
-  RuleBase base;
-  for (const std::string_view name : embedded_names()) {
-    auto added = add_documents(base, std::string(name), true, [&](const auto& add) {
-      for (const DataNode& root : unpack(embedded_tree(name))) add(root);
-    });
-    if (!added) return fail(added.error());
-  }
-  return base;
+  std::vector<Document> documents;
+  for (const std::string_view name : embedded_names())
+    for (DataNode& root : unpack(embedded_tree(name)))
+      documents.push_back({std::string(name), std::move(root)});
+  return base_of(std::move(documents));
 }
 
 void sort_all(RuleBase& base) {
@@ -422,11 +444,11 @@ std::vector<std::pair<std::string, std::string>> shipped_texts() {
 }
 
 Result<RuleBase> rules_from_texts(const std::vector<std::pair<std::string, std::string>>& named_texts) {
-  RuleBase base;
-  for (const auto& [name, text] : named_texts) {
-    if (auto s = add_text(base, name, text, true); !s) return fail(s.error());
-  }
-  sort_all(base);
+  std::vector<Document> documents;
+  for (const auto& [name, text] : named_texts)
+    if (auto ok = read_text(name, text, documents); !ok) return fail(ok.error());
+  auto base = base_of(std::move(documents));
+  if (base) sort_all(*base);
   return base;
 }
 
@@ -443,7 +465,10 @@ Result<RuleBase> load_rules(const std::string& extra_directory, Job& job) {
     constexpr std::size_t kTableCap = std::size_t{4} << 20;  // the shipped tables have 20 kB at most
     auto text = read_file(file, kTableCap);
     if (!text) return fail(text.error());
-    if (auto s = add_text(*base, file, *text, false); !s) return fail(s.error());
+    std::vector<Document> documents;
+    if (auto ok = read_text(file, *text, documents); !ok) return fail(ok.error());
+    for (const Document& d : documents)
+      if (auto ok = add(*base, d, false); !ok) return fail(ok.error());
   }
   sort_all(*base);
   return base;

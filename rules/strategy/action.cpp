@@ -11,10 +11,7 @@ namespace capstan::rules {
 const Action* find_action(std::string_view name) {
   static const std::vector<Action> kActions = [] {
     std::vector<Action> all;
-    for (const Family family : families()) {
-      const std::vector<Action> actions = family();
-      all.insert(all.end(), actions.begin(), actions.end());
-    }
+    for (const std::vector<Action>& family : families()) all.insert(all.end(), family.begin(), family.end());
     return all;
   }();
   const auto it =

@@ -43,10 +43,9 @@ struct Action {
   Made (*make)(const Making&) = nullptr;
 };
 
-/// A family's function. Names of actions differ, so that the order of families is of no matter.
-using Family = std::vector<Action> (*)();
 /// All families; the build writes this function from the names of the source files (rules/CMakeLists.txt).
-[[nodiscard]] std::vector<Family> families();
+/// Names of actions differ, so that the order of families is of no matter.
+[[nodiscard]] std::vector<std::vector<Action>> families();
 
 /// The action of this name; null if there is none.
 [[nodiscard]] const Action* find_action(std::string_view name);

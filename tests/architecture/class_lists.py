@@ -17,7 +17,6 @@ import unique_types  # noqa: E402
 
 MOST = 3
 ALLOWED = {
-    "planner/proof/verify/": "copies on purpose: tests/proof/verify/copies_test.cpp holds them to the table",
     "tooling/library/formats/din4000/codes.cpp": "figures of one format's tables: several for one class",
 }
 CLASS = re.compile(r"\bCutterClass::(k\w+)")

@@ -24,11 +24,18 @@ FLOORS = {
 
 # Folder -> room. planner/controls is a room with a folder per control, on shared pieces. Of folders that hold each other the deepest counts.
 EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
+# The check's readers of programs, a room for each control.
+READERS = "planner/proof/verify/program"
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+READER_ROOMS = {f"{READERS}/{name}": f"{name}_reader" for name in sorted(os.listdir(os.path.join(ROOT, READERS)))
+                if os.path.isdir(os.path.join(ROOT, READERS, name))}
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
-    "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/program/linuxcnc": "linuxcnc_reader",
+    "planner/proof/verify/sweep/grid": "grid", **READER_ROOMS,
     "planner/model/features/fit": "fit",
+    # What a tool library is made of, whatever file it came from; on it the formats, and on these the reader of any.
+    **{f"tooling/library/{name}": "catalogue" for name in "cutters nouns records store words".split()},
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
     **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
@@ -60,16 +67,17 @@ ALLOWED = {
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
     "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase",
     "shop": MODEL + " mechanics",
-    "library": MODEL + " shop formats", "formats": MODEL + " p21 shop library",
-    "selection": MODEL + " mechanics shop library",
+    "catalogue": MODEL + " shop", "formats": MODEL + " p21 shop catalogue",
+    "library": MODEL + " shop formats catalogue",
+    "selection": MODEL + " mechanics shop catalogue",
     "sequence": MODEL + " motion", "draft": MODEL,
     "piece": MODEL + " mechanics shop rules sequence draft",
     "workholding": MODEL + " shop draft toolpath",
-    "probing": MODEL + " library draft piece step",
-    "step": MODEL + " toolpaths casebase library selection mechanics motion stock engagement toolpath optimise"
+    "probing": MODEL + " catalogue draft piece step",
+    "step": MODEL + " toolpaths casebase catalogue selection mechanics motion stock engagement toolpath optimise"
     " draft piece workholding",
-    "propose": MODEL + " rules casebase library selection optimise draft piece step",
-    "given": MODEL + " mechanics motion rules shop library formats selection draft piece step",
+    "propose": MODEL + " rules casebase catalogue selection optimise draft piece step",
+    "given": MODEL + " mechanics motion rules shop catalogue selection draft piece step",
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
     "gcode": MODEL + " motion", "controls": MODEL + " gcode",
@@ -78,15 +86,15 @@ ALLOWED = {
     "compared": MODEL + " volumes verify",
     # Heights that moves cut: of the check it knows what a move is.
     "grid": GROUND + " nouns plan verify",
-    "linuxcnc_reader": GROUND + " plan verify",
-    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared grid linuxcnc_reader",
+    **{room: GROUND + " plan verify" for room in READER_ROOMS.values()},
+    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared grid", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " service motion mechanics optimise json rules casebase retain shop library formats",
+    "app": MODEL + " service motion mechanics optimise json rules casebase retain shop catalogue library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}

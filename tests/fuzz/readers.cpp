@@ -14,6 +14,7 @@
 #include "rules/engine/table.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/import.h"
+#include "tooling/library/formats/own/own_list.h"
 #include "tooling/library/library.h"
 #include "tooling/shop/fixtures/fixtures.h"
 #include "tooling/shop/machine/machine.h"

@@ -140,7 +140,8 @@ TEST(Arm, TheTableIsAsLongAsTheStandardsMapping) {
   EXPECT_GE(attributes.size(), 360u);
 }
 
-TEST(Nouns, CountIsWhatTheDescriptorTableSays) {
+// The nouns of ISO 14649 are all there, and no more are; beside them AP238's and the planner's own may grow.
+TEST(Nouns, OfIso14649AreAsManyAsTheStandardHasAndNoneOfTheOthersIsLost) {
   std::size_t iso14649 = 0, ap238 = 0, added = 0;
   for (std::size_t t = 1; t + 1 < kTypeCount; ++t) {  // all but the kept instances
     const NounType& n = noun_type(static_cast<TypeId>(t));
@@ -149,8 +150,8 @@ TEST(Nouns, CountIsWhatTheDescriptorTableSays) {
     for (const Attribute& a : n.attributes.subspan(inherited)) added += a.in_iso14649 ? 0 : 1;
   }
   EXPECT_EQ(iso14649, 358u);
-  EXPECT_EQ(ap238, 74u);
-  EXPECT_EQ(added, 311u);
+  EXPECT_GE(ap238, 74u);
+  EXPECT_GE(added, 311u);
 }
 
 TEST(Nouns, NoKindHasTwoAttributesOfOneName) {

@@ -85,6 +85,35 @@ TEST(Load, RefusesParametersBelowZeroAndPartsOfASizeAboveOne) {
   EXPECT_THAT(to_text(base.error()), HasSubstr("peck is -7, below zero"));
 }
 
+// So that a new operation's rows stand in a file of its own, whatever its name.
+TEST(Load, AddsRowsOfATableThatALaterFileDefines) {
+  const std::string rows = "table: pocket\nrows:\n  - {id: own, when: {wall: [upright]}, cannot: \"c\", ";
+  const std::string defined =
+      "table: pocket\nfacts: [wall]\nrows:\n  - {id: all, when: {wall: [drafted]}, cannot: \"no\", source: "
+      "\"t\"}\n";
+  const auto base = rules_from_texts({{"a.yaml", rows + "source: \"test\"}\n"}, {"b.yaml", defined}});
+  ASSERT_TRUE(base) << to_text(base.error());
+  ASSERT_EQ(base->tables.size(), 1u);
+  EXPECT_EQ(base->tables.front().rows.size(), 2u);
+  EXPECT_THAT(findings({{"a.yaml", rows + "source: \"test\"}\n"}, {"b.yaml", defined}}), testing::IsEmpty());
+}
+
+TEST(Load, RefusesAShippedRowOrCapabilityThatStandsInTwoFiles) {
+  const std::string rows =
+      "table: pocket\nrows:\n  - {id: all, when: {wall: [upright]}, cannot: \"c\", source: \"t\"}\n";
+  const std::string defined =
+      "table: pocket\nfacts: [wall]\nrows:\n  - {id: all, when: {wall: [drafted]}, cannot: \"no\", source: "
+      "\"t\"}\n";
+  const auto twice = rules_from_texts({{"a.yaml", defined}, {"b.yaml", rows}});
+  ASSERT_FALSE(twice);
+  EXPECT_THAT(to_text(twice.error()), HasSubstr("b.yaml:3"));
+  EXPECT_THAT(to_text(twice.error()), HasSubstr("the id all stands twice"));
+  const std::string drill = "capabilities:\n  - {action: drill, finest_grade: 11, source: \"t\"}\n";
+  const auto both = rules_from_texts({{"a.yaml", drill}, {"b.yaml", drill}});
+  ASSERT_FALSE(both);
+  EXPECT_THAT(to_text(both.error()), HasSubstr("the capability of drill stands twice"));
+}
+
 TEST(Check, NamesTheBoxOfAPlantedContradiction) {
   EXPECT_THAT(
       findings(table(R"(

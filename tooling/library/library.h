@@ -34,17 +34,9 @@ struct LibraryOptions {
 [[nodiscard]] Result<std::vector<model::Cutter>> read_library(std::string_view text, const std::string& file,
                                                               Job& job, const LibraryOptions& options = {});
 
-/// Our own list alone.
-[[nodiscard]] Result<std::vector<model::Cutter>> read_own_list(std::string_view text, const std::string& file,
-                                                               Job& job);
-[[nodiscard]] bool looks_like_own_list(std::string_view text);
-
 /// A LinuxCNC tool table: `T1 P1 D6 Z+80.5 ;6 mm end mill, 2 flutes`.
 [[nodiscard]] Result<std::vector<model::Cutter>> read_tool_table(std::string_view text,
                                                                  const std::string& file, Job& job,
                                                                  const LibraryOptions& options = {});
-
-/// The class named by the words of a comment ("6mm endmill", "5mm tap drill", "16 mm schaftfraeser").
-[[nodiscard]] std::optional<model::CutterClass> class_from_words(std::string_view comment);
 
 }  // namespace capstan::tooling

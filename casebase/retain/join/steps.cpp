@@ -10,7 +10,7 @@
 
 // A sheet is the cases' own CSV with three columns more: these are taken out, what a case needs and a sheet
 // has no word of is put in, and the rest is read by `from_csv`. So each column means here what it means
-// there, has the same limits, and is told of by the same words.
+// there, has the same limits, and the same messages.
 
 namespace capstan::casebase::retain {
 namespace {

@@ -164,21 +164,38 @@ std::map<AnyRef, std::string> unreadable_of(const model::Plan& plan,
   return out;
 }
 
-/// What a shop has to buy or load so that the unplanned features find their tools: all of it at once, and as
-/// rows of provenance, which every form of a plan keeps.
-void tell_needed(model::Plan& plan, const std::vector<model::NeededTool>& needed, Job& job) {
+/// What a shop has to buy or load so that the unplanned features find their tools: reported all at once, and
+/// given as rows of provenance, which every form of a plan keeps.
+std::vector<model::Provenance> tell_needed(const model::Plan& plan,
+                                           const std::vector<model::NeededTool>& needed, Job& job) {
   const auto kinds = model::needed_kinds(plan, needed);
+  std::vector<model::Provenance> out;
   std::string all;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
-    plan.provenance.push_back(model::provenance_of(kinds[i], i + 1));
+    out.push_back(model::provenance_of(kinds[i], i + 1));
     all += (all.empty() ? "" : "; ") + model::text_of(kinds[i]);
   }
-  if (all.empty()) return;
+  if (all.empty()) return out;
   job.report({.code = "PIP-TOOLS-NEEDED",
               .severity = Severity::kWarning,
               .message = "to plan all of this part you need: " + all,
               .file = plan.file_name,
               .hint = "the plan holds them as entries for a list of tools (--tools): capstan explain"});
+  return out;
+}
+
+/// Writes what holds the piece into drafts and nouns; of a plan that says nothing of it, that nothing is
+/// planned.
+void put_held(model::Plan& plan, Drafts& drafts, workholding::Held held, const std::string& how) {
+  const auto about = [](const model::Provenance& p) { return p.what == "workholding"; };
+  if (held.note && std::none_of(plan.provenance.begin(), plan.provenance.end(), about))
+    plan.provenance.push_back(*std::move(held.note));
+  if (!held.planned) return;
+  for (std::size_t i = 0; i < drafts.setups.size(); ++i)
+    drafts.setups[i].holding = std::move(held.holdings[i]);
+  for (std::size_t i = 0; i < drafts.setups.size(); ++i) {
+    if (!drafts.setups[i].holding.solids.empty()) workholding::write_nouns(plan, drafts.setups, i, how);
+  }
 }
 
 /// The stages of one try that choose steps, tools and order; whether all of them came to their end.
@@ -197,11 +214,22 @@ Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& req
   if (!ordered) return tl::unexpected(ordered.error());
   if (tries.learn(std::move(ordered->second))) return false;
   poll();
-  auto held = hold_workpieces(plan, std::move(ordered->first), asked, job);
+  drafts = std::move(ordered->first);
+  auto held = hold_workpieces(plan, drafts, asked, job);
   if (!held) return tl::unexpected(held.error());
-  drafts = *std::move(held);
+  put_held(plan, drafts, *std::move(held), asked.inputs.workholding);
   given::raise_security_planes(plan, drafts.setups, drafts.steps, job);
   return true;
+}
+
+/// Writes material, machine and raw piece, and who named them; other provenance is recorded anew in this run.
+void put_workpiece(model::Plan& plan, Resolved resolved, const Inputs& inputs) {
+  plan.material = std::move(resolved.material);
+  plan.machine = inputs.machine;
+  plan.stock = std::move(resolved.raw);
+  plan.provenance = inputs.provenance;
+  plan.provenance.push_back(std::move(resolved.margin.said));
+  if (inputs.stock) piece::state_raw_piece(plan.model, plan.stock.box);
 }
 
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
@@ -219,9 +247,11 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   const auto corners = model::corner_rests(plan);
   const auto not_made = unreadable_of(plan, wrong);
 
-  const auto margin = resolve_workpiece(plan, inputs, job);
-  if (!margin) return tl::unexpected(margin.error());
-  const Asked asked{inputs, policy, tries.bans, recorded, not_made, *margin};
+  auto resolved = resolve_workpiece(plan, inputs, job);
+  if (!resolved) return tl::unexpected(resolved.error());
+  const mechanics::MarginPolicy margin = resolved->margin.policy;
+  put_workpiece(plan, *std::move(resolved), inputs);
+  const Asked asked{inputs, policy, tries.bans, recorded, not_made, margin};
   piece::report_outside(plan, job);
   poll();
   auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);
@@ -230,6 +260,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   poll();
   const auto required = take_requirements(plan, asked, job);
   if (!required) return tl::unexpected(required.error());
+  if (const piece::Demands& d = required->demands; d.general)
+    plan.provenance.push_back({"general tolerance", d.general->text, d.general_from});
   poll();
   Drafts drafts{std::move(listed->setups), std::move(listed->steps), {}};
   if (policy.bind >= Bind::kStrategy) {
@@ -238,7 +270,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
     if (!*chosen) return again;
   }
   const piece::Piece piece{plan, required->shapes, grown_mm(inputs)};
-  const step::Wishes wishes{inputs.objective,      earning_per_min,    margin->deviations,
+  const step::Wishes wishes{inputs.objective,      earning_per_min,    margin.deviations,
                             inputs.constant_feeds, inputs.cases.get(), inputs.library};
   const step::PlanSoFar so_far{plan, drafts.setups, drafts.steps, piece, required->demands, recorded, wishes};
   if (policy.bind == Bind::kAll) {
@@ -262,9 +294,10 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   }
   if (policy.bind != Bind::kAll && policy.bind != Bind::kNone) leave_open(plan, drafts.steps, policy.bind);
   if (auto ok = collect_setups(plan, drafts.setups); !ok) return tl::unexpected(ok.error());
-  name_what_rests(plan, drafts.setups);
+  plan.unplanned = with_what_rests(plan, drafts.setups);
   name_steps(plan);
-  tell_needed(plan, tries.needed, job);
+  for (model::Provenance& row : tell_needed(plan, tries.needed, job))
+    plan.provenance.push_back(std::move(row));
   tries.made = made_steps(so_far);
   // A value chosen in place of an unreadable one does not make that readable.
   for (const auto& u : wrong) model::set_unreadable(plan, u.key.object, u.key.attribute, u.why);

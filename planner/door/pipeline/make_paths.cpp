@@ -286,7 +286,7 @@ class PathMaker {
     step::Stocks::Undone removed;
   };
 
-  /// Rings, or constant engagement where that is worthwhile; of the others, only what is recorded is told.
+  /// Rings, or constant engagement where that is worthwhile; of the others, it reports only what is recorded.
   Result<step::MeasuredCut> quickest_way(StepDraft& step, std::size_t i, bool inwards,
                                          const std::optional<step::ConstantCut>& other) {
     using step::Clearing;
@@ -445,7 +445,7 @@ class PathMaker {
   /// Depths that exceeded a limit along the path: an alternative that was tried, and why not.
   void tell_thicker(const StepDraft& step, const step::PathWithCut& made) {
     if (made.thicker.empty()) return;
-    // What the check asked for is told by `bind_checked`.
+    // `bind_checked` reports what the check asked for.
     const bool asked = step.proposed && bans_.thinner(step.member, step.chain, step.in_chain) != nullptr;
     if (made.thicker.size() > 1 || !asked) {
       job_.note("PIP-ANEW", "step '" + draft::name_of(plan_.model, step) + "': " + sizes(made.answer) +

@@ -46,16 +46,18 @@ Learned leave_what_rests(const model::Plan& plan, const Drafts& drafts) {
   return out;
 }
 
-void name_what_rests(model::Plan& plan, const std::vector<draft::SetupDraft>& setups) {
-  const std::set<AnyRef> roots = unplanned_of(plan);
-  if (roots.empty()) return;
+std::vector<model::Unplanned> with_what_rests(const model::Plan& plan,
+                                              const std::vector<draft::SetupDraft>& setups) {
+  std::vector<model::Unplanned> out = plan.unplanned;
+  if (out.empty()) return out;
   const std::vector<piece::RestsOn> all = piece::what_rests(plan.model, setups);
   std::set<AnyRef> named;
-  for (model::Unplanned& u : plan.unplanned) {
+  for (model::Unplanned& u : out) {
     if (!named.insert(u.feature).second) continue;
     for (const AnyRef f : piece::resting_on(all, {u.feature})) u.needed_by.push_back(name_of(plan.model, f));
     std::sort(u.needed_by.begin(), u.needed_by.end());
   }
+  return out;
 }
 
 }  // namespace capstan::pipeline

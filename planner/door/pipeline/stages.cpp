@@ -4,9 +4,7 @@
 #include <utility>
 
 #include "planner/making/given/open_tools.h"
-#include "planner/making/piece/workpiece.h"
 #include "planner/making/propose/shared_tools.h"
-#include "planner/making/workholding/hold.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -31,31 +29,22 @@ optimise::Options options_of(const Inputs& inputs) {
   return out;
 }
 
-Result<mechanics::MarginPolicy> resolve_workpiece(model::Plan& plan, const Inputs& inputs, Job& job) {
+Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs, Job& job) {
   const piece::WorkpieceWish wish{inputs.material_name, inputs.materials, inputs.stock,
                                   inputs.stock_allowance_mm, inputs.margin};
   auto material = piece::material_of(plan, wish, job);
   if (!material) return tl::unexpected(material.error());
-  plan.material = *std::move(material);
-  plan.machine = inputs.machine;
   auto margin = piece::margin_of(plan, wish, job);
   if (!margin) return tl::unexpected(margin.error());
-  // Other provenance is recorded anew in this run.
-  plan.provenance = inputs.provenance;
-  plan.provenance.push_back(std::move(margin->said));
   auto raw = piece::raw_piece_of(plan, wish, job);
   if (!raw) return tl::unexpected(raw.error());
-  plan.stock = *std::move(raw);
-  if (inputs.stock) piece::state_raw_piece(plan.model, plan.stock.box);
-  return margin->policy;
+  return Resolved{*std::move(material), *std::move(raw), *std::move(margin)};
 }
 
-Result<Required> take_requirements(model::Plan& plan, const Asked& asked, Job& job) {
+Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, Job& job) {
   const Inputs& inputs = asked.inputs;
   auto demands = piece::demands_of(plan, inputs.general_tolerance, inputs.edge_break_mm, inputs.batch, job);
   if (!demands) return tl::unexpected(demands.error());
-  if (demands->general)
-    plan.provenance.push_back({"general tolerance", demands->general->text, demands->general_from});
   return Required{*std::move(demands), piece::shapes_of_all(plan, grown_mm(inputs), asked.bans, job)};
 }
 
@@ -102,23 +91,13 @@ Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& requi
   return drafts;
 }
 
-Result<Drafts> hold_workpieces(model::Plan& plan, Drafts drafts, const Asked& asked, Job& job) {
-  const auto about = [](const model::Provenance& p) { return p.what == "workholding"; };
-  const bool asked_now = std::any_of(plan.provenance.begin(), plan.provenance.end(),
-                                     [&](const auto& p) { return about(p) && p.source == "--workholding"; });
-  const std::string& how = asked.inputs.workholding;
-  auto held =
-      workholding::hold(plan, drafts.setups, drafts.steps, {how, asked_now, asked.recorded.holdings}, job);
-  if (!held) return tl::unexpected(held.error());
-  if (held->note && std::none_of(plan.provenance.begin(), plan.provenance.end(), about))
-    plan.provenance.push_back(*std::move(held->note));
-  if (!held->planned) return drafts;
-  for (std::size_t i = 0; i < drafts.setups.size(); ++i)
-    drafts.setups[i].holding = std::move(held->holdings[i]);
-  for (std::size_t i = 0; i < drafts.setups.size(); ++i) {
-    if (!drafts.setups[i].holding.solids.empty()) workholding::write_nouns(plan, drafts.setups, i, how);
-  }
-  return drafts;
+Result<workholding::Held> hold_workpieces(const model::Plan& plan, const Drafts& drafts, const Asked& asked,
+                                          Job& job) {
+  const bool asked_now = std::any_of(
+      plan.provenance.begin(), plan.provenance.end(),
+      [](const model::Provenance& p) { return p.what == "workholding" && p.source == "--workholding"; });
+  return workholding::hold(plan, drafts.setups, drafts.steps,
+                           {asked.inputs.workholding, asked_now, asked.recorded.holdings}, job);
 }
 
 }  // namespace capstan::pipeline

@@ -12,11 +12,15 @@
 #include "planner/making/draft/recorded.h"
 #include "planner/making/piece/demands.h"
 #include "planner/making/piece/piece.h"
+#include "planner/making/piece/workpiece.h"
 #include "planner/making/propose/propose.h"
 #include "planner/making/step/plan_so_far.h"
+#include "planner/making/workholding/hold.h"
 
-// The stages of one try, in the order `bind` runs them. Each reads what it is given and gives what it found;
-// of the plan it writes nouns, ledger and what is not planned. Only planner/door/pipeline/*.cpp include this.
+// The stages of one try, in the order `bind` runs them. Each reads what it is given and gives what it found.
+// A stage that takes the plan as constant writes nothing into it; the others write nouns, ledger and what is
+// not planned. What else a plan holds, `bind_once` alone writes. Only planner/door/pipeline/*.cpp include
+// this.
 
 namespace capstan::pipeline {
 
@@ -44,11 +48,16 @@ struct Required {
 /// Excess of the raw piece over the finished part, mm.
 [[nodiscard]] double grown_mm(const Inputs& inputs);
 
-/// Puts material, machine and raw piece into the plan; returns the margin.
-[[nodiscard]] Result<mechanics::MarginPolicy> resolve_workpiece(model::Plan& plan, const Inputs& inputs,
-                                                                Job& job);
+/// What is cut, and how carefully.
+struct Resolved {
+  model::WorkMaterial material;
+  model::Stock raw;
+  piece::Margin margin;
+};
+/// Material, raw piece and margin.
+[[nodiscard]] Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs, Job& job);
 /// General tolerance and the demands on each feature.
-[[nodiscard]] Result<Required> take_requirements(model::Plan& plan, const Asked& asked, Job& job);
+[[nodiscard]] Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, Job& job);
 /// Proposes operations and cutters for features without bound operations.
 [[nodiscard]] std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts,
                                                          const Required& required, const Asked& asked,
@@ -58,13 +67,15 @@ struct Required {
                                        const Asked& asked, Job& job);
 /// Features that rest on unplanned features become unplanned, too.
 [[nodiscard]] Learned leave_what_rests(const model::Plan& plan, const Drafts& drafts);
-/// Names, at each unplanned feature, the features that rest on it.
-void name_what_rests(model::Plan& plan, const std::vector<draft::SetupDraft>& setups);
+/// The plan's unplanned features; each names the features that rest on it.
+[[nodiscard]] std::vector<model::Unplanned> with_what_rests(const model::Plan& plan,
+                                                            const std::vector<draft::SetupDraft>& setups);
 /// Set-ups, order, and what is measured between the steps.
 [[nodiscard]] Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,
                                                              const Required& required, Job& job);
 /// Fixtures and clamps of each set-up, where that is wanted.
-[[nodiscard]] Result<Drafts> hold_workpieces(model::Plan& plan, Drafts drafts, const Asked& asked, Job& job);
+[[nodiscard]] Result<workholding::Held> hold_workpieces(const model::Plan& plan, const Drafts& drafts,
+                                                        const Asked& asked, Job& job);
 /// Depths, paths, sections, feeds, step by step, with the retries of one step: the next cutter, a thinner
 /// cut. `steps` are those of `p`, and `plan` is its plan.
 [[nodiscard]] Result<Learned> make_paths(model::Plan& plan, std::vector<draft::StepDraft>& steps,

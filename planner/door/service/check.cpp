@@ -103,7 +103,7 @@ class Check {
         p.done = true;
       });
     };
-    // What was found before a stop is told, and of each part that was not looked at that nothing is proven.
+    // After a stop the findings so far are reported; of each part not looked at, that nothing is proven.
     stoppable(job_, all, [&] {
       for (Part* p : checked) {
         if (!p->done) p->findings.push_back(verify::not_begun());

@@ -62,7 +62,7 @@ Diagnostic stopped_call(const std::string& file) {
 
 Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {
   const auto all = [&]() -> Status {
-    // Each writes its own; what they say is told in the order of the outputs.
+    // Each writes into a job of its own; the diagnostics are reported in the order of the outputs.
     std::vector<Job> jobs(outputs.size());
     std::vector<std::optional<Result<Written>>> made(outputs.size());
     parallel_for(job, outputs.size(),

@@ -13,9 +13,9 @@
 #include "planner/model/plan/cutter/sized_name.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "tooling/library/cutters/complete.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/library/nouns/tool_material.h"
+#include "tooling/library/words/comment_words.h"
 
 // Compares the tools of the plan with those loaded in the magazine.
 

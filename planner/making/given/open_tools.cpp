@@ -289,7 +289,7 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
                                     words(*all.front()) + "): it is '" + own[i] + "' in the plan");
     }
   }
-  // What a name stands for is among these cutters, so that all are told apart before one is renamed.
+  // A name may mean several of these cutters: all get names of their own before one is renamed.
   std::vector<std::string> own;
   for (const StepDraft* s : given) own.push_back(names[s->cutter.id][find(*s)]);
   for (std::size_t i = 0; i < given.size(); ++i) given[i]->cutter.id = std::move(own[i]);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+
+#include "planner/model/nouns/arena/attribute.h"
 
 namespace capstan::verify {
 
@@ -10,97 +13,73 @@ using model::CutterClass;
 
 namespace {
 
-constexpr int kFinishingRank = 4;
+enum Trait : std::uint16_t {
+  kNone = 0,
+  kAxis = 1U << 0U,
+  kMill = 1U << 1U,
+  kUnder = 1U << 2U,
+  kHang = 1U << 3U,
+  kSize = 1U << 4U,
+  kEdge = 1U << 5U,
+  kPoint = 1U << 6U,
+  kThread = 1U << 7U,
+  kCentre = 1U << 8U,
+  kRake = 1U << 9U,
+};
+
+/// What a class's edges sweep: a flat end with rounded corners, a cone to a point, a cone over a flat tip by
+/// the flank's own angle or by the lead angle, a ball.
+enum class Outline : std::uint8_t { kFlat, kPointed, kTapered, kLead, kBall };
+
+struct Copy {
+  unsigned traits;
+  Outline outline;
+};
+
+Copy copy_of(CutterClass c) {
+  switch (c) {
+#define CAPSTAN_CLASS_COPY(value, traits, outline) \
+  case CutterClass::value:                         \
+    return {traits, Outline::outline};
+#include "planner/proof/verify/class_copies.inc"
+#undef CAPSTAN_CLASS_COPY
+  }
+  return {kNone, Outline::kFlat};
+}
+
+bool is(CutterClass c, Trait t) { return (copy_of(c).traits & t) != 0; }
+
+constexpr int kMarkingRank = 1, kDrillingRank = 2, kRoughingRank = 3, kFinishingRank = 4, kSizingRank = 5;
 
 }  // namespace
 
-bool undercuts(CutterClass c) {
-  switch (c) {
-    case CutterClass::kTSlotMill:
-    case CutterClass::kDovetailMill:
-    case CutterClass::kBackCounterbore:
-    case CutterClass::kBackCountersink:
-    case CutterClass::kSideMill:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool under_overhangs(CutterClass c) {
-  return c == CutterClass::kTSlotMill || c == CutterClass::kDovetailMill ||
-         c == CutterClass::kBackCountersink;
-}
-
-bool sizes_hole(CutterClass c) {
-  return c == CutterClass::kTwistDrill || c == CutterClass::kGunDrill || c == CutterClass::kReamer ||
-         c == CutterClass::kTap;
-}
-
-bool breaks_edges(CutterClass c) { return c == CutterClass::kChamferMill || c == CutterClass::kCountersink; }
-
-bool cuts_by_point(CutterClass c) {
-  switch (c) {
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-    case CutterClass::kCountersink:
-    case CutterClass::kBackCountersink:
-    case CutterClass::kChamferMill:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool mills(CutterClass c) {
-  switch (c) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-    case CutterClass::kGunDrill:
-    case CutterClass::kReamer:
-    case CutterClass::kTap:
-    case CutterClass::kBoringTool:
-    case CutterClass::kCountersink:
-    case CutterClass::kTouchProbe:
-      return false;
-    default:
-      return true;
-  }
-}
+bool works_along_axis(CutterClass c) { return is(c, kAxis); }
+bool undercuts(CutterClass c) { return is(c, kUnder); }
+bool under_overhangs(CutterClass c) { return is(c, kHang); }
+bool sizes_hole(CutterClass c) { return is(c, kSize); }
+bool breaks_edges(CutterClass c) { return is(c, kEdge); }
+bool cuts_by_point(CutterClass c) { return is(c, kPoint); }
+bool mills(CutterClass c) { return is(c, kMill); }
+bool mills_threads(CutterClass c) { return is(c, kThread); }
+bool cuts_to_centre(CutterClass c) { return is(c, kCentre); }
+bool is_raked(CutterClass c) { return is(c, kRake); }
+bool is_ball(CutterClass c) { return copy_of(c).outline == Outline::kBall; }
 
 int order_rank(model::TypeId op) {
   using model::TypeId;
-  switch (op) {
-    case TypeId::kCenterDrilling:
-      return 1;
-    case TypeId::kDrilling:
-    case TypeId::kMultistepDrilling:
-      return 2;
-    case TypeId::kPlaneRoughMilling:
-    case TypeId::kSideRoughMilling:
-    case TypeId::kBottomAndSideRoughMilling:
-    case TypeId::kFreeformRoughMilling:
-      return 3;
-    case TypeId::kPlaneFinishMilling:
-    case TypeId::kSideFinishMilling:
-    case TypeId::kBottomAndSideFinishMilling:
-    case TypeId::kFreeformFinishMilling:
-      return kFinishingRank;
-    case TypeId::kBoring:
-    case TypeId::kReaming:
-    case TypeId::kBackBoring:
-    case TypeId::kTapping:
-    case TypeId::kThreadDrilling:
-      return 5;
-    default:
-      return 0;
+  if (op == TypeId::kNone) return 0;
+  const model::NounType& noun = model::noun_type(op);
+  if (noun.abstract) return 0;
+  if (model::is_a(op, TypeId::kMillingTypeOperation)) {
+    if (noun.keyword.ends_with("ROUGH_MILLING")) return kRoughingRank;
+    return noun.keyword.ends_with("FINISH_MILLING") ? kFinishingRank : 0;
   }
+  if (!model::is_a(op, TypeId::kDrillingTypeOperation) || op == TypeId::kCounterSinking) return 0;
+  if (op == TypeId::kCenterDrilling) return kMarkingRank;
+  return model::is_a(op, TypeId::kDrillingOperation) ? kDrillingRank : kSizingRank;
 }
 
 bool finishes(model::TypeId op) { return order_rank(op) == kFinishingRank; }
-
-bool mills_threads(CutterClass c) { return c == CutterClass::kThreadMill; }
 
 double speed_by_arc(double width_ratio, const std::string& group) {
   constexpr double kWidth[] = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5};
@@ -127,25 +106,20 @@ geometry::CutterProfile outline_of(const model::Cutter& c) {
   const auto widening = [&](double lean) {
     return geometry::cone_profile(d + 2.0 * high * std::tan(lean), 2.0 * lean, high, d);
   };
-  switch (c.cutter_class) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-    case CutterClass::kGunDrill:
-    case CutterClass::kCountersink:
-    case CutterClass::kChamferMill:
+  switch (copy_of(c.cutter_class).outline) {
+    case Outline::kPointed:
       if (c.point_angle_rad > 0.0)
         return geometry::cone_profile(d, c.point_angle_rad, high, c.tip_diameter_mm);
       break;
-    case CutterClass::kTaperedEndmill:  // its diameter is that of the tip
+    case Outline::kTapered:  // its diameter is that of the tip
       if (c.taper_angle_rad > 0.0) return widening(c.taper_angle_rad);
       break;
-    case CutterClass::kFacemill:  // ISO 13399: DC is measured at the tip, DCX = DC + 2 APMX tan PSIR
+    case Outline::kLead:  // ISO 13399: DC is measured at the tip, DCX = DC + 2 APMX tan PSIR
       if (c.lead_angle_rad > 0.0 && high > 0.0) return widening(c.lead_angle_rad);
       break;
-    case CutterClass::kBallEndmill:
+    case Outline::kBall:
       return geometry::ball_profile(d, high);
-    default:
+    case Outline::kFlat:
       break;
   }
   return geometry::bull_profile(d, c.corner_radius_mm, high);

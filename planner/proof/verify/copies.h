@@ -8,9 +8,12 @@
 #include "planner/model/plan/cutter/cutter.h"
 
 /// What the check says of kinds of things by itself: a wrong row of the vocabulary must not pass it. Copies
-/// on purpose; tests/proof/verify/copies_test.cpp holds each against the vocabulary's column.
+/// on purpose; tests/proof/verify/copies_test.cpp holds each against the vocabulary's column. What is said of
+/// a class of cutter is a row of class_copies.inc.
 namespace capstan::verify {
 
+/// Feeds along its axis.
+[[nodiscard]] bool works_along_axis(model::CutterClass c);
 /// Its head is wider than what stands above it: heights do not tell what it cuts.
 [[nodiscard]] bool undercuts(model::CutterClass c);
 /// Cuts under the walls of its own feature.
@@ -23,7 +26,15 @@ namespace capstan::verify {
 [[nodiscard]] bool cuts_by_point(model::CutterClass c);
 /// Moves along walls, and so leaves its radius in their corners.
 [[nodiscard]] bool mills(model::CutterClass c);
+/// Cuts at its centre whatever is stated of it, and so goes straight down into solid material.
+[[nodiscard]] bool cuts_to_centre(model::CutterClass c);
+/// A solid mill, whose edges are ground with a rake.
+[[nodiscard]] bool is_raked(model::CutterClass c);
+/// Its corner radius is half its diameter, stated or not.
+[[nodiscard]] bool is_ball(model::CutterClass c);
 /// Operations of one feature in the order of the craft: a lower one never follows a higher one. 0: any order.
+/// Judged by where ISO 14649-11 derives the operation from, and by its keyword (..._ROUGH_MILLING); the table
+/// of the vocabulary states a rank for each.
 [[nodiscard]] int order_rank(model::TypeId operation);
 /// Makes the surface that stays.
 [[nodiscard]] bool finishes(model::TypeId operation);
@@ -32,8 +43,8 @@ namespace capstan::verify {
 /// How much faster than a table's speed an edge of carbide may be where its cut is this wide, over the
 /// diameter, for the same life; in a group of ISO 513. The copy of mechanics::speed_by_arc; source there.
 [[nodiscard]] double speed_by_arc(double width_ratio, const std::string& iso_group);
-/// The steepest ramp that planning chooses at the feed of slots, rad: the lesser of the cutter's own angle and
-/// that of its substrate in a group of ISO 513. The copy of the table of model::ramp_of; sources there.
+/// The steepest ramp that planning chooses at the feed of slots, rad: the lesser of the cutter's own angle
+/// and that of its substrate in a group of ISO 513. The copy of the table of model::ramp_of; sources there.
 [[nodiscard]] double usual_ramp(const model::Cutter& c, const std::string& iso_group);
 /// What a cutter's edges sweep, by its class and its stated sizes: a cone to a point, a cone over a flat tip,
 /// a ball, else a flat end with rounded corners.

@@ -133,14 +133,14 @@ TEST(EvidenceOf, CarriesWearToTheChangeOfTheEdgeByTheLawOfTheHandbook) {
   c.observed.wear_series_mm = worn_edge(4.0);
   c.observed.wear_mm = Figure{.value = c.observed.wear_series_mm.samples.back().value};
   const double at_change = 0.08 * std::pow(10.0 / 2.0, kWearByTime);
-  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear), at_change / kAllowedWearMm, 1e-3);
+  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear), at_change / kWornMm, 1e-3);
   // The same edge a few parts later says the same.
   c.observed.wear_series_mm = worn_edge(8.0);
-  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear), at_change / kAllowedWearMm, 1e-3);
+  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear), at_change / kWornMm, 1e-3);
   // As many parts at twice the feed are half the time in the cut.
   c.bound.fz_mm *= 2.0;
-  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear),
-              0.08 * std::pow(5.0 / 2.0, kWearByTime) / kAllowedWearMm, 1e-3);
+  EXPECT_NEAR(load(evidence_of(c, p), Watched::kWear), 0.08 * std::pow(5.0 / 2.0, kWearByTime) / kWornMm,
+              1e-3);
 }
 
 TEST(EvidenceOf, WearOfUnknownAgeCountsOnlyBeyondWhatIsAllowed) {
@@ -161,7 +161,7 @@ TEST(EvidenceOf, AnEdgeIsAsWornAsItWasBeforeTheCut) {
   c.observed.wear_series_mm = {.samples = {{0.0, 0.0}, {66.0, 0.06}}};
   EXPECT_NEAR(evidence_of(c, planned()).worn, 0.0, 1e-12) << "its first part";
   c.observed.wear_series_mm.samples.push_back({132.0, 0.09});
-  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.06 / kAllowedWearMm, 1e-12);
+  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.06 / kWornMm, 1e-12);
 }
 
 TEST(EvidenceOf, NamesItsSourceInOneLine) {

@@ -13,7 +13,7 @@
 #include "tests/support/shop.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/import.h"
-#include "tooling/library/library.h"
+#include "tooling/library/formats/own/own_list.h"
 #include "tooling/library/store/store.h"
 
 // Every field of the tables, with a value unlike its default, comes back from each form.

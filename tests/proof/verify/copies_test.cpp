@@ -29,11 +29,7 @@ Classes differing(Says says, CutterTrait t) {
 }
 
 TEST(Copies, WorkAlongTheAxisAsTheTableSays) {
-  const auto says = [](CutterClass c) {
-    model::Cutter one;
-    one.cutter_class = c;
-    return works_along_axis(one);
-  };
+  const auto says = [](CutterClass c) { return works_along_axis(c); };
   EXPECT_EQ(differing(says, CutterTrait::kAlongAxis), Classes{});
 }
 
@@ -82,6 +78,18 @@ TEST(Copies, RampAsFlatAsPlanningDoes) {
 
 TEST(Copies, SizeHolesAsTheTableSays) {
   EXPECT_EQ(differing(sizes_hole, CutterTrait::kSizesHole), Classes{});
+}
+
+TEST(Copies, CutToTheCentreAsTheTableSays) {
+  EXPECT_EQ(differing(cuts_to_centre, CutterTrait::kToCentre), Classes{});
+}
+
+TEST(Copies, AreBallsAsTheTableSays) { EXPECT_EQ(differing(is_ball, CutterTrait::kBall), Classes{}); }
+
+TEST(Copies, RakeEndMillsAndBallsAsTheForceLawDoes) {
+  EXPECT_EQ(differing([](CutterClass c) { return is_raked(c) && !is_ball(c); }, CutterTrait::kEndMill),
+            Classes{});
+  EXPECT_TRUE(is_raked(CutterClass::kBallEndmill));
 }
 
 TEST(Copies, BreakEdgesWithTheConesThatSink) {

@@ -174,7 +174,7 @@ TEST(ExpandSeries, RefusesAnEdgeThatTheTableDoesNotName) {
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 18, "edge: coated_auger");
   const auto got =
-      expand_series(parse_tree(text, "mine.yaml").value(), "mine.yaml", shipped_materials().value(), job);
+      expand_series({{"mine.yaml", parse_tree(text, "mine.yaml").value()}}, shipped_materials().value(), job);
   ASSERT_FALSE(got);
   EXPECT_EQ(got.error().code, "DATA-UNKNOWN");
   EXPECT_NE(got.error().message.find("coated_auger"), std::string::npos);

@@ -174,6 +174,29 @@ TEST(GenericLibrary, CoversBoresWithoutAGapFromItsSmallestToItsLargestBoringTool
 
 TEST(GenericLibrary, IsTheSameEachTime) { EXPECT_EQ(generic_library().value(), library()); }
 
+// A class of cutter brings its sizes in a file of its own.
+TEST(ExpandSeries, TakesTheTablesOfTheFirstFileForSeriesOfOthers) {
+  Job job;
+  const std::string own =
+      "capstan_cutter_series: 1\nsource: test\nseries:\n"
+      "  - {name: mine, words: a mill, class: endmill, substrate: carbide, sizes: [7], teeth: 3, "
+      "flute_length: 20,\n"
+      "     shank: 8, stick_out: 30, feeds: mill_carbide, speed_factor: 1}\n";
+  const SeriesFile first{"cutters.yaml", shipped_tree("cutters.yaml").value()};
+  const auto got = expand_series({first, {"mine.yaml", parse_tree(own, "mine.yaml").value()}},
+                                 shipped_materials().value(), job);
+  ASSERT_TRUE(got) << to_text(got.error());
+  EXPECT_EQ(got->back().id, "generic/mine/7");
+  EXPECT_EQ(got->back().functional_length_mm, 100.0);  // 70 mm of the first file's chuck and 30 mm
+  const auto twice = expand_series({first,
+                                    {"mine.yaml", parse_tree(own, "mine.yaml").value()},
+                                    {"again.yaml", parse_tree(own, "again.yaml").value()}},
+                                   shipped_materials().value(), job);
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().file, "again.yaml");
+  EXPECT_EQ(twice.error().code, "DATA-DUPLICATE");
+}
+
 TEST(ExpandSeries, SaysWhereATableEnds) {
   Job job;
   std::string text = shipped_text("cutters.yaml");
@@ -181,7 +204,7 @@ TEST(ExpandSeries, SaysWhereATableEnds) {
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 7, "20, 26]");
   const auto got =
-      expand_series(parse_tree(text, "mine.yaml").value(), "mine.yaml", shipped_materials().value(), job);
+      expand_series({{"mine.yaml", parse_tree(text, "mine.yaml").value()}}, shipped_materials().value(), job);
   ASSERT_FALSE(got);
   EXPECT_EQ(got.error().code, "DATA-TABLE");
   EXPECT_EQ(got.error().file, "mine.yaml");

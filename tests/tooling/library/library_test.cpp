@@ -7,7 +7,7 @@
 #include "tests/support/corpus.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
+#include "tooling/library/words/comment_words.h"
 
 namespace capstan::tooling {
 namespace {

@@ -12,8 +12,8 @@
 #include "planner/model/plan/assumed_tool_material.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/nouns/nouns.h"
+#include "tooling/library/words/comment_words.h"
 #include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
@@ -111,6 +113,7 @@ struct Reader {
   std::map<std::string, Feeds> feeds;
   std::vector<Cutter> cutters;
   std::vector<std::uint64_t> lines;
+  std::set<std::string> names;  ///< of the series so far
   Edges edges = {};
 };
 
@@ -384,47 +387,70 @@ void add_cutter(const Series& s, const std::vector<SeriesPreset>& presets, const
   r.lines.push_back(size.row != nullptr ? size.row->line : f.line());
 }
 
-}  // namespace
-
-Result<std::vector<Cutter>> expand_series(const Node& root, const std::string& file,
-                                          const std::vector<WorkMaterial>& materials, Job& job) {
-  std::vector<Diagnostic> faults;
-  Fields top(root, file, "", "", faults);
-  Reader r{materials, faults, {}, {}, {}, {}, {}};
-  if (top.text("capstan_cutter_series") != "1")
-    top.fault("DATA-VERSION", "not a table of cutter series of version 1", "capstan_cutter_series", 1);
+void read_tables(Fields& top, Reader& r) {
   if (const Node* n = top.child("holding", true)) read_holding(top.below("holding", *n), r);
   if (const Node* n = top.child("edges", false)) r.edges = read_edges(*n, top.below("edges", *n));
   if (const Node* n = top.child("feeds", true)) read_feeds(*n, top.below("feeds", *n), r);
-  if (const Node* list = top.child("series", true)) {
-    for (const Node& n : list->items) {
-      Fields f = top.below("series", n);
-      const Series s = read_series(f);
-      if (!s.feeds.empty() && r.feeds.count(s.feeds) == 0)
-        f.fault("DATA-UNKNOWN", "there is no feed table '" + s.feeds + "'", "feeds", f.line_of("feeds"));
-      if (!s.edge.empty() && r.edges.count(s.edge) == 0)
-        f.fault("DATA-UNKNOWN", "there is no edge '" + s.edge + "'", "edge", f.line_of("edge"));
-      const std::vector<Size> sizes = read_sizes(f);
-      f.finish();
-      if (!faults.empty()) continue;
-      const std::vector<SeriesPreset> presets = presets_of(s, r);
-      for (const Size& size : sizes) add_cutter(s, presets, size, f, r);
-    }
+}
+
+void read_list(Fields& top, Reader& r) {
+  const Node* list = top.child("series", true);
+  if (list == nullptr) return;
+  for (const Node& n : list->items) {
+    Fields f = top.below("series", n);
+    const Series s = read_series(f);
+    if (!r.names.insert(s.name).second)
+      f.fault("DATA-DUPLICATE", "there are two series '" + s.name + "'", "name", f.line_of("name"));
+    if (!s.feeds.empty() && r.feeds.count(s.feeds) == 0)
+      f.fault("DATA-UNKNOWN", "there is no feed table '" + s.feeds + "'", "feeds", f.line_of("feeds"));
+    if (!s.edge.empty() && r.edges.count(s.edge) == 0)
+      f.fault("DATA-UNKNOWN", "there is no edge '" + s.edge + "'", "edge", f.line_of("edge"));
+    const std::vector<Size> sizes = read_sizes(f);
+    f.finish();
+    if (!r.faults.empty()) continue;
+    const std::vector<SeriesPreset> presets = presets_of(s, r);
+    for (const Size& size : sizes) add_cutter(s, presets, size, f, r);
   }
-  top.finish();
-  if (faults.empty()) faults = check_cutters(r.cutters, file, r.lines);
+}
+
+}  // namespace
+
+Result<std::vector<Cutter>> expand_series(const std::vector<SeriesFile>& files,
+                                          const std::vector<WorkMaterial>& materials, Job& job) {
+  std::vector<Diagnostic> faults;
+  Reader r{materials, faults, {}, {}, {}, {}, {}, {}};
+  std::vector<Cutter> out;
+  for (const SeriesFile& file : files) {
+    Fields top(file.root, file.name, "", "", faults);
+    if (top.text("capstan_cutter_series") != "1")
+      top.fault("DATA-VERSION", "not a table of cutter series of version 1", "capstan_cutter_series", 1);
+    if (&file == &files.front()) read_tables(top, r);
+    read_list(top, r);
+    top.finish();
+    if (faults.empty()) faults = check_cutters(r.cutters, file.name, r.lines);
+    std::move(r.cutters.begin(), r.cutters.end(), std::back_inserter(out));
+    r.cutters.clear();
+    r.lines.clear();
+  }
   if (auto d = tell(std::move(faults), job)) return fail(std::move(*d));
-  return std::move(r.cutters);
+  return out;
 }
 
 Result<std::vector<Cutter>> generic_library() {
   auto materials = shipped_materials();
   if (!materials) return fail(materials.error());
-  constexpr const char* kFile = "cutters.yaml";
-  const auto root = shipped_tree(kFile);
-  if (!root) return fail(root.error());
+  std::vector<std::string> names{"cutters.yaml"};
+  for (const std::string_view name : embedded_names())
+    if (name.starts_with("series/")) names.emplace_back(name);
+  std::sort(names.begin() + 1, names.end());
+  std::vector<SeriesFile> files;
+  for (const std::string& name : names) {
+    auto root = shipped_tree(name);
+    if (!root) return fail(root.error());
+    files.push_back({name, std::move(*root)});
+  }
   Job job;
-  return expand_series(*root, kFile, *materials, job);
+  return expand_series(files, *materials, job);
 }
 
 Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {

@@ -12,7 +12,8 @@
 
 namespace capstan::tooling {
 
-/// The generic library: tooling/data/cutters.yaml expanded, some 800 sizes, ids "generic/<series>/<size>".
+/// The generic library: tooling/data/cutters.yaml and series/*.yaml there expanded, some 800 sizes, ids
+/// "generic/<series>/<size>".
 /// None can be bought by this name; every number says "default: ..." in Cutter::sources.
 /// Presets: one per shipped material, and one per ISO 513 group for materials of other tables.
 [[nodiscard]] Result<std::vector<model::Cutter>> generic_library();
@@ -26,9 +27,15 @@ inline constexpr std::string_view kMaterialsSpeed = "the material's";
 /// proportion as the group's, the group's feed.
 [[nodiscard]] Status add_start_values(const model::WorkMaterial& own, std::vector<model::Cutter>& library);
 
-/// As `generic_library`, from the tree of a file of the same form.
-/// Fails  DATA-*, and what `check_cutters` finds.
+/// A file of series: its name and what stands in it.
+struct SeriesFile {
+  std::string name;
+  Node root;
+};
+
+/// As `generic_library`, from files of the same form: the first has the tables (holding, edges, feeds) that
+/// the series of all lean on. Fails  DATA-*, and what `check_cutters` finds.
 [[nodiscard]] Result<std::vector<model::Cutter>> expand_series(
-    const Node& root, const std::string& file, const std::vector<model::WorkMaterial>& materials, Job& job);
+    const std::vector<SeriesFile>& files, const std::vector<model::WorkMaterial>& materials, Job& job);
 
 }  // namespace capstan::tooling

@@ -13,6 +13,7 @@
 #include "planner/model/plan/requirement.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/store/codec.h"
+#include "tooling/library/store/rows.h"
 
 namespace capstan::tooling {
 namespace {
@@ -44,57 +45,6 @@ struct Finalize {
 };
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
-
-/// The index entry of a cutter.
-struct Key {
-  std::int64_t place = 0;
-  int cutter_class = 0;
-  std::array<double, 6> value{};  ///< diameter, diameter_to, reach, flutes, corner, pitch
-  friend bool operator==(const Key&, const Key&) = default;
-};
-
-Key key_of(const Cutter& c, std::int64_t place) {
-  return {place,
-          static_cast<int>(c.cutter_class),
-          {c.cutting_diameter_mm, std::max(c.cutting_diameter_mm, c.adjustable_to_mm), reach_of(c),
-           c.maximum_depth_of_cut_mm, c.corner_radius_mm, c.thread_pitch_mm}};
-}
-
-std::int64_t hash_of(const Key& k) {
-  std::string bytes(16 + sizeof k.value, '\0');
-  std::memcpy(bytes.data(), &k.place, 8);
-  const std::int64_t c = k.cutter_class;
-  std::memcpy(bytes.data() + 8, &c, 8);
-  std::memcpy(bytes.data() + 16, k.value.data(), sizeof k.value);
-  return static_cast<std::int64_t>(fnv1a(bytes));
-}
-
-/// Eight bytes at a time; each step can be undone, so that two texts of a length that differ in one word
-/// never share a hash. For faults, not for malice.
-std::uint64_t hash_words(std::string_view bytes, std::uint64_t h) {
-  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15ULL;
-  const auto mix = [&h](std::uint64_t word) {
-    h = (h ^ word) * kOdd;
-    h ^= h >> 32;
-  };
-  mix(bytes.size());
-  for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
-    std::uint64_t word = 0;
-    for (std::size_t i = 0; i < 8; ++i)
-      word |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
-    mix(word);
-  }
-  std::uint64_t rest = 0;
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    rest |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
-  mix(rest);
-  return h;
-}
-
-/// A row's place is part of its hash: rows that changed places are found, too.
-std::int64_t hash_of(std::string_view kind, std::int64_t place, std::string_view body) {
-  return static_cast<std::int64_t>(hash_words(body, fnv1a(kind) ^ static_cast<std::uint64_t>(place)));
-}
 
 struct Header {
   std::string name, source;
@@ -159,7 +109,7 @@ class Writer {
     sqlite3_bind_blob(s, 2, e.bytes.data(), static_cast<int>(e.bytes.size()), SQLITE_STATIC);
     sqlite3_bind_int64(s, 3, hash_of("cutter", place, e.bytes));
     if (!step(s)) return false;
-    const Key k = key_of(c, place);
+    const IndexKey k = key_of(c, place);
     s = index_.get();
     sqlite3_bind_int64(s, 1, place);
     sqlite3_bind_int(s, 2, k.cutter_class);
@@ -220,7 +170,7 @@ struct ToolStore::Impl {
   Statement by_place;
   Header header;
   std::vector<std::string> texts;
-  std::vector<Key> keys;                                        ///< by class, then diameter, then place
+  std::vector<IndexKey> keys;                                   ///< by class, then diameter, then place
   std::map<int, std::pair<std::size_t, std::size_t>> of_class;  ///< where a class begins and ends in `keys`
   std::map<int, double> widest_range;  ///< of tools that can be set, per class: diameter_to - diameter
 
@@ -342,7 +292,7 @@ Status ToolStore::Impl::read_index() {
   keys.reserve(static_cast<std::size_t>(count));
   int code = SQLITE_ROW;
   for (std::int64_t place = 0; (code = sqlite3_step(s->get())) == SQLITE_ROW; ++place) {
-    Key k;
+    IndexKey k;
     k.place = sqlite3_column_int64(s->get(), 0);
     k.cutter_class = sqlite3_column_int(s->get(), 1);
     for (int i = 0; i < 6; ++i)
@@ -354,13 +304,13 @@ Status ToolStore::Impl::read_index() {
   if (code != SQLITE_DONE) return damaged(sqlite3_errmsg(db.get()));
   if (static_cast<std::int64_t>(keys.size()) != count)
     return damaged("its index has " + std::to_string(keys.size()) + " rows of " + std::to_string(count));
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+  std::sort(keys.begin(), keys.end(), [](const IndexKey& a, const IndexKey& b) {
     if (a.cutter_class != b.cutter_class) return a.cutter_class < b.cutter_class;
     if (a.value[0] != b.value[0]) return a.value[0] < b.value[0];
     return a.place < b.place;
   });
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    const Key& k = keys[i];
+    const IndexKey& k = keys[i];
     const auto at = of_class.emplace(k.cutter_class, std::pair{i, i}).first;
     at->second.second = i + 1;
     double& range = widest_range[k.cutter_class];
@@ -474,7 +424,7 @@ std::vector<std::int64_t> ToolStore::find(const model::ToolRequirement& r) const
     const double from = low - impl_->widest_range.at(it->first);
     const auto begin = impl_->keys.begin() + static_cast<std::ptrdiff_t>(it->second.first);
     const auto end = impl_->keys.begin() + static_cast<std::ptrdiff_t>(it->second.second);
-    auto k = std::lower_bound(begin, end, from, [](const Key& a, double d) { return a.value[0] < d; });
+    auto k = std::lower_bound(begin, end, from, [](const IndexKey& a, double d) { return a.value[0] < d; });
     for (; k != end && k->value[0] <= high; ++k) {
       const auto& [d, to, reach, flutes, corner, pitch] = k->value;
       if (to < low || reach < r.reach_mm - kSlackMm) continue;
@@ -507,10 +457,11 @@ Result<std::vector<Cutter>> ToolStore::cutters(const std::vector<std::int64_t>& 
 }
 
 Result<std::vector<Cutter>> ToolStore::all_cutters() const {
-  std::vector<Key> by_place = impl_->keys;
-  std::sort(by_place.begin(), by_place.end(), [](const Key& a, const Key& b) { return a.place < b.place; });
+  std::vector<IndexKey> by_place = impl_->keys;
+  std::sort(by_place.begin(), by_place.end(),
+            [](const IndexKey& a, const IndexKey& b) { return a.place < b.place; });
   std::vector<std::int64_t> ids;
-  for (const Key& k : by_place) ids.push_back(k.place);
+  for (const IndexKey& k : by_place) ids.push_back(k.place);
   auto out = cutters(ids);
   if (!out) return out;
   for (std::size_t i = 0; i < out->size(); ++i) {

@@ -9,9 +9,9 @@
 #include "tooling/shop/material/iso_groups.h"
 #include "tooling/shop/material/material.h"
 
-// A table is read row by row; every fault is told. Sources stand as they are written until the whole table is
-// read: then each @name becomes the citation of that name, so that a citation stands once in the file and
-// whole in the plan.
+// A table is read row by row; every fault is reported. Sources stay as written until the whole table is
+// read: then each @name becomes the citation of that name, so that the file states a citation once and
+// the plan has it whole.
 
 namespace capstan::tooling {
 namespace {
@@ -179,7 +179,7 @@ MaterialFamily read_family(Fields f) {
 
 constexpr std::size_t kMostFaults = 100;  // told of citations; default, unsourced
 
-/// Whether a source is short enough; else that is told.
+/// Whether a source is short enough; reports one that is not.
 bool fits(std::size_t bytes, const std::string& begins, std::string_view key, std::uint64_t line,
           Fields& top) {
   if (bytes <= kLongestSource) return true;

@@ -238,7 +238,7 @@ class CommandLine {
                            "read a library of any known format, say what was read, derived "
                            "and dropped, and write it",
                            Command::kToolsImport);
-    file(import, "library", "a file or folder; its format is told by its content");
+    file(import, "library", "a file or folder; its content decides the format");
     auto* convert = command(tools, "convert", "write a library in another format", Command::kToolsConvert);
     file(convert, "library", "a file or folder");
     auto* out = command(tools, "export", "write the library that planning uses", Command::kToolsExport);

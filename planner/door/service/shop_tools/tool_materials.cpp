@@ -5,7 +5,7 @@
 
 #include "planner/model/plan/order/step_ids.h"
 #include "tooling/library/cutters/complete.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
+#include "tooling/library/words/comment_words.h"
 
 namespace capstan::service {
 namespace {

@@ -143,7 +143,7 @@ void record_strategy(model::Plan& plan, const StepDraft& step, const StrategyCho
                        : ringed != nullptr && ringed->rotation_direction.set() ? Clearing::kInwards
                                                                                : Clearing::kOutwards;
   if (choice.way == was) {
-    // As the rules proposed it, or as it was chosen before: the others are told beside it.
+    // The strategy stays as the rules proposed it or an earlier choice left it: record the others beside it.
     auto* d = plan.ledger.find(step.operation, kStrategy);
     if (choice.way == Clearing::kOutwards && d != nullptr && d->state == model::DecisionState::kBound) {
       for (const model::Rejected& r : choice.lost) d->rejected.push_back(r);

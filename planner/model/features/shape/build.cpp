@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "planner/ground/base/number.h"
@@ -280,11 +281,16 @@ Result<std::vector<Vec2>> travel_line(const Model& m, Ref<TravelPath> path, Feat
 
 namespace {
 
+/// By the noun nearest above the feature's own.
 Result<Shapes> plain(const Model& m, AnyRef feature) {
-#define CAPSTAN_SHAPE_NOUN(Noun, build) \
-  if (const auto* f = m.get<Noun>(feature)) return build(m, feature, *f);
-#include "planner/model/features/shape/shape_nouns.inc"
-#undef CAPSTAN_SHAPE_NOUN
+  static const std::map<TypeId, ShapeNoun> kNouns = [] {
+    std::map<TypeId, ShapeNoun> all;
+    for (const std::vector<ShapeNoun>& of_a_file : shape_nouns())
+      for (const ShapeNoun& s : of_a_file) all.emplace(s.noun, s);
+    return all;
+  }();
+  for (TypeId t = feature.type; t != TypeId::kNone; t = noun_type(t).parent)
+    if (const auto it = kNouns.find(t); it != kNouns.end()) return it->second.build(m, feature);
   return unsupported(m, feature, "is a kind of feature that is not understood");
 }
 

@@ -98,9 +98,19 @@ struct FlatCorners {
 };
 Result<FlatCorners> corners_of(const Model& m, const FlatSlotEndType& end, AnyRef feature);
 
-#define CAPSTAN_SHAPE_NOUN(Noun, build) Result<Shapes> build(const Model& m, AnyRef self, const Noun& f);
-#include "planner/model/features/shape/shape_nouns.inc"
-#undef CAPSTAN_SHAPE_NOUN
+/// A noun that is a shape by itself, and what builds the shapes of it and of what is derived from it. Nouns
+/// that refer to others (threads, edges, compounds, patterns) are chosen in `any`.
+struct ShapeNoun {
+  TypeId noun;
+  Result<Shapes> (*build)(const Model& m, AnyRef self);
+};
+template <class Noun, Result<Shapes> (*build)(const Model&, AnyRef, const Noun&)>
+ShapeNoun shape_noun() {
+  return {Noun::kType, [](const Model& m, AnyRef self) { return build(m, self, *m.get<Noun>(self)); }};
+}
+/// Of all files of noun/: NAME.cpp gives its own by `std::vector<ShapeNoun> NAME_nouns()`, which the build
+/// finds by the file's name (planner/model/CMakeLists.txt).
+std::vector<std::vector<ShapeNoun>> shape_nouns();
 Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, const Within& in);
 Result<Shapes> transition(const Model& m, AnyRef self, const TransitionFeature& f, const Within& in);
 Result<Shapes> compound(const Model& m, AnyRef self, const CompoundFeature& f, const Within& in);

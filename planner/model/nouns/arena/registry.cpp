@@ -23,9 +23,7 @@ class Registry {
                                                   .abstract = false,
                                                   .in_iso14649 = true,
                                                   .own = {}};
-    for (const auto rows : {support_rows(), geometric_item_rows(), workpiece_rows(), profile_rows(),
-                            feature_rows(), executable_rows(), operation_rows(), strategy_rows(), tool_rows(),
-                            trajectory_rows(), tolerance_rows(), property_rows(), broadcast_rows()}) {
+    for (const auto rows : noun_rows()) {
       for (const NounRow& row : rows) rows_[index(row.type)] = row;
     }
     for (std::size_t i = 1; i < kTypeCount; ++i) {

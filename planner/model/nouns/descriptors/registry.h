@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "planner/model/nouns/arena/attribute.h"
 #include "planner/model/nouns/enumerations.h"
@@ -281,18 +282,8 @@ constexpr Attribute plan_row(std::string_view name, Optionality optionality, Uni
   return a;
 }
 
-std::span<const NounRow> support_rows();
-std::span<const NounRow> geometric_item_rows();
-std::span<const NounRow> workpiece_rows();
-std::span<const NounRow> profile_rows();
-std::span<const NounRow> feature_rows();
-std::span<const NounRow> executable_rows();
-std::span<const NounRow> operation_rows();
-std::span<const NounRow> strategy_rows();
-std::span<const NounRow> tool_rows();
-std::span<const NounRow> trajectory_rows();
-std::span<const NounRow> tolerance_rows();
-std::span<const NounRow> property_rows();
-std::span<const NounRow> broadcast_rows();
+/// The rows of all files of this folder: NAME.cpp gives its own by `std::span<const NounRow> NAME_rows()`,
+/// which the build finds by the file's name (planner/model/CMakeLists.txt).
+[[nodiscard]] std::vector<std::span<const NounRow>> noun_rows();
 
 }  // namespace capstan::model

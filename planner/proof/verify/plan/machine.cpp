@@ -177,7 +177,7 @@ class Tightest {
       const auto* size = plan.model.get<model::TolerancedLengthMeasure>(r);
       if (size == nullptr || bores.contains(r)) continue;
       const volumes::Limits l = volumes::limits_of(plan.model, r);
-      // What cannot be read is told where it is planned.
+      // A size that cannot be read is reported where its feature is planned.
       if (l.given) add(l.width(), "a size of " + mm(l.nominal_mm));
     }
     const auto zones = volumes::location_zones(plan.model);

@@ -28,8 +28,8 @@ using model::Substrate;
 
 namespace {
 
-/// Speed over the card's or the tool's own from which it is told; what planning may reach where a spindle
-/// turns no slower. Default, unsourced.
+/// Speed over the card's or the tool's own from which the check reports it; planning may reach it where a
+/// spindle turns no slower. Default, unsourced.
 constexpr double kFaster = 1.25;
 /// By how much a card's speed may be too low for the tool at hand (grade, share of the turn in the cut):
 /// tables for one material and substrate differ by about this. Default, unsourced.
@@ -114,7 +114,7 @@ bool tells_speed(const model::Cutter& c) {
 /// floor.
 double contact_diameter(const model::Cutter& c, double depth_mm) {
   const double d = c.cutting_diameter_mm;
-  const double r = c.cutter_class == CutterClass::kBallEndmill ? 0.5 * d : c.corner_radius_mm;
+  const double r = is_ball(c.cutter_class) ? 0.5 * d : c.corner_radius_mm;
   if (!(r > 0.0) || !(depth_mm > 0.0) || depth_mm >= r) return d;
   return d - 2.0 * r + 2.0 * std::sqrt(depth_mm * (2.0 * r - depth_mm));
 }

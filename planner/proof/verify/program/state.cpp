@@ -26,7 +26,7 @@ Findings::Where ProgramCase::where(const Block& b) const {
 
 namespace {
 
-/// An id too long for a line is told by its hash.
+/// An id too long for a line is written as its hash.
 bool is_of(const std::string& marker, const std::string& id) {
   if (marker == id) return true;
   constexpr std::string_view kHashed = "fnv1a:";

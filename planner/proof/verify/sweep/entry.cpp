@@ -11,7 +11,6 @@
 
 namespace capstan::verify {
 
-using model::CutterClass;
 using model::MoveRole;
 
 namespace {
@@ -21,14 +20,7 @@ constexpr double kSameCentre = 0.01;
 constexpr double kWritten = 0.005;  ///< by which a feed may be off through its decimals
 
 bool cuts_to_centre(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-      return true;
-    default:
-      return c.centre_cutting;
-  }
+  return verify::cuts_to_centre(c.cutter_class) || c.centre_cutting;
 }
 
 /// Whether a maker or the shop states how steep the cutter may ramp.
@@ -73,7 +65,7 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
   }
   // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
   const bool ramp = m.role_known && m.role == MoveRole::kRamp;
-  const bool shaped = cutter_.cutter_class == CutterClass::kBallEndmill || plan_.target_mesh != nullptr;
+  const bool shaped = is_ball(cutter_.cutter_class) || plan_.target_mesh != nullptr;
   if (!core || mills_threads(cutter_.cutter_class) || (shaped && !ramp)) return;
   const double most = cutter_.maximum_ramp_angle_rad;
   const double degrees = 180.0 / std::numbers::pi;

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/model/plan/borne_feed.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
@@ -10,24 +11,7 @@ namespace capstan::verify {
 
 using model::CutterClass;
 
-bool works_along_axis(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case CutterClass::kTwistDrill:
-    case CutterClass::kCenterDrill:
-    case CutterClass::kSpotDrill:
-    case CutterClass::kReamer:
-    case CutterClass::kTap:
-    case CutterClass::kBoringTool:
-    case CutterClass::kCountersink:
-    case CutterClass::kCounterbore:
-    case CutterClass::kGunDrill:
-    case CutterClass::kBackCounterbore:
-    case CutterClass::kBackCountersink:
-      return true;
-    default:
-      return false;
-  }
-}
+bool works_along_axis(const model::Cutter& c) { return works_along_axis(c.cutter_class); }
 
 namespace {
 

@@ -141,10 +141,7 @@ double StepChecks::specific_force(double chip_mm) const {
   const double h =
       std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
   // Solid mills cut with a rake, but for hardened steel.
-  const bool raked = (cutter_.cutter_class == model::CutterClass::kEndmill ||
-                      cutter_.cutter_class == model::CutterClass::kBullnoseEndmill ||
-                      cutter_.cutter_class == model::CutterClass::kBallEndmill) &&
-                     plan_.material.iso_group != "H";
+  const bool raked = is_raked(cutter_.cutter_class) && plan_.material.iso_group != "H";
   const double rake = raked ? 1.0 - mechanics::kForcePerDegreeOfRake * mechanics::kEndMillRakeDeg : 1.0;
   const double kc =
       rake * plan_.material.kc11_n_mm2 * std::pow(h, -plan_.material.mc) * mechanics::kWearForceFactor;
@@ -267,9 +264,9 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   const Findings::Where where{step_.order + 1, step_.id, sum_.where};
   const std::string how =
       ": " + plain(volume / minutes) + " mm3/min at kc = " + plain(kc) + " N/mm2, worn edge";
-  // Written feeds must hold with a worn edge; the operator's override is told apart. h^-mc makes force grow
-  // slower than feed. A worn edge and a feed turned up know nothing of one another: over a sharp edge at the
-  // written feed their logarithms add as squares.
+  // Written feeds must hold with a worn edge; the operator's override has a finding of its own. h^-mc makes
+  // force grow slower than feed. A worn edge and a feed turned up know nothing of one another: over a sharp
+  // edge at the written feed their logarithms add as squares.
   const double turned_up = (1.0 - w.mc) * std::log(override_most());
   const double worn = std::log(mechanics::kWearForceFactor);
   const double up = std::exp(std::hypot(worn, turned_up) - worn);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-// Exact boundaries. Whether a point lies inside is told by the number of turns that the boundary makes about
+// Exact boundaries. A point lies inside by the number of turns that the boundary makes about
 // it: the turns of the polygon of all ends, counted where edges cross a ray (Sunday's form of the winding
 // number), and one turn more or less for each arc whose segment, between arc and chord, holds the point. Only
 // edges that reach the height of the point can do either: an outline of many edges has them sorted into bands

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/ground/vocabulary/shape_kind.h"
 #include "planner/model/nouns/arena/model.h"
 #include "planner/proof/verify/volumes/nouns.h"
 #include "planner/proof/verify/volumes/solid.h"
@@ -45,11 +46,19 @@ struct Source {
 
 /// A simple feature in the coordinates that it is stated in.
 [[nodiscard]] Reading simple(const Source& source, model::AnyRef feature);
-/// A noun of a row, its frame and depth read already.
-#define CAPSTAN_READING(Noun, Kind, read) \
-  [[nodiscard]] Reading read(const Source& source, model::AnyRef feature, Solid solid);
-#include "planner/proof/verify/volumes/readings.inc"
-#undef CAPSTAN_READING
+/// A noun that the own reading makes a solid of, and of what is derived from it: what kind of removal it is,
+/// and what reads it, its frame and depth read already. A copy on purpose: what the planner's list forgets
+/// must be found.
+struct ReadingRow {
+  model::TypeId noun;
+  model::ShapeKind kind;
+  Reading (*read)(const Source& source, model::AnyRef feature, Solid solid);
+};
+/// Of all files of noun/: NAME.cpp gives its own by `std::vector<ReadingRow> NAME_readings()`, which the
+/// build finds by the file's name (planner/proof/verify/CMakeLists.txt).
+[[nodiscard]] std::vector<std::vector<ReadingRow>> readings();
+/// The row of the noun nearest above the feature's own; null: this reading does not know it.
+[[nodiscard]] const ReadingRow* reading_of(model::AnyRef feature);
 /// A feature in the coordinates of the workpiece, whatever lists it; and wherever its holders put it.
 [[nodiscard]] Reading placed_in(const Source& source, model::AnyRef feature);
 [[nodiscard]] Reading wherever(const Source& source, model::AnyRef feature);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Solids by section and depth: a place is asked first for its height above the floor, then whether the
-// section of the feature at that height holds it. Sections are told by the distance to an exact outline.
+// Solids by section and depth: a place lies in a solid when the section of the feature at the height of the
+// place holds it. Whether a section holds a place follows from the distance to an exact outline.
 
 namespace capstan::verify::volumes {
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/volumes/reading.h"
@@ -170,11 +171,21 @@ Reading simple(const Source& source, AnyRef f) {
   }
   if (*deep < 0.0) return unread("its depth lies above its placement");
   s.depth_mm = *deep;
-#define CAPSTAN_READING(Noun, Kind, read) \
-  if (m.holds<model::Noun>(f)) return read(source, f, std::move(s));
-#include "planner/proof/verify/volumes/readings.inc"
-#undef CAPSTAN_READING
+  if (const ReadingRow* row = reading_of(f)) return row->read(source, f, std::move(s));
   return unread("it is of a kind that this reading does not know");
+}
+
+const ReadingRow* reading_of(AnyRef feature) {
+  static const std::map<model::TypeId, ReadingRow> kRows = [] {
+    std::map<model::TypeId, ReadingRow> all;
+    for (const std::vector<ReadingRow>& of_a_file : readings())
+      for (const ReadingRow& row : of_a_file) all.emplace(row.noun, row);
+    return all;
+  }();
+  if (!feature.set()) return nullptr;
+  for (model::TypeId t = feature.type; t != model::TypeId::kNone; t = model::noun_type(t).parent)
+    if (const auto it = kRows.find(t); it != kRows.end()) return &it->second;
+  return nullptr;
 }
 
 Source source_of(const Model& m, const Box3& raw) {

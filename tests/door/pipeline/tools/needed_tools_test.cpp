@@ -12,7 +12,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/corner_rest.h"
 #include "tests/door/pipeline/block.h"
-#include "tooling/library/library.h"
+#include "tooling/library/formats/own/own_list.h"
 
 namespace capstan::pipeline {
 namespace {

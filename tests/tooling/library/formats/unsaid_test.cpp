@@ -6,6 +6,7 @@
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/import.h"
 #include "tooling/library/formats/linuxcnc/linuxcnc.h"
+#include "tooling/library/formats/own/own_list.h"
 #include "tooling/library/formats/values.h"
 #include "tooling/library/formats/zip.h"
 #include "tooling/library/library.h"

@@ -5,7 +5,7 @@
 #include "tooling/library/formats/item/item.h"
 #include "tooling/library/formats/item/symbols.h"
 #include "tooling/library/formats/xml.h"
-#include "tooling/library/library.h"
+#include "tooling/library/words/comment_words.h"
 
 // A maker's catalogue page as XML: FamilyDetails with one Parameters element per size. The names of its
 // elements are whole table headings, escaped: "DC_x0020__x003C_br_x003E_..." begins with the symbol DC.

@@ -8,7 +8,7 @@
 #include "tooling/library/formats/csv/csv.h"
 #include "tooling/library/formats/fusion/keys.h"
 #include "tooling/library/formats/values.h"
-#include "tooling/library/library.h"
+#include "tooling/library/words/comment_words.h"
 #include "tooling/shop/data/tree.h"
 
 namespace capstan::tooling::csv {

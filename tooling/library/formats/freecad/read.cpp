@@ -13,8 +13,8 @@
 #include "tooling/library/formats/freecad/shapes.h"
 #include "tooling/library/formats/item/item.h"
 #include "tooling/library/formats/json.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/formats/zip.h"
+#include "tooling/library/words/comment_words.h"
 
 namespace capstan::tooling {
 namespace {

@@ -7,7 +7,7 @@
 #include "tooling/library/formats/iso13399/iso13399.h"
 #include "tooling/library/formats/item/item.h"
 #include "tooling/library/formats/item/symbols.h"
-#include "tooling/library/library.h"
+#include "tooling/library/words/comment_words.h"
 
 namespace capstan::tooling {
 namespace {

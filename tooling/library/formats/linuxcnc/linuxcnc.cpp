@@ -8,7 +8,7 @@
 #include "planner/ground/base/number.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/values.h"
-#include "tooling/library/library.h"
+#include "tooling/library/words/comment_words.h"
 #include "tooling/shop/data/tree.h"
 
 namespace capstan::tooling {

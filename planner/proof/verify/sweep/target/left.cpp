@@ -19,10 +19,10 @@
 // radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
 // bounds (steps, outsides, closed pockets: volumes::unstated_corner_mm); nothing in the square ends of slots,
 // at the open side of a pocket, nor where a radius of 0 is stated; and what the plan records as rest material
-// in corners (corners.h), which is told (CHK-REST). Points of drills count below a conical bottom's depth only;
-// what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A through hole that ends
-// within another feature that the plan makes is done there. Crests of threads and what heights do not hold are
-// not looked at, nor what is narrower than two cells: a note says so.
+// in corners (corners.h), reported as CHK-REST. Points of drills count below a conical bottom's depth
+// only; rest material of a blunter one there has a finding of its own (CHK-LEFT-POINT). A through hole that
+// ends within another feature that the plan makes is done there. Crests of threads and what heights do not
+// hold are not looked at, nor what is narrower than two cells: a note says so.
 //
 // In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
 // step.
@@ -157,7 +157,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
         it->ridges_mm = std::min(it->ridges_mm, stated);
       }
       if (!mills(cutter->cutter_class)) continue;
-      const bool ball = cutter->cutter_class == model::CutterClass::kBallEndmill;
+      const bool ball = is_ball(cutter->cutter_class);
       const double corner = ball ? 0.5 * cutter->cutting_diameter_mm : cutter->corner_radius_mm;
       it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);
       it->widest_mm = std::max(it->widest_mm, 0.5 * cutter->cutting_diameter_mm);
@@ -311,7 +311,7 @@ void Target::left_in_point(const Cavity& c, const Grid& grid, const Asked& a, do
   for (int iy = y0; iy < y1; ++iy) {
     for (int ix = x0; ix < x1; ++ix) {
       const std::size_t i = grid.index(ix, iy);
-      // What stands above the full diameter's depth is told apart.
+      // Material above the full diameter's depth has a finding of its own.
       if (grid.stock[i] <= Grid::kNothing / 2 || grid.stock[i] > bottom + limit) continue;
       const Vec2 p = grid.centre(ix, iy);
       const geometry::Vec3 local = c.frame.to_local({p.x, p.y, 0.0});

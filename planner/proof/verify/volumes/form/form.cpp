@@ -248,10 +248,7 @@ ShapeKind kind_of(const Model& m, AnyRef noun) {
   if (m.holds<model::Chamfer>(noun)) return ShapeKind::kChamfer;
   if (m.holds<model::EdgeRound>(noun)) return ShapeKind::kEdgeRound;
   if (m.holds<model::ToolpathFeature>(noun)) return ShapeKind::kToolpath;
-#define CAPSTAN_READING(Noun, Kind, read) \
-  if (m.holds<model::Noun>(noun)) return ShapeKind::k##Kind;
-#include "planner/proof/verify/volumes/readings.inc"
-#undef CAPSTAN_READING
+  if (const ReadingRow* row = reading_of(noun)) return row->kind;
   return ShapeKind::kFreeform;
 }
 

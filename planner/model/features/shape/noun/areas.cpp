@@ -53,8 +53,6 @@ Status fillets(const Model& m, const Pocket& f, FeatureShape& s) {
   return {};
 }
 
-}  // namespace
-
 Result<Shapes> face(const Model& m, AnyRef self, const PlanarFace& f) {
   auto s = base(m, self, true);
   if (!s) return tl::unexpected(s.error());
@@ -219,6 +217,20 @@ Result<Shapes> freeform(const Model& m, AnyRef self, const Region& f) {
   if (!frame) return tl::unexpected(frame.error());
   s->frame = *frame;
   return Shapes{*s};
+}
+
+}  // namespace
+
+std::vector<ShapeNoun> areas_nouns() {
+  return {
+      shape_noun<PlanarFace, face>(),
+      shape_noun<Pocket, pocket>(),
+      shape_noun<Step, step>(),
+      shape_noun<SphericalCap, spherical_cap>(),
+      shape_noun<RoundedEnd, rounded_end>(),
+      shape_noun<ToolpathFeature, toolpath>(),
+      shape_noun<Region, freeform>(),
+  };
 }
 
 }  // namespace capstan::model::shape

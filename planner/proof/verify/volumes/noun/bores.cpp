@@ -68,8 +68,6 @@ bool edge_of(const Solid& s, Bevel& into) {
   return true;
 }
 
-}  // namespace
-
 Reading bore_of(const Source& source, AnyRef self, Solid solid) {
   const Model& m = source.m;
   const auto* h = m.get<model::RoundHole>(self);
@@ -116,6 +114,14 @@ Reading bore_of(const Source& source, AnyRef self, Solid solid) {
   Reading out;
   out.solids.push_back(std::move(solid));
   return out;
+}
+
+}  // namespace
+
+std::vector<ReadingRow> bores_readings() {
+  return {
+      {model::TypeId::kRoundHole, model::ShapeKind::kHole, bore_of},
+  };
 }
 
 Reading on_others(const Source& source, AnyRef self, Reading others) {

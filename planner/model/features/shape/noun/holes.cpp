@@ -30,8 +30,6 @@ Shapes wherever(const FeatureShape& s, const Shapes& on) {
   return out;
 }
 
-}  // namespace
-
 Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
   auto s = base(m, self, true);
   if (!s) return tl::unexpected(s.error());
@@ -90,6 +88,14 @@ Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
   }
   s->area = s->reach = geometry::disc({0.0, 0.0}, 0.5 * d->nominal_mm, kAreaTolerance);
   return Shapes{*s};
+}
+
+}  // namespace
+
+std::vector<ShapeNoun> holes_nouns() {
+  return {
+      shape_noun<RoundHole, hole>(),
+  };
 }
 
 Result<Shapes> thread(const Model& m, AnyRef self, const Thread& f, const Within& in) {

@@ -183,8 +183,6 @@ void stand_in_its_middle(const Model& m, AnyRef self, const geometry::Region& in
   s.reach = geometry::subtract(geometry::offset_sharp(s.area, kOpenReach), inner);
 }
 
-}  // namespace
-
 Result<Shapes> outside(const Model& m, AnyRef self, const ProfileFeature& f) {
   auto s = base(m, self, false);
   if (!s) return tl::unexpected(s.error());
@@ -231,6 +229,15 @@ Result<Shapes> boss(const Model& m, AnyRef self, const Boss& f) {
   if (!inner) return tl::unexpected(inner.error());
   stand_in_its_middle(m, self, *inner, *s);
   return Shapes{*s};
+}
+
+}  // namespace
+
+std::vector<ShapeNoun> outsides_nouns() {
+  return {
+      shape_noun<ProfileFeature, outside>(),
+      shape_noun<Boss, boss>(),
+  };
 }
 
 }  // namespace capstan::model::shape

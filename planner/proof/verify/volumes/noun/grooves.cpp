@@ -215,8 +215,6 @@ void end(const Model& m, AnyRef r, int i, Groove& g) {
   }
 }
 
-}  // namespace
-
 Reading groove_of(const Source& source, AnyRef self, Solid solid) {
   const Model& m = source.m;
   const auto* f = m.get<model::Slot>(self);
@@ -233,6 +231,14 @@ Reading groove_of(const Source& source, AnyRef self, Solid solid) {
   Reading out;
   out.solids.push_back(std::move(solid));
   return out;
+}
+
+}  // namespace
+
+std::vector<ReadingRow> grooves_readings() {
+  return {
+      {model::TypeId::kSlot, model::ShapeKind::kSlot, groove_of},
+  };
 }
 
 }  // namespace capstan::verify::volumes

@@ -5,8 +5,8 @@
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/json.h"
+#include "tooling/library/formats/own/own_list.h"
 #include "tooling/library/formats/values.h"
-#include "tooling/library/library.h"
 
 // Our own list: what `read_own_list` reads, written from the cutters that a library makes.
 

@@ -383,6 +383,8 @@ Course line_of(const Model& m, AnyRef r) {
   return {{}, 0.0, "it is missing, or of a kind that this reading does not know"};
 }
 
+namespace {
+
 Reading area_of(const Source& source, AnyRef self, Solid solid) {
   const Model& m = source.m;
   if (const auto* f = m.get<model::PlanarFace>(self)) return face(m, *f, std::move(solid));
@@ -399,6 +401,18 @@ Reading area_of(const Source& source, AnyRef self, Solid solid) {
     open = std::max(open, height * std::tan(lean));
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<ReadingRow> areas_readings() {
+  return {
+      {model::TypeId::kPlanarFace, model::ShapeKind::kFace, area_of},
+      {model::TypeId::kPocket, model::ShapeKind::kPocket, area_of},
+      {model::TypeId::kStep, model::ShapeKind::kStep, area_of},
+      {model::TypeId::kProfileFeature, model::ShapeKind::kOutside, area_of},
+      {model::TypeId::kBoss, model::ShapeKind::kOutside, area_of},
+  };
 }
 
 }  // namespace capstan::verify::volumes

@@ -8,14 +8,15 @@
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
+#include "tooling/library/formats/cutters/symbols.h"
 #include "tooling/library/formats/format.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
 #include "tooling/library/formats/table_line.h"
 #include "tooling/library/formats/values.h"
+#include "tooling/library/words/comment_words.h"
 #include "tooling/shop/material/iso_groups.h"
 #include "tooling/shop/material/material.h"
 
-// Records to cutters, and back.
+// Records to cutters.
 
 namespace capstan::tooling {
 namespace {
@@ -25,59 +26,6 @@ using model::CutterClass;
 
 /// Group name that makers use for materials in no group of ISO 513.
 constexpr const char* kOtherGroup = "O";
-
-/// The field of a cutter for a symbol of ISO 13399 or of our own.
-struct FieldOf {
-  const char* symbol;
-  double Cutter::*field;
-  const char* name = "";
-  const char* unit = "";
-
-  /// Name and unit are those of the table of fields.
-  constexpr FieldOf(const char* of_symbol, double Cutter::*of_field) : symbol(of_symbol), field(of_field) {
-    std::apply([this](const auto&... row) { (look_at(row), ...); }, model::kFields<Cutter>);
-  }
-
- private:
-  constexpr void look_at(const model::Field<Cutter, double>& row) {
-    if (row.member != field) return;
-    name = row.name;
-    unit = row.unit == model::Unit::kLength ? "mm" : row.unit == model::Unit::kAngle ? "deg" : "";
-  }
-  template <class T>
-  constexpr void look_at(const model::Field<Cutter, T>&) {}
-};
-/// The first symbol of a field that a record has is taken; the first is written.
-constexpr std::array kFields{
-    FieldOf{"DC", &Cutter::cutting_diameter_mm},
-    FieldOf{"DCX", &Cutter::adjustable_to_mm},
-    FieldOf{"RE", &Cutter::corner_radius_mm},
-    FieldOf{"SIG", &Cutter::point_angle_rad},
-    FieldOf{"DCN", &Cutter::tip_diameter_mm},
-    FieldOf{"APMX", &Cutter::maximum_depth_of_cut_mm},
-    FieldOf{"LCF", &Cutter::maximum_depth_of_cut_mm},
-    FieldOf{"LU", &Cutter::usable_length_mm},
-    FieldOf{"LPR", &Cutter::stick_out_mm},
-    FieldOf{"LF", &Cutter::functional_length_mm},
-    FieldOf{"DMM", &Cutter::shank_diameter_mm},
-    FieldOf{"DCONMS", &Cutter::shank_diameter_mm},
-    FieldOf{"FHA", &Cutter::helix_rad},
-    FieldOf{"PSIR", &Cutter::lead_angle_rad},
-    FieldOf{"TP", &Cutter::thread_pitch_mm},
-    FieldOf{"RMPX", &Cutter::maximum_ramp_angle_rad},
-    FieldOf{"RPMX", &Cutter::maximum_speed_rpm},
-    FieldOf{"FZMIN", &Cutter::fz_min_mm},
-    FieldOf{"FZMAX", &Cutter::fz_max_mm},
-    FieldOf{"OAL", &Cutter::overall_length_mm},
-    FieldOf{"DN", &Cutter::neck_diameter_mm},
-    FieldOf{"LN", &Cutter::neck_length_mm},
-    FieldOf{"TA", &Cutter::taper_angle_rad},
-    FieldOf{"CW", &Cutter::cutting_width_mm},
-    FieldOf{"TDZ", &Cutter::thread_size_mm},
-    FieldOf{"LEADLENGTH", &Cutter::lead_length_mm},
-    FieldOf{"LEADTHREADS", &Cutter::lead_threads},
-    FieldOf{"RUNOUT", &Cutter::runout_mm},
-};
 
 void set_source(Cutter& c, std::string_view field, std::string text) {
   std::erase_if(c.sources, [field](const auto& s) { return s.first == field; });
@@ -273,7 +221,7 @@ class Maker {
     // Of a bare tool, LF runs from the tip to its shank's end at most: no length in a holder.
     const auto lf = number_of(item, "LF"), oal = number_of(item, "OAL");
     const bool bare = lf && oal && *lf <= *oal + 1e-9;
-    for (const FieldOf& f : kFields) {
+    for (const SymbolRow& f : kCutterSymbols) {
       const Property* p = find(item.properties, f.symbol);
       if (p == nullptr || !p->number || *p->number == 0.0 || c.*f.field != 0.0) continue;
       if (bare && std::string_view(f.symbol) == "LF") continue;
@@ -410,7 +358,7 @@ class Maker {
     }
   }
   static void measured(const ToolInstance& i, Cutter& c) {
-    for (const FieldOf& f : kFields) {
+    for (const SymbolRow& f : kCutterSymbols) {
       const Property* p = find(i.measured, f.symbol);
       if (p == nullptr || !p->number || *p->number == 0.0) continue;
       c.*f.field = *p->number;
@@ -462,136 +410,11 @@ class Maker {
   TableLines lines_;
 };
 
-/// "stated: x" -> its state and x.
-std::pair<ValueState, std::string> state_of(const Cutter& c, std::string_view field) {
-  const std::string* s = source_of(c, field);
-  if (s == nullptr) return {ValueState::kStated, ""};
-  const auto rest = [s](std::size_t n) {
-    std::string_view t = std::string_view(*s).substr(std::min(n, s->size()));
-    if (t.starts_with(": ")) t.remove_prefix(2);
-    return std::string(t);
-  };
-  if (s->starts_with("derived")) return {ValueState::kDerived, rest(7)};
-  if (s->starts_with("default")) return {ValueState::kDefault, rest(7)};
-  return {ValueState::kStated, s->starts_with("stated") ? rest(6) : *s};
-}
-
-CatalogueItem item_of(const Cutter& c) {
-  CatalogueItem out;
-  out.id = c.id;
-  out.description = c.description;
-  out.cutter_class = c.cutter_class;
-  out.kind = model::to_text(c.cutter_class);
-  out.product_id = c.product_id;
-  out.inches = c.stated_in_inches;
-  const auto add = [&](const char* symbol, double value, const char* unit, const char* field) {
-    auto [state, source] = state_of(c, field);
-    const char* u = std::string_view(unit) == "mm" && c.stated_in_inches ? "in" : unit;
-    out.properties.push_back(number_property(symbol, value, u, state, source));
-  };
-  const auto text = [&](const char* symbol, std::string_view value, const char* field) {
-    auto [state, source] = state_of(c, field);
-    Property p = text_property(symbol, value, source);
-    p.state = state;
-    out.properties.push_back(std::move(p));
-  };
-  const char* before = "";
-  for (const FieldOf& f : kFields) {
-    if (c.*f.field != 0.0 && std::string_view(before) != f.name) add(f.symbol, c.*f.field, f.unit, f.name);
-    before = f.name;
-  }
-  if (c.teeth > 0) add("ZEFF", c.teeth, "", "teeth");
-  if (c.life_min > 0.0) add("LIFE", c.life_min, "", "life_min");
-  if (c.price > 0.0) add("PRICE", c.price, "", "price");
-  text("SUBSTRATE", model::to_text(c.substrate), "substrate");
-  if (c.hand == model::Hand::kLeft) text("HAND", "left", "hand");
-  text("CCC", c.centre_cutting ? "true" : "false", "centre_cutting");
-  if (c.coolant_through) text("CSP", "true", "coolant_through");
-  if (!c.thread_form.empty()) text("THFT", c.thread_form, "thread_form");
-  if (!c.library_reference.empty()) text("PLIB", c.library_reference, "library_reference");
-  if (!c.library_source.empty()) text("PLIBSOURCE", c.library_source, "library_source");
-  const bool own =
-      std::any_of(c.presets.begin(), c.presets.end(), [](const auto& p) { return !borrowed(p); });
-  for (const auto& p : c.presets) {
-    if (own && borrowed(p)) continue;  // the reader fills it in again
-    Preset q;
-    q.name = q.material = p.material_group;
-    if (p.vc_m_min > 0.0) q.vc_m_min = p.vc_m_min;
-    if (p.fz_mm > 0.0 && model::has(c.cutter_class, model::CutterTrait::kAlongAxis))
-      q.feed_per_revolution_mm = p.fz_mm * std::max(c.teeth, 1);
-    else if (p.fz_mm > 0.0)
-      q.fz_mm = p.fz_mm;
-    q.source = p.source;
-    out.presets.push_back(std::move(q));
-  }
-  return out;
-}
-
 }  // namespace
 
 Result<std::vector<Cutter>> cutters_of(const ToolLibrary& library, LossReport& report, Job& job,
                                        std::optional<bool> offsets_against_reference) {
   return Maker(library, report, job, offsets_against_reference).all();
-}
-
-ToolLibrary library_of(const std::vector<Cutter>& cutters, std::string name) {
-  ToolLibrary out;
-  out.name = std::move(name);
-  for (const Cutter& c : cutters) {
-    out.items.push_back(item_of(c));
-    ToolAssembly a;
-    a.id = a.item = c.id;
-    if (!c.holder.empty() || !c.holder_id.empty()) {
-      Holder h;
-      h.id = c.holder_id.empty() ? "holder of " + c.id : c.holder_id;
-      h.segments = c.holder;
-      h.inches = c.stated_in_inches;
-      a.holder = h.id;
-      const auto same = std::find_if(out.holders.begin(), out.holders.end(),
-                                     [&h](const Holder& o) { return o.id == h.id; });
-      if (same == out.holders.end()) out.holders.push_back(std::move(h));
-    }
-    if (c.stick_out_mm > 0.0) a.stick_out_mm = c.stick_out_mm;
-    if (c.functional_length_mm > 0.0) a.functional_length_mm = c.functional_length_mm;
-    if (c.in_stock >= 0 || c.life_used_min > 0.0 || !c.sisters.empty()) {
-      ToolInstance i;
-      i.id = i.item = c.id;
-      if (c.in_stock >= 0) i.in_stock = c.in_stock;
-      if (c.life_used_min > 0.0) i.life_used_min = c.life_used_min;
-      if (c.life_min > 0.0) i.life_min = c.life_min;
-      if (!c.sisters.empty()) i.group = c.id;
-      a.instance = i.id;
-      out.instances.push_back(std::move(i));
-      for (const auto& s : c.sisters) {
-        ToolInstance sister;
-        sister.id = s.id;
-        sister.item = sister.group = c.id;
-        sister.life_min = s.life_left_min;
-        sister.life_used_min = 0.0;
-        out.instances.push_back(std::move(sister));
-      }
-    }
-    out.assemblies.push_back(std::move(a));
-    if (c.pocket > 0) {
-      MachineEntry e;
-      e.number = c.pocket;
-      if (c.loaded) e.pocket = c.pocket;
-      e.carousel = c.carousel;
-      e.assembly = c.id;
-      e.comment = c.description;
-      if (c.table_line) {
-        for (const model::ToolTableWord& w : c.table_line->words) {
-          if (w.letter == "P") {
-            e.pocket = static_cast<int>(w.value);
-          } else if (w.letter.size() == 1) {
-            e.offsets.emplace_back(w.letter.front(), w.value);
-          }
-        }
-      }
-      out.entries.push_back(std::move(e));
-    }
-  }
-  return out;
 }
 
 }  // namespace capstan::tooling

@@ -9,7 +9,7 @@
 #include "planner/ground/base/text.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/generic.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
+#include "tooling/library/words/comment_words.h"
 
 // Sizes that people write into the names and comments of tools.
 

@@ -1,3 +1,5 @@
+#include "tooling/library/words/comment_words.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -8,14 +10,10 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
 #include "planner/model/plan/assumed_tool_material.h"
-#include "tooling/library/formats/all.h"
-#include "tooling/library/formats/linuxcnc/linuxcnc.h"
-#include "tooling/library/library.h"
 
 namespace capstan::tooling {
 namespace {
 
-using model::Cutter;
 using model::CutterClass;
 
 bool holds(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
@@ -129,16 +127,6 @@ CommentWords words_of_comment(std::string_view comment, CutterClass c, double di
   out.teeth = teeth_from_words(words);
   out.sizes = sizes_of_words(words, c, diameter_mm, mm_per_unit);
   return out;
-}
-
-Result<std::vector<Cutter>> read_tool_table(std::string_view text, const std::string& file, Job& job,
-                                            const LibraryOptions& options) {
-  FormatOptions o;
-  o.mm_per_unit = options.mm_per_unit;
-  const auto read = linuxcnc_format().read(text, file, o, job);
-  if (!read) return fail(read.error());
-  LossReport report;
-  return cutters_of(read->library, report, job, options.offsets_against_reference);
 }
 
 }  // namespace capstan::tooling

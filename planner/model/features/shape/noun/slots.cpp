@@ -306,6 +306,8 @@ Result<FlatCorners> corners_of(const Model& m, const FlatSlotEndType& end, AnyRe
   return FlatCorners{out[0], out[1]};
 }
 
+namespace {
+
 Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
   auto s = base(m, self, true);
   if (!s) return tl::unexpected(s.error());
@@ -374,6 +376,14 @@ Result<Shapes> slot(const Model& m, AnyRef self, const Slot& f) {
   }
   s->corner_radius_mm = corner;
   return Shapes{*s};
+}
+
+}  // namespace
+
+std::vector<ShapeNoun> slots_nouns() {
+  return {
+      shape_noun<Slot, slot>(),
+  };
 }
 
 }  // namespace capstan::model::shape

@@ -1,5 +1,5 @@
-#include "tooling/library/formats/format.h"
 #include "tooling/library/store/store.h"
+#include "tooling/library/formats/format.h"
 
 // The store among the formats: what `tools import` writes and `--tools` reads.
 
