@@ -19,7 +19,7 @@ FLOORS = {
     "physics": "mechanics motion stock engagement",
     "making": "draft sequence piece toolpath workholding optimise step probing propose given",
     "proof": "verify",
-    "door": "pipeline late service transport facade app",
+    "door": "pipeline late report service transport facade app",
 }
 
 # Folder -> room. planner/controls is a room with a folder per control, on shared pieces. Of folders that hold each other the deepest counts.
@@ -44,7 +44,7 @@ FOLDERS = {
 }
 
 # The rooms of the door; each may include only what its row says.
-DOORS = ("pipeline", "late", "service", "transport", "facade", "app", "public")
+DOORS = ("pipeline", "late", "report", "service", "transport", "facade", "app", "public")
 
 # Room -> what it may include besides itself.
 GROUND = "base memo vocabulary geometry"
@@ -90,7 +90,8 @@ ALLOWED = {
     "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared grid", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
-    "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",
+    "report": MODEL + " mechanics motion optimise step",
+    "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late report",
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.

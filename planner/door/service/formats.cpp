@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/door/service/ending/reporting.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 
@@ -34,6 +35,10 @@ Result<Written> tool_table(const Format& f, const model::Plan& plan, Job& /*job*
   return Written{f.control->write_tool_table(plan), 0};
 }
 
+Result<Written> report(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Condemned& /*c*/) {
+  return Written{report_of(plan), 0};
+}
+
 constexpr std::string_view kPart21 = "model/step";  // RFC 6838 registry: ISO 10303-21 files
 
 std::vector<Format> table() {
@@ -54,7 +59,7 @@ std::vector<Format> table() {
   }
   for (const controls::Unwritten& u : controls::unwritten())
     out.push_back({u.id, u.name, {u.ending}, {}, Holds::kProgram});
-  out.push_back({"report", "a report", {".html"}, "text/html", Holds::kReport});
+  out.push_back({"report", "report", {".html"}, "text/html", Holds::kReport, false, nullptr, &report});
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/door/late/late.h"
+#include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/ground/base/nearest_names.h"
@@ -204,6 +205,9 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
   std::move(of_text.begin(), of_text.end(), std::back_inserter(v.findings));
   for (const FileFinding& f : v.findings) {
     if (f.finding.severity != Severity::kNote) ++v.count;
+  }
+  for (Output& o : outputs) {
+    if (o.format->holds == Holds::kReport) o.bytes = report_of(planned, v, outputs);
   }
   poll();  // what a stopped check did not find is not allowed by --allow-findings
   return v;

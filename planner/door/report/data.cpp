@@ -1,0 +1,289 @@
+// The plan as the page's scripts read it: what is shown, and nothing that they would have to know of cutting.
+// Coordinates are whole micrometres, the resolution of every control's program or finer, so that a path takes
+// few bytes.
+#include "planner/door/report/data.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "planner/door/report/loads_along.h"
+#include "planner/ground/vocabulary/cutter_class.h"
+#include "planner/model/nouns/executable.h"
+#include "planner/model/nouns/feature.h"
+#include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/resources/setup_position.h"
+#include "planner/physics/motion/time.h"
+
+namespace capstan::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// To so many significant digits: as many as a chart shows, and few bytes.
+double short_of(double v, int digits = 4) {
+  if (!std::isfinite(v) || v == 0.0) return 0.0;
+  std::array<char, 40> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::general, digits).ptr;
+  double out = 0.0;
+  std::from_chars(text.data(), end, out);
+  return out;
+}
+Json shorts(const std::vector<double>& values) {
+  Json out = Json::array();
+  for (const double v : values) out.push_back(short_of(v));
+  return out;
+}
+std::int64_t um(double mm) { return std::llround(1000.0 * mm); }
+Json ums(const std::vector<double>& mm) {
+  Json out = Json::array();
+  for (const double v : mm) out.push_back(um(v));
+  return out;
+}
+Json point(geometry::Vec3 p) { return Json::array({p.x, p.y, p.z}); }
+Json box_of(const geometry::Box3& b) { return Json::array({point(b.lo), point(b.hi)}); }
+
+Json finding_of(const Line& line) {
+  const model::Finding& f = line.finding;
+  const char* severity = f.severity == Severity::kError     ? "error"
+                         : f.severity == Severity::kWarning ? "warning"
+                                                            : "note";
+  return {{"severity", severity}, {"code", f.code},    {"text", f.message},      {"step", f.step},
+          {"place", f.move},      {"file", line.file}, {"program", line.program}};
+}
+
+Json setup_of(const model::Plan& plan, std::size_t n) {
+  const model::SetupResult& s = plan.setups[n];
+  const geometry::Placement piece = model::placed_in(plan, n);
+  Json solids = Json::array();
+  for (const model::FixtureSolid& f : s.holding.solids) {
+    Json outline = Json::array();
+    for (const geometry::Vec2 p : f.outline) outline.push_back({p.x, p.y});
+    solids.push_back({{"id", f.id},
+                      {"kind", f.kind},
+                      {"outline", outline},
+                      {"bottom", f.bottom_mm},
+                      {"top", f.top_mm},
+                      {"presses", f.presses}});
+  }
+  return {{"offset", s.work_offset},
+          {"security", s.security_z_mm},
+          {"up", model::axis_text(piece, {0.0, 0.0, 1.0})},
+          {"right", model::axis_text(piece, {1.0, 0.0, 0.0})},
+          {"zero", model::zero_text(plan.stock.box, piece, 3)},
+          {"turn", n == 0 ? std::string() : model::turn_text(model::placed_in(plan, n - 1), piece)},
+          {"piece", {point(piece.origin), point(piece.x), point(piece.y), point(piece.z)}},
+          {"holding",
+           {{"id", s.holding.id},
+            {"text", s.holding.description},
+            {"pickup", point(s.holding.pickup)},
+            {"pickup_text", s.holding.pickup_text},
+            {"clearance", s.holding.clearance_mm},
+            {"force", s.holding.holding_force_n},
+            {"solids", solids}}}};
+}
+
+/// Heights of the cutting outline above the tip at some radii from 0 to the largest.
+Json outline_of(const model::Cutter& c) {
+  constexpr int kPieces = 24;
+  const geometry::CutterProfile profile = model::profile_of(c);
+  Json out = Json::array();
+  for (int i = 0; i <= kPieces; ++i) {
+    const double r = profile.radius_mm * i / kPieces;
+    const double z = profile.height(r * (1.0 - 1e-9));
+    out.push_back({short_of(r, 6), std::isfinite(z) ? short_of(z, 6) : 0.0});
+  }
+  return out;
+}
+
+Json tool_of(const model::Plan& plan, const model::Cutter& c) {
+  double least_z = 0.0, used_min = 0.0;
+  bool any = false;
+  for (const model::StepResult& s : plan.steps) {
+    if (s.cutter_id != c.id || s.path == nullptr || s.path->size() == 0) continue;
+    const double z = model::bounds(*s.path).lo.z;
+    least_z = any ? std::min(least_z, z) : z;
+    any = true;
+    used_min += s.cutting_s / 60.0;
+  }
+  double life = c.life_min;
+  for (const model::StepResult& s : plan.steps) {
+    if (s.cutter_id == c.id && s.loads.tool_life_min > 0.0)
+      life = life > 0.0 ? std::min(life, s.loads.tool_life_min) : s.loads.tool_life_min;
+  }
+  Json holder = Json::array();
+  for (const model::HolderSegment& h : c.holder)
+    holder.push_back({h.height_mm, h.lower_diameter_mm, h.upper_diameter_mm});
+  return {{"id", c.id},
+          {"number", c.pocket},
+          {"class", model::words_of(c.cutter_class)},
+          {"material", model::to_text(c.substrate)},
+          {"text", c.description},
+          {"diameter", c.cutting_diameter_mm},
+          {"corner", c.corner_radius_mm},
+          {"teeth", c.teeth},
+          {"flutes", c.maximum_depth_of_cut_mm},
+          {"out", c.stick_out_mm},
+          {"length", c.functional_length_mm},
+          {"shank", c.shank_diameter_mm},
+          {"neck", {c.neck_diameter_mm, c.neck_length_mm}},
+          {"holder", holder},
+          {"holder_diameter", c.holder_diameter_mm},
+          {"outline", outline_of(c)},
+          {"least_z", any ? Json(short_of(least_z, 7)) : Json()},
+          {"used_min", short_of(used_min)},
+          {"life_min", short_of(life)},
+          {"life_used_min", short_of(c.life_used_min)}};
+}
+
+Json path_of(const model::StepResult& step) {
+  if (step.path == nullptr) return {};
+  const model::CutterPath& p = *step.path;
+  const model::FeedSchedule schedule = motion::schedule_of(step);
+  Json kind = Json::array(), feed = Json::array();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    kind.push_back(static_cast<int>(p.kind[i]));
+    feed.push_back(i < schedule.feed_mm_min.size() ? short_of(schedule.feed_mm_min[i], 5) : 0.0);
+  }
+  return {{"x", ums(p.x)},   {"y", ums(p.y)}, {"z", ums(p.z)}, {"cx", ums(p.cx)},
+          {"cy", ums(p.cy)}, {"kind", kind},  {"feed", feed}};
+}
+
+Json loads_of(const LoadsAlong& l) {
+  return {{"move", l.move},
+          {"at", shorts(l.at_mm)},
+          {"margin", short_of(l.margin)},
+          {"columns",
+           {{"feed", shorts(l.feed_mm_min)},
+            {"depth", shorts(l.depth_mm)},
+            {"width", shorts(l.width_mm)},
+            {"force", shorts(l.force_n)},
+            {"torque", shorts(l.torque_nm)},
+            {"power", shorts(l.power_w)},
+            {"deflection", shorts(l.deflection_mm)}}},
+          {"limits",
+           {{"force", short_of(l.force_limit_n)},
+            {"torque", shorts(l.torque_limit_nm)},
+            {"power", shorts(l.power_limit_w)},
+            {"deflection", short_of(l.deflection_limit_mm)}}}};
+}
+
+Json step_of(const model::Plan& plan, std::size_t n, const std::string& id, const About& about) {
+  const model::StepResult& s = plan.steps[n];
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+  std::string feature, operation;
+  if (ws != nullptr) {
+    if (const auto* f = plan.model.get<model::ManufacturingFeature>(ws->its_feature))
+      feature = f->its_id.value_or("");
+    if (ws->its_operation.set()) operation = model::noun_type(ws->its_operation.type).keyword;
+  }
+  Json held = Json::array(), exceeded = Json::array();
+  for (const model::LimitAlongPath& h : s.held_by)
+    held.push_back({{"name", h.name}, {"share", short_of(h.share, 3)}, {"saves", short_of(h.saves_s, 3)}});
+  for (const model::ExceededLimit& e : s.exceeded)
+    exceeded.push_back({{"name", e.name}, {"value", e.value}, {"limit", e.limit}, {"unit", e.unit}});
+  const model::Cutter* cutter = model::find_cutter(plan, s.cutter_id);
+  return {{"id", id},
+          {"feature", feature},
+          {"operation", operation},
+          {"setup", s.setup},
+          {"tool", cutter == nullptr ? Json() : Json(cutter - plan.cutters.data())},
+          {"ap", short_of(s.axial_depth_mm)},
+          {"ae", short_of(s.radial_depth_mm)},
+          {"vc", short_of(s.vc_m_min)},
+          {"fz", short_of(s.fz_mm)},
+          {"rpm", short_of(s.spindle_rpm, 6)},
+          {"feed", short_of(s.feed_mm_min, 6)},
+          {"coolant", s.through ? "through"
+                      : s.flood ? "flood"
+                      : s.mist  ? "mist"
+                                : "dry"},
+          {"cutting_s", short_of(s.cutting_s, 6)},
+          {"rapid_s", short_of(s.rapid_s, 6)},
+          {"held_by", held},
+          {"exceeded", exceeded},
+          {"path", path_of(s)},
+          {"loads", loads_of(loads_along(plan, s))},
+          {"explained", n < about.explained_steps.size() ? about.explained_steps[n] : std::string()}};
+}
+
+Json time_of(const model::Plan& plan) {
+  const auto t = motion::time_of(plan);
+  if (!t) return {};
+  return {{"text", motion::text_of(*t)},
+          {"total_s", short_of(t->total_s(), 7)},
+          {"tool_change_s", short_of(t->tool_change_s, 7)},
+          {"tool_changes", t->tool_changes},
+          {"link_s", short_of(t->link_s, 7)},
+          {"spindle_s", short_of(t->spin_up_s, 7)}};
+}
+
+Json unplanned_of(const model::Plan& plan) {
+  Json out = Json::array();
+  for (const model::Unplanned& u : plan.unplanned) {
+    const auto* f = plan.model.get<model::ManufacturingFeature>(u.feature);
+    out.push_back({{"feature", f == nullptr ? std::string() : f->its_id.value_or("")},
+                   {"reason", u.reason},
+                   {"needed_by", u.needed_by}});
+  }
+  return out;
+}
+
+Json lines_of(std::string_view text) {
+  Json out = Json::array();
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    out.push_back(std::string(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+Json whole(const model::Plan& plan, const About& about) {
+  Json setups = Json::array(), tools = Json::array(), steps = Json::array(), findings = Json::array();
+  Json marks = Json::array(), inputs = Json::array();
+  for (std::size_t n = 0; n < plan.setups.size(); ++n) setups.push_back(setup_of(plan, n));
+  for (const model::Cutter& c : plan.cutters) tools.push_back(tool_of(plan, c));
+  const std::vector<std::string> ids = model::step_ids(plan);
+  for (std::size_t n = 0; n < plan.steps.size(); ++n) steps.push_back(step_of(plan, n, ids[n], about));
+  for (const Line& l : about.findings) findings.push_back(finding_of(l));
+  for (const auto& [name, value] : about.marks) marks.push_back({name, value});
+  for (const model::Provenance& p : plan.provenance)
+    inputs.push_back({{"what", p.what}, {"value", p.value}, {"source", p.source}});
+  return {{"file", plan.file_name},
+          {"machine", plan.machine.id},
+          {"material", plan.material.id},
+          {"stock",
+           {{"box", box_of(plan.stock.box)},
+            {"source", plan.stock.source},
+            {"radius", plan.stock.cylinder_radius_mm ? Json(*plan.stock.cylinder_radius_mm) : Json()}}},
+          {"marks", marks},
+          {"inputs", inputs},
+          {"time", time_of(plan)},
+          {"condemned", about.condemned},
+          {"findings", findings},
+          {"unplanned", unplanned_of(plan)},
+          {"setups", setups},
+          {"tools", tools},
+          {"steps", steps},
+          {"explained", about.explained},
+          {"program", {{"name", about.program_name}, {"lines", lines_of(about.program)}}}};
+}
+
+}  // namespace
+
+std::string data_of(const model::Plan& plan, const About& about) {
+  // What is no UTF-8 in a name is shown as U+FFFD: the page is UTF-8.
+  const std::string text = whole(plan, about).dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) out += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return out;
+}
+
+}  // namespace capstan::report

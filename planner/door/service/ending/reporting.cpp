@@ -1,0 +1,54 @@
+#include "planner/door/service/ending/reporting.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "casebase/planned.h"
+#include "casebase/record/sha256.h"
+#include "planner/door/report/report.h"
+#include "planner/door/service/ending/last_line.h"
+#include "planner/door/service/explain/explain.h"
+
+namespace capstan::service {
+namespace {
+
+/// What the plan says of itself.
+report::About explained(const model::Plan& plan) {
+  report::About out;
+  out.explained = explain(plan);
+  for (std::size_t n = 1; n <= plan.steps.size(); ++n)
+    out.explained_steps.push_back(explain(plan, std::to_string(n)).value_or(std::string()));
+  out.marks.emplace_back("plan", casebase::plan_hash_of(plan));
+  return out;
+}
+
+}  // namespace
+
+std::string report_of(const Planned& planned, const Verdict& verdict, const std::vector<Output>& outputs) {
+  const model::Plan& plan = planned.plan;
+  report::About about = explained(plan);
+  Ending end{.verb = Verb::kPlan, .open = planned.open};
+  take_plan(plan, end);
+  take_verdict(plan, verdict, end);
+  about.verdict = last_line(end);
+  about.judged = !verdict.condemned.empty()          ? report::Judged::kNotSafe
+                 : about.verdict.starts_with("Safe") ? report::Judged::kSafe
+                                                     : report::Judged::kNotChecked;
+  for (const model::Condemnation& c : verdict.condemned) about.condemned.push_back(model::text_of(plan, c));
+  for (const FileFinding& f : verdict.findings) about.findings.push_back({f.file, f.program, f.finding});
+  const auto program = std::find_if(outputs.begin(), outputs.end(), is_program);
+  if (program != outputs.end() && verdict.written) {
+    about.program_name = program->path;
+    about.program = program->bytes;
+    about.marks.emplace_back("program", casebase::sha256(program->bytes));
+  }
+  return report::html(plan, about);
+}
+
+std::string report_of(const model::Plan& plan) {
+  report::About about = explained(plan);
+  about.verdict = "Not checked: this report was made from a plan, without the check";
+  return report::html(plan, about);
+}
+
+}  // namespace capstan::service

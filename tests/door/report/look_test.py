@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+"""Reports as a browser shows them.
+
+    look_test.py CAPSTAN EXAMPLES SCRATCH     plans the examples and opens their reports; screenshots stay in SCRATCH
+
+Ends with 77 where there is no chromium, chromedriver or pdftotext.
+"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+import browser
+
+PARTS = {'bracket': 'bracket.p21', 'two_setups': 'two_setups.p21', 'pocket': 'reference_pocket.p21', 'surface': 'surface.stl'}
+OPTIONS = {'surface': ['--material', 'EN AW-6061'],
+           'two_setups': ['--workholding', 'two_setups_holding.yaml']}
+MOST_BYTES = 5_000_000
+WIDTHS = (400, 1600)
+
+# How many colours the canvas shows, and a sum that tells one picture from another.
+LOOK = '''
+const c = document.querySelector('#view canvas'), small = document.createElement('canvas');
+small.width = 160; small.height = 80;
+const to = small.getContext('2d');
+to.drawImage(c, 0, 0, 160, 80);
+const d = to.getImageData(0, 0, 160, 80).data, seen = new Set();
+let sum = 0;
+for (let i = 0; i < d.length; i += 4) { const v = d[i] * 65536 + d[i + 1] * 256 + d[i + 2]; seen.add(v); sum = (sum * 31 + v) % 1000000007; }
+return [seen.size, sum];
+'''
+
+
+def planned(part, out, options):
+    """The report of a part, with its plan and program beside it."""
+    files = [out.with_suffix(end) for end in ('.html', '.json', '.ngc')]
+    call = [CAPSTAN, 'plan', part, *options, *(word for f in files for word in ('-o', str(f)))]
+    done = subprocess.run(call, capture_output=True, text=True, cwd=EXAMPLES)
+    if done.returncode not in (0, 1):
+        raise AssertionError(f'{call}: {done.stderr}')
+    return files[0], json.loads(files[1].read_text())
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        SCRATCH.mkdir(parents=True, exist_ok=True)
+        cls.reports = {name: planned(part, SCRATCH / name, OPTIONS.get(name, [])) for name, part in PARTS.items()}
+        cls.window = browser.Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.window.close()
+
+    def opened(self, name, width=900):
+        self.window.size(width, 700)
+        self.window.open(self.reports[name][0])
+        return self.reports[name][1]
+
+    def test_says_nothing_to_the_console_and_asks_for_nothing(self):
+        for name in PARTS:
+            self.window.requests()
+            self.opened(name)
+            for step in (0, self.window.run('return DATA.steps.length - 1')):
+                self.window.run('pick(arguments[0])', step)
+            for colour in ('feed', 'power', 'force'):
+                self.window.run('by("colour").value = arguments[0]; shown()', colour)
+            self.assertEqual(self.window.said(), [], name)
+            foreign = [u for u in self.window.requests() if not u.startswith(('file:', 'data:', 'blob:'))]
+            self.assertEqual(foreign, [], name)
+
+    def test_has_a_row_for_each_step_of_the_plan_and_their_times_add_up(self):
+        for name in PARTS:
+            plan = self.opened(name)
+            self.assertEqual(self.window.run('return document.querySelectorAll("#operations tbody tr").length'), len(plan['steps']))
+            rows = self.window.run('return DATA.steps.reduce((t, s) => t + stepTime(s), 0)')
+            time = self.window.run('return DATA.time')
+            beside = time['tool_change_s'] + time['link_s'] + time['spindle_s']
+            self.assertAlmostEqual(rows, sum(s['cutting_s'] + s['rapid_s'] for s in plan['steps']), delta=0.01 * len(plan['steps']))
+            self.assertAlmostEqual(rows + beside, time['total_s'], delta=0.02 * len(plan['steps']), msg=name)
+
+    def test_draws_and_draws_something_else_for_another_step(self):
+        for name in PARTS:
+            self.opened(name)
+            if not self.window.run('return !view.flat'):
+                self.skipTest('built without three.js, or no WebGL here')
+            seen = []
+            for step in range(min(4, self.window.run('return DATA.steps.length'))):
+                self.window.run('pick(arguments[0])', step)
+                colours, picture = self.window.run(LOOK)
+                self.assertGreater(colours, 20, name)
+                seen.append(picture)
+            self.assertEqual(len(set(seen)), len(seen), name)
+            self.window.screenshot(SCRATCH / f'{name}.png')
+
+    def test_cuts_the_stock_as_the_scrubber_moves(self):
+        self.opened('pocket')
+        volumes = []
+        for share in (0, 300, 600, 1000):
+            self.window.run('by("way").value = arguments[0]; moved()', str(share))
+            volumes.append(self.window.run('return view.stock.volume()'))
+        self.assertEqual(volumes, sorted(volumes, reverse=True))
+        pocket = self.window.run('''const [lo, hi] = DATA.stock.box;
+            return (hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]) - view.stock.volume()''')
+        # The plan's own simulation is another program.
+        removed = sum(sum(s['removed_mm3']) for s in self.reports['pocket'][1]['sections'])
+        self.assertAlmostEqual(pocket / removed, 1.0, delta=0.02)
+
+    def test_shows_the_loads_of_a_step_below_their_limits(self):
+        plan = self.opened('pocket')
+        self.window.run('pick(0)')
+        self.assertEqual(self.window.run('return document.querySelectorAll("#charts svg").length'), 7)
+        loads = self.window.run('return DATA.steps[0].loads')
+        for name in ('torque', 'power'):
+            for load, limit in zip(loads['columns'][name], loads['limits'][name], strict=True):
+                self.assertLessEqual(load * loads['margin'], 1.02 * limit, name)
+        # The plan's own largest torque, margin in it.
+        stated = plan['steps'][0]['loads']['torque_nm']
+        self.assertAlmostEqual(max(loads['columns']['torque']) * loads['margin'] / stated, 1.0, delta=0.05)
+
+    def test_leads_from_a_line_of_the_program_to_its_step(self):
+        self.opened('bracket')
+        self.assertEqual(self.window.run('''
+            const line = [...document.querySelectorAll('.line')].find(l => l.textContent.includes('CAPSTAN STEP') && l.textContent.includes('n=3 '));
+            line.click();
+            return document.querySelector('#operations tr.picked').rowIndex'''), 3)
+
+    def test_is_no_wider_than_the_window(self):
+        for width in WIDTHS:
+            for name in ('bracket', 'two_setups'):
+                self.opened(name, width)
+                wide, there = self.window.run('return [document.documentElement.scrollWidth, window.innerWidth]')
+                self.assertLessEqual(wide, there, f'{name} at {width}')
+                self.assertGreaterEqual(self.window.run('return parseFloat(getComputedStyle(document.body).fontSize)'), 12)
+                self.window.screenshot(SCRATCH / f'{name}.{width}.png')
+
+    def test_prints_every_step(self):
+        for name in PARTS:
+            plan = self.opened(name)
+            file = SCRATCH / f'{name}.pdf'
+            file.write_bytes(self.window.pdf())
+            text = subprocess.run(['pdftotext', '-layout', file, '-'], capture_output=True, text=True, check=True).stdout
+            text = ' '.join(text.split())
+            for step in plan['steps']:
+                for word in step['id'].split():
+                    self.assertIn(word, text, name)
+
+    def test_takes_names_for_text(self):
+        name = "<script>window.ran=1</script><b>&amp;"
+        part = SCRATCH / 'named.p21'
+        text = (pathlib.Path(EXAMPLES) / 'reference_pocket.p21').read_text()
+        feature = next(line for line in text.splitlines() if 'CLOSED_POCKET(' in line)
+        at = feature.index("('") + 2
+        part.write_text(text.replace(feature, feature[:at] + name + feature[feature.index("'", at):]))
+        report, _ = planned(str(part), SCRATCH / 'named', [])
+        self.window.open(report)
+        self.assertIsNone(self.window.run('return window.ran || null'))
+        self.assertIn(name, self.window.run('return document.querySelector("#operations").textContent'))
+
+    def test_is_the_same_bytes_for_the_same_plan_and_small(self):
+        first = self.reports['bracket'][0].read_bytes()
+        again, _ = planned(PARTS['bracket'], SCRATCH / 'again' / 'bracket', [])
+        self.assertEqual(again.read_bytes().replace(b'again/bracket', b'bracket'), first)
+        self.assertLess(len(first), MOST_BYTES)
+
+    def test_draws_flat_without_webgl(self):
+        other = browser.Browser('--disable-3d-apis')
+        try:
+            other.open(self.reports['bracket'][0])
+            self.assertTrue(other.run('return view.flat'))
+            self.assertGreater(other.run('return document.querySelectorAll("#view svg path").length'), 5)
+            self.assertEqual([m for m in other.said() if 'WebGL' not in m], [])
+        finally:
+            other.close()
+
+
+if __name__ == '__main__':
+    CAPSTAN, EXAMPLES, SCRATCH = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]).resolve()
+    if not (browser.DRIVER and browser.BROWSER and shutil.which('pdftotext')):
+        print('skipped: chromium, chromedriver or pdftotext is not here')
+        sys.exit(77)
+    (SCRATCH / 'again').mkdir(parents=True, exist_ok=True)
+    unittest.main(argv=sys.argv[:1], verbosity=2)
