@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "casebase/search.h"
 #include "casebase/store/log.h"
@@ -40,23 +42,45 @@ struct CaseBase::Impl {
       entries.push_back(*e);
     }
     if (Status s = log.note(kind, entries, verdict, remark); !s) return s;
+    forget();
     search.update();
     return {};
   }
 
-  /// Places become cases; those that are not what was stored are left out.
+  /// What others wrote meanwhile may have come with what was written: verdicts may be others.
+  void forget() { read.clear(); }
+
+  /// Places become cases; those that are not what was stored are left out. Each case is read and verified
+  /// once: the questions of a plan, one for each candidate of a step, find the same ones again and again.
   std::vector<Neighbour> loaded(const std::vector<Found>& found) const {
-    std::vector<std::uint32_t> entries;
-    entries.reserve(found.size());
-    for (const Found& f : found) entries.push_back(f.entry);
-    std::vector<std::optional<Case>> cases = log.load(entries);
+    const std::scoped_lock lock(reading);
+    std::vector<std::uint32_t> missing;
+    for (const Found& f : found) {
+      if (!read.contains(f.entry)) missing.push_back(f.entry);
+    }
+    if (read.size() + missing.size() > kMostKept) {
+      read.clear();
+      missing.clear();
+      for (const Found& f : found) missing.push_back(f.entry);
+    }
+    std::vector<std::optional<Case>> cases;
+    if (!missing.empty()) cases = log.load(missing);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i]) read.emplace(missing[i], *std::move(cases[i]));
+    }
     std::vector<Neighbour> out;
     out.reserve(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (cases[i]) out.push_back({*std::move(cases[i]), std::sqrt(found[i].distance2)});
+    for (const Found& f : found) {
+      if (const auto c = read.find(f.entry); c != read.end())
+        out.push_back({c->second, std::sqrt(f.distance2)});
     }
     return out;
   }
+
+ private:
+  static constexpr std::size_t kMostKept = std::size_t{1} << 15U;  // some 30 MB; default, unsourced
+  mutable std::mutex reading;
+  mutable std::map<std::uint32_t, Case> read;  // by entry, with the verdicts that it has
 };
 
 CaseBase::CaseBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -100,6 +124,7 @@ Status CaseBase::add(std::span<const Case> added) {
   }
   if (checked.empty()) return {};
   if (Status s = impl_->log.add(checked); !s) return s;
+  impl_->forget();
   impl_->search.update();
   return {};
 }

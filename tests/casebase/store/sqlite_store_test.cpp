@@ -217,6 +217,21 @@ TEST(CaseStore, TellsAnAlteredRowOnceHoweverOftenItIsAsked) {
   EXPECT_EQ(base->take_faults().size(), 1u);
 }
 
+TEST(CaseStore, ReadsACaseOnceHoweverManyQuestionsFindIt) {
+  const Folder folder;
+  fill(folder.file(), {sample(10.0), sample(10.2)});
+  Job job;
+  auto base = CaseBase::open(folder.file(), job);
+  EXPECT_EQ(evidence_near(*base, sample(10.0).asked)->size(), 2u);
+  tamper(folder.file(), "DELETE FROM capstan_body");
+  for (const double d_mm : {10.0, 10.1, 10.2})
+    EXPECT_EQ(evidence_near(*base, sample(d_mm).asked)->size(), 2u);
+  EXPECT_TRUE(base->take_faults().empty());
+  // What is opened anew is read anew.
+  const auto anew = CaseBase::open(folder.file(), job);
+  EXPECT_TRUE(evidence_near(*anew, sample(10.0).asked)->empty());
+}
+
 TEST(CaseStore, NoticesThatRowsAreGone) {
   for (const std::string gone : {"1", "2"}) {
     const Folder folder;

@@ -141,24 +141,15 @@ bool better(const Solution& a, const Solution& b) {
   return a.feasible ? a.objective < b.objective : a.max_violation < b.max_violation;
 }
 
-/// Whether no point of a piece keeps the limits of loads.
-bool hopeless(const CutQuestion& q, const Search& search, const std::vector<Variable>& piece) {
-  const auto points = search.gentlest(piece);
-  return std::all_of(points.begin(), points.end(), [&](const CutPoint& p) {
-    const auto loads = loads_of(q, p.ap_mm, p.ae_mm, p.n_rpm, p.feed_mm_min);
-    return loads && worst_excess(q, *loads, p.n_rpm) > kRounding;
-  });
-}
-
 /// The best solution over the pieces between the corners; nothing if no piece contains a feasible cut.
-Result<std::optional<Solved>> best_of(const CutQuestion& q, const Search& search, Options options, Job& job,
+Result<std::optional<Solved>> best_of(const Search& search, Options options, Job& job,
                                       const std::optional<CutPoint>& start = {}) {
   const std::uint32_t budget =
       options.evaluation_budget != 0 ? options.evaluation_budget : job.evaluation_budget;
   options.evaluation_budget = std::min(budget, kPointsPerSearch);
   std::optional<Solved> best;
   for (const auto& piece : search.pieces()) {
-    if (hopeless(q, search, piece)) continue;
+    if (search.hopeless(piece)) continue;
     auto s = solve(search.problem(piece, start), options, job);
     if (!s && s.error().code == "OPT-MODEL") continue;  // no point of it has a value
     if (!s) return tl::unexpected(s.error());
@@ -175,7 +166,7 @@ std::optional<CutPoint> eased(const CutQuestion& q, const Solved& now, const std
   const Search search(more, now.point.ap_mm);
   Options one = options;
   one.starts = 1;
-  const auto solved = best_of(more, search, one, job, now.point);
+  const auto solved = best_of(search, one, job, now.point);
   if (!solved || !*solved || !(*solved)->solution.feasible) return std::nullopt;
   return (*solved)->point;
 }
@@ -273,7 +264,7 @@ Result<Level> solve_level(const CutQuestion& q, double ap_mm, const Options& opt
     out.answer.method = "given";
     return out;
   }
-  auto solved = best_of(q, search, options, job);
+  auto solved = best_of(search, options, job);
   if (!solved) return tl::unexpected(solved.error());
   if (!*solved) return Level{nearest(q, search), std::nullopt};
   Level out{answer_at(q, (*solved)->point), std::nullopt};

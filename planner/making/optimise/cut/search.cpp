@@ -23,6 +23,9 @@ constexpr const char* kWidth = "radial_cutting_depth";
 /// narrower cut would mostly not be what its path does. Derived from that: more than an eighth.
 constexpr double kNarrowest = 0.13;
 
+/// By how much a limit of loads may seem exceeded.
+constexpr double kLoadRounding = 1e-6;
+
 double corner_of(const model::Cutter& c) {
   return model::has(c.cutter_class, model::CutterTrait::kBall) ? 0.5 * c.cutting_diameter_mm
                                                                : c.corner_radius_mm;
@@ -156,9 +159,8 @@ std::vector<std::vector<Variable>> Search::pieces() const {
   return out;
 }
 
-std::vector<CutPoint> Search::gentlest(const std::vector<Variable>& piece) const {
-  std::vector<double> x;
-  for (const Variable& v : piece) x.push_back(v.lower);
+std::vector<CutPoint> Search::at_ends_of_speed(const std::vector<Variable>& piece,
+                                               std::vector<double> x) const {
   std::vector<CutPoint> out = {at(x)};
   for (std::size_t j = 0; j < piece.size(); ++j) {
     if (piece[j].name != kSpeed) continue;
@@ -166,6 +168,49 @@ std::vector<CutPoint> Search::gentlest(const std::vector<Variable>& piece) const
     out.push_back(at(x));
   }
   return out;
+}
+
+bool Search::keeps_loads(const CutPoint& p) const {
+  const auto loads = loads_of(q_, p.ap_mm, p.ae_mm, p.n_rpm, p.feed_mm_min);
+  return !loads || worst_excess(q_, *loads, p.n_rpm) <= kLoadRounding;
+}
+
+/// The thinnest chip that the cutter takes, over the chip of a cut; 0 where none is asked for.
+double Search::chip_wanted(const CutPoint& p) const {
+  const auto loads = loads_of(q_, p.ap_mm, p.ae_mm, p.n_rpm, p.feed_mm_min);
+  if (!loads) return 0.0;
+  const Measure m = measures(q_, *loads, p.ap_mm, p.n_rpm, p.feed_mm_min)[model::Limit::kChipThicknessLeast];
+  return m.stated() && m.limit > 0.0 ? m.value / m.limit : 0.0;
+}
+
+std::vector<CutPoint> Search::gentlest(const std::vector<Variable>& piece) const {
+  std::vector<double> x, widest;
+  std::optional<std::size_t> feed;
+  for (std::size_t j = 0; j < piece.size(); ++j) {
+    x.push_back(piece[j].lower);
+    widest.push_back(piece[j].name == kWidth ? piece[j].upper : piece[j].lower);
+    if (piece[j].name == kFeed) feed = j;
+  }
+  std::vector<CutPoint> out = at_ends_of_speed(piece, x);
+  const auto keeps = [this](const CutPoint& p) { return keeps_loads(p); };
+  if (!feed || !is_milling(q_.kind) || std::none_of(out.begin(), out.end(), keeps)) return out;
+  // A chip is as thick as the feed is large; a hair less, for rounding.
+  const double wanted = chip_wanted(at(widest)) * (1.0 - 2.0 * kLoadRounding);
+  if (!(wanted > 1.0)) return out;
+  x[*feed] = widest[*feed] = std::min(wanted * piece[*feed].lower, piece[*feed].upper);
+  // More than that is no bound.
+  if (chip_wanted(at(widest)) < 1.0) return out;
+  return at_ends_of_speed(piece, x);
+}
+
+bool Search::hopeless(const std::vector<Variable>& piece) const {
+  const auto points = gentlest(piece);
+  const auto keeps = [this](const CutPoint& p) { return keeps_loads(p); };
+  if (std::none_of(points.begin(), points.end(), keeps)) return true;
+  std::vector<double> most;
+  for (const Variable& v : piece) most.push_back(v.name == kSpeed ? v.lower : v.upper);
+  constexpr double kTooThin = 1e-5;  // well beyond what a solver counts as kept
+  return is_milling(q_.kind) && chip_wanted(at(most)) > 1.0 + kTooThin;
 }
 
 CutPoint Search::fastest() const {
@@ -207,10 +252,9 @@ Problem Search::problem(std::vector<Variable> box, const std::optional<CutPoint>
       [this, limits, mills, fixed](std::span<const double> x, double& f, std::span<double> c) {
         const CutPoint at_x = at(x);
         f = std::log(objective_of(q_, at_x));
-        const auto loads =
-            mills ? mills->at(at_x.ap_mm, std::min(at_x.ae_mm, q_.cutter.cutting_diameter_mm), at_x.n_rpm,
-                              at_x.feed_mm_min / (at_x.n_rpm * teeth_of(q_)))
-                  : loads_of(q_, at_x.ap_mm, at_x.ae_mm, at_x.n_rpm, at_x.feed_mm_min);
+        const auto loads = mills ? mills->at(at_x.ap_mm, std::min(at_x.ae_mm, q_.cutter.cutting_diameter_mm),
+                                             at_x.n_rpm, at_x.feed_mm_min / (at_x.n_rpm * teeth_of(q_)))
+                                 : loads_of(q_, at_x.ap_mm, at_x.ae_mm, at_x.n_rpm, at_x.feed_mm_min);
         if (!loads) {
           std::fill(c.begin(), c.end(), 1.0);
           return;

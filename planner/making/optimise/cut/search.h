@@ -24,10 +24,15 @@ class Search {
   /// which the chip stops growing, the end of the effective diameter. One part if there are none.
   [[nodiscard]] std::vector<std::vector<Variable>> pieces() const;
 
-  /// The points of a piece with the smallest loads: lowest feed, narrowest width, at either end of its
-  /// speeds. Loads rise with feed and width, and the spindle's torque has no corner inside a piece, so if
-  /// neither point keeps the limits of loads, no point does.
+  /// The points of a piece with the smallest loads, at either end of its speeds: narrowest width and lowest
+  /// feed. Where loads keep their limits there, the feed is raised to the least at which the widest cut makes
+  /// the thinnest chip that the cutter takes.
   [[nodiscard]] std::vector<CutPoint> gentlest(const std::vector<Variable>& piece) const;
+
+  /// Whether no point of a piece keeps its limits. Loads and chip rise with feed and width, and the spindle's
+  /// torque has no corner inside a piece: if no point of `gentlest` keeps the limits of loads, or the chip of
+  /// the widest cut at the largest feed is too thin, no point does. A solver would spend its budget there.
+  [[nodiscard]] bool hopeless(const std::vector<Variable>& piece) const;
 
   /// An upper bound of the removal rate at this depth, limits of loads aside: the fastest speed, the widest
   /// cut, and the largest feed that its bound and the chip allow there.
@@ -51,6 +56,10 @@ class Search {
   void add(const char* name, const char* unit, double lo, double hi);
   [[nodiscard]] std::vector<double> corners(const Variable& v) const;
   [[nodiscard]] double speed_of(double n_rpm) const;
+  [[nodiscard]] std::vector<CutPoint> at_ends_of_speed(const std::vector<Variable>& piece,
+                                                       std::vector<double> x) const;
+  [[nodiscard]] bool keeps_loads(const CutPoint& p) const;
+  [[nodiscard]] double chip_wanted(const CutPoint& p) const;
 
   const CutQuestion& q_;
   double ap_;
