@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "rules/facts/facts.h"
 
 namespace capstan::rules {
 namespace {
@@ -25,6 +26,30 @@ constexpr double kBluntSpotRad = 142.0 * std::numbers::pi / 180.0;
 /// Width of the mark over the drill's diameter, at most: a pilot needs no mark as wide as its hole's. As the
 /// rows of hole.yaml mark for a drill; default, unsourced.
 constexpr double kMarkOfDrill = 0.6;
+
+/// Drills with inserts (ISO 13399: SIG near 180 degrees) are made from about this diameter. Default,
+/// unsourced.
+constexpr double kInsertsFromMm = 14.0;
+/// How much wider than itself such a drill may cut, for one insert alone shapes the wall. Default, unsourced:
+/// half of IT13 at 18 to 30 mm is 0.165.
+constexpr double kInsertsOversizeMm = 0.15;
+/// Without coolant through the drill its chips come out of holes this deep, in diameters. Default, unsourced.
+constexpr double kInsertsByFloodRatio = 2.0;
+
+/// Whether a drill with inserts may make the hole of the chain's drill: from the solid, at one go, through or
+/// to a bottom that a mill makes level, where what follows, or the tolerance, leaves room for its oversize.
+bool inserts_do(const model::FeatureShape& shape, const Context& context, const ProposedStep& drill,
+                bool last) {
+  const double most = model::upper_size(drill.tool);
+  if (most < kInsertsFromMm || drill.peck || drill.start_diameter_mm > 0.0) return false;
+  if (drill.tool.point_angle_rad > 0.0 || context.core_diameter_mm > 0.0) return false;
+  const bool wet = context.has_coolant || context.has_through_coolant;
+  const double deep = (drill.depth_mm + context.stock_above_mm) / most;
+  if (!wet || (!context.has_through_coolant && deep > kInsertsByFloodRatio)) return false;
+  const model::Toleranced size = facts_of(shape, context).diameter;
+  const double widest = size.nominal_mm + (last ? size.upper_mm : size.lower_mm);
+  return most + kInsertsOversizeMm <= widest + model::kSizeSlackMm;
+}
 
 /// A chain that begins with a spot and a twist drill, for a drill of solid carbide: without the spot where
 /// none is needed, else with a spot as blunt as that drill. Nothing of other chains. Holes with a zone of
@@ -61,6 +86,11 @@ std::optional<std::vector<ProposedStep>> by_carbide(const model::FeatureShape& s
   }
   say(drill,
       "not spotted: a solid carbide drill centres itself to " + most + " (ctemag.com, Get it straight)");
+  if (inserts_do(shape, context, drill, chain.size() == 2)) {
+    drill.tool.point_angle_most_rad = std::numbers::pi;
+    if (context.has_through_coolant) drill.coolant_through = true;
+    say(drill, "or one with inserts: at one go, " + trimmed(kInsertsOversizeMm, 2) + " mm wider at most");
+  }
   chain.erase(chain.begin());
   for (ProposedStep& s : chain) {
     for (std::size_t& after : s.after) --after;

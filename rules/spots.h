@@ -8,7 +8,8 @@ namespace capstan::rules {
 
 /// Puts before each chain that spots and drills the same for a drill of solid carbide: without a spot to five
 /// diameters, else with a spot as blunt as that drill. It turns some four times as fast as one of HSS, and a
-/// spot less is a tool change less; where there is none, the chain behind it is taken.
+/// spot less is a tool change less; where there is none, the chain behind it is taken. Where the size leaves room
+/// for its oversize, a drill with inserts will do, too (point_angle_most_rad: level).
 void carbide_first(const model::FeatureShape& shape, const Context& context, model::Proposal& proposal);
 
 }  // namespace capstan::rules

@@ -26,6 +26,7 @@ PARTS = {
     "open": ["tests/door/pipeline/parts/open_ends.p21"],
     "dovetails": ["tests/door/pipeline/parts/dovetails.p21"],
     "far": ["tests/door/pipeline/parts/far_ends.p21"],
+    "leaning": ["docs/strategies/leaning.p21", "--tools", "docs/strategies/leaning_tools.yaml"],
     "surface": ["examples/surface.stl", "--material", "EN AW-6061"],
 }
 # name of the picture, part, step, left panel ("above" or "time")
@@ -44,6 +45,8 @@ PICTURES = [
     ("bore", "strategies", "BORED HOLE bore~2", "time"),
     ("thread_mill", "thread", "THREAD thread_mill", "above"),
     ("face", "bracket", "TOP FACE plane_finish", "above"),
+    ("high_feed", "leaning", "TOP FACE plane_rough", "above"),
+    ("drill_insert", "leaning", "HOLE drill", "time"),
     ("pocket_finish", "bracket", "POCKET area_finish", "above"),
     ("open_slot", "bracket", "SLOT area_rough", "above"),
     ("spot", "bracket", "DOWEL HOLE 1 centre", "time"),
@@ -199,12 +202,13 @@ def cabinet(p, _t):
     return (p[0] + 0.5 * p[1] * math.cos(a), p[2] + 0.5 * p[1] * math.sin(a))
 
 
-def panel(step, point, left, same_scale, swept_mm, out):
+def panel(step, point, left, same_scale, swept_mm, out, widest_mm=0.0):
     """Draws the runs, fitted into the panel; gives the kinds that it has and where its scale bar goes."""
+    widest_mm = max(widest_mm, swept_mm)
     runs = step.runs(point)
     xs = [p[0] for _, pts in runs for p in pts]
     ys = [p[1] for _, pts in runs for p in pts]
-    grow = swept_mm / 2.0
+    grow = widest_mm / 2.0
     lo, hi = (min(xs) - grow, min(ys) - grow), (max(xs) + grow, max(ys) + grow)
     w, h = max(hi[0] - lo[0], 1e-3), max(hi[1] - lo[1], 1e-3)
     sx, sy = (PANEL - 2 * MARGIN) / w, (HEIGHT - 2 * MARGIN) / h
@@ -214,8 +218,10 @@ def panel(step, point, left, same_scale, swept_mm, out):
     at = lambda p: (ox + sx * (p[0] - lo[0]), HEIGHT - oy - sy * (p[1] - lo[1]))
     if swept_mm > 0.0:
         d = " ".join(line_of([at(p) for p in pts]) for kind, pts in runs if kind not in ("rapid", "way"))
-        out.append('<path d="%s" stroke="#d9dde2" stroke-width="%s" stroke-linecap="round"/>' %
-                   (d, number(sx * swept_mm)))
+        for wide, grey in ((widest_mm, "#eceef1"), (swept_mm, "#d9dde2")):
+            if grey == "#d9dde2" or wide > swept_mm:
+                out.append('<path d="%s" stroke="%s" stroke-width="%s" stroke-linecap="round"/>' %
+                           (d, grey, number(sx * wide)))
     for kind in ("rapid", "way", "cut", "link", "down", "air"):
         lines = [line_of([at(p) for p in pts]) for k, pts in runs if k == kind]
         if not lines:
@@ -236,6 +242,12 @@ def bar(left, scale, out):
     out.append('<text x="%s" y="%s">%d mm</text>' % (number(x + length * scale + 5), number(y + 4), length))
 
 
+def widest(step):
+    """The circle where leaning edges of a face mill leave the material; its diameter is that at the tip."""
+    lean = step.cutter.get("lead_angle_rad", 0.0) if step.cutter["cutter_class"] == "facemill" else 0.0
+    return step.cutter["cutting_diameter_mm"] + 2.0 * step.step["axial_depth_mm"] * math.tan(lean)
+
+
 def draw(step, view):
     out, kinds = [], [k for k in COLOURS if k in step.kinds]
     diameter = step.cutter["cutting_diameter_mm"]
@@ -244,7 +256,7 @@ def draw(step, view):
         total = sum(step.seconds(i) for i in range(1, len(step.path["x"])))
         out.append('<text x="%s" y="%s">height of the tip over %.1f s</text>' % (number(MARGIN), number(HEIGHT + 10), total))
     else:
-        scale, _ = panel(step, lambda p, t: (p[0], p[1]), 0.0, True, diameter, out)
+        scale, _ = panel(step, lambda p, t: (p[0], p[1]), 0.0, True, diameter, out, widest(step))
         bar(0.0, scale, out)
     scale, _ = panel(step, cabinet, PANEL + 10, True, 0.0, out)
     bar(PANEL + 10, scale, out)

@@ -42,6 +42,37 @@ TEST(Hole, WithATighterToleranceGetsAnotherChainAndCitesItsRow) {
   EXPECT_THAT(proposed(h(s, 5)).cannot, HasSubstr("[hole.grind]"));
 }
 
+/// What the first chain of the hole alone in its part asks of its first drill.
+model::ToolRequirement first_drill(const FeatureShape& s, const Context& c) {
+  const Proposal p = propose_members(shipped(), std::vector{s}, c).at(0);
+  for (const auto& step : p.chains.at(0))
+    if (step.operation == TypeId::kDrilling || step.operation == TypeId::kMultistepDrilling) return step.tool;
+  return {};
+}
+
+// Inserts cut wider than they measure, start by themselves, and are never pecked.
+TEST(Hole, MayBeDrilledWithInsertsWhereItsToleranceAndDepthLetThem) {
+  const auto inserts_do = [](const FeatureShape& s, const Context& c) {
+    return first_drill(s, c).point_angle_most_rad == std::numbers::pi;
+  };
+  const FeatureShape wide = toleranced(hole(22, 40), -0.2, 0.2);
+  Context c = steel();
+  EXPECT_TRUE(inserts_do(wide, c));
+  EXPECT_EQ(propose_members(shipped(), std::vector{wide}, c).at(0).chains.at(0).size(), 1U)
+      << "without a spot";
+  EXPECT_FALSE(inserts_do(h(hole(22, 40), 11), c)) << "0.13 mm in all: no room for its oversize";
+  EXPECT_FALSE(inserts_do(toleranced(hole(12, 20), -0.2, 0.2), c)) << "none is made below 14 mm";
+  EXPECT_FALSE(inserts_do(toleranced(hole(22, 50), -0.2, 0.2), c)) << "deeper than two diameters by flood";
+  FeatureShape pointed = toleranced(hole(22, 40, HoleBottom::kConical), -0.2, 0.2);
+  pointed.bottom_angle_rad = 31.0 * kDegree;
+  EXPECT_FALSE(inserts_do(pointed, c)) << "its cone asks a point";
+  c.has_through_coolant = true;
+  EXPECT_TRUE(inserts_do(toleranced(hole(22, 60), -0.2, 0.2), c)) << "chips are washed out";
+  EXPECT_FALSE(inserts_do(toleranced(hole(22, 80), -0.2, 0.2), c)) << "pecked";
+  c.has_through_coolant = c.has_coolant = false;
+  EXPECT_FALSE(inserts_do(wide, c)) << "dry";
+}
+
 TEST(Hole, OutsideTheH7ZoneIsBoredToTheMiddleOfItsTolerance) {
   const Proposal p = proposed(toleranced(hole(20, 30), -0.035, -0.014));  // P7
   EXPECT_EQ(row(p), "hole.bore.it7");

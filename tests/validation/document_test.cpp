@@ -69,6 +69,22 @@ TEST(Document, OfStrategiesShowsPartsThatArePlannedWhole) {
   }
 }
 
+TEST(Document, OfStrategiesShowsAHighFeedMillAndADrillWithInsertsAtWork) {
+  Job job;
+  const std::string folder = capstan::testing::source_dir() + "/docs/strategies/";
+  const auto shop = pipeline::load_shop({"", folder + "leaning_tools.yaml", "", ""}, job);
+  ASSERT_TRUE(shop) << to_text(shop.error());
+  const auto read = pipeline::read_plan(testing::slurp(folder + "leaning.p21"), "leaning.p21", job);
+  ASSERT_TRUE(read) << to_text(read.error());
+  const auto made = pipeline::bind_checked(*read, *shop, {}, job);
+  ASSERT_TRUE(made) << to_text(made.error());
+  EXPECT_TRUE(made->plan.unplanned.empty());
+  for (const auto& f : made->findings) EXPECT_NE(f.severity, Severity::kError) << f.message;
+  std::vector<std::string> tools;
+  for (const auto& s : made->plan.steps) tools.push_back(s.cutter_id);
+  EXPECT_EQ(tools, (std::vector<std::string>{"high_feed_mill", "face_mill_45", "drill_insert"}));
+}
+
 TEST(Document, IsRenewedBetweenItsMarkersOnly) {
   const std::string before = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n";
   const Comparison c{.name = "x", .text = "new\n"};

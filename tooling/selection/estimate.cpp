@@ -12,6 +12,7 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "planner/physics/mechanics/stability.h"
+#include "tooling/library/cutters/shape.h"
 #include "tooling/selection/limits.h"
 
 // Estimated time of a step with a cutter: rough, the same for all candidates, without any optimiser.
@@ -104,29 +105,32 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
   double ae = kWidthRatio * d;
   if (p.width_mm > 0.0) ae = std::min(ae, p.width_mm);
   double ap = deepest_mm(c, w, m, p, limited);
-  double feed = s.feed_mm_min;
+  // The speed is that of the widest circle that cuts, the start values are at the tip's.
+  const double slower = d / widest_circle_mm(c, ap);
+  const double rpm = slower * s.spindle_rpm;
+  double feed = slower * s.feed_mm_min;
   int teeth = c.teeth;
   if (w.iso_group == "N" && teeth > kTeethInSoft) {
     feed *= static_cast<double>(kTeethInSoft) / teeth;
     teeth = kTeethInSoft;
   }
   const mechanics::WorkMaterial work = mechanics::milled_with(w, c);
-  const double h_mean = mechanics::mean_chip_thickness_mm(s.fz_mm, ae, d);
-  const double h_max = mechanics::max_chip_thickness_mm(s.fz_mm, ae, d);
+  const double sin_kappa = std::cos(c.lead_angle_rad);
+  const double h_mean = mechanics::mean_chip_thickness_mm(s.fz_mm, ae, d, sin_kappa);
+  const double h_max = mechanics::max_chip_thickness_mm(s.fz_mm, ae, d, sin_kappa);
   double scale = 1.0;
   if (h_mean > 0.0 && h_max > 0.0) {
     const double margin = margin_of(w);
     const double kc = mechanics::specific_force_n_mm2(work, h_mean);
     const double power = margin * mechanics::cutting_power_w(ap * ae * feed, kc);
-    if (const auto most = capacity(m, s.spindle_rpm)) {
+    if (const auto most = capacity(m, rpm)) {
       scale_down(most->power_w / power, "power", scale, limited);
-      scale_down(most->torque_nm / mechanics::spindle_torque_nm(power, s.spindle_rpm), "torque", scale,
-                 limited);
+      scale_down(most->torque_nm / mechanics::spindle_torque_nm(power, rpm), "torque", scale, limited);
     }
     // One tooth at its thickest chip, radial force included, or all that are in the cut on average.
     const double in_cut =
         std::max(1.0, mechanics::mean_engaged_teeth(teeth, mechanics::immersion_angle_rad(ae, d)));
-    const double one = mechanics::specific_force_n_mm2(work, h_max) * h_max * ap;
+    const double one = mechanics::specific_force_n_mm2(work, h_max) * h_max * ap / sin_kappa;
     const double force = margin * one * in_cut * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
     const double bending = bending_mm(c, w);
     if (const auto bend = compliance_mm_n(c))

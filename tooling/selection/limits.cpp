@@ -13,6 +13,7 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/cutters/shape.h"
 #include "tooling/library/nouns/tool_material.h"
 
 namespace capstan::tooling {
@@ -90,6 +91,8 @@ std::optional<std::string> wrong_point(const Cutter& c, const ToolRequirement& r
     return "point angle " + deg_text(point) + " marks wider than the hole; at most " +
            deg_text(r.point_angle_most_rad);
   if (!drill) return std::nullopt;
+  if (drills_with_inserts(c) && r.point_angle_most_rad < point)
+    return "its inserts make a hole from the solid, of IT13 and coarser, without a spot and at one go";
   const bool carbide = c.substrate == model::Substrate::kCarbide;
   if (r.solid_carbide && !(carbide && point >= kStartsAloneRad - slack))
     return carbide ? "its point of " + deg_text(point) + " does not centre it"
@@ -309,6 +312,8 @@ std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& s
   if (auto why = not_in_magazine(c, m, p)) return why;
   if (c.cutter_class == CutterClass::kTouchProbe) return std::nullopt;
   if (auto why = not_cut_with(c, start, w)) return why;
+  if (!p.roughs && feeds_high(c))
+    return "edges that lean by " + deg_text(c.lead_angle_rad) + " rough, and leave ridges";
   if (c.maximum_speed_rpm > 0.0 && c.maximum_speed_rpm < m.spindle.rpm_min)
     return "its largest speed " + trimmed(c.maximum_speed_rpm, 0) + " 1/min is below the spindle's least " +
            trimmed(m.spindle.rpm_min, 0);

@@ -7,6 +7,7 @@
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
+#include "tooling/library/cutters/shape.h"
 #include "tooling/selection/limits.h"
 
 namespace capstan::tooling {
@@ -39,6 +40,7 @@ const Cutter* pattern_of(const ToolRequirement& r, CutterClass c, const std::vec
   const Cutter* best = nullptr;
   for (const Cutter& g : generic) {
     if (g.cutter_class != c || (r.solid_carbide && g.substrate != model::Substrate::kCarbide)) continue;
+    if (drills_with_inserts(g) && r.point_angle_most_rad < g.point_angle_rad) continue;
     const double larger = marks ? -1.0 : 1.0;
     if (best == nullptr || off(g) < off(*best) ||
         (off(g) == off(*best) && (larger * g.cutting_diameter_mm > larger * best->cutting_diameter_mm ||

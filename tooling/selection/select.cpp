@@ -110,7 +110,7 @@ model::Reason reason_for(const Cutter& c, const ToolRequirement& r, const StartV
   text += r.diameter_exact_mm > 0.0 ? "of the size wanted" : "diameter " + mm_text(c.cutting_diameter_mm);
   if (upper_size(r) > 0.0 && r.diameter_exact_mm <= 0.0) text += " within " + mm_text(upper_size(r));
   if (r.reach_mm > 0.0) text += ", reach " + mm_text(reach_of(c)) + " for " + mm_text(r.reach_mm);
-  if (r.point_angle_most_rad > 0.0 && c.cutter_class == CutterClass::kTwistDrill) {
+  if (r.point_angle_rad > 0.0 && r.point_angle_most_rad > 0.0 && c.cutter_class == CutterClass::kTwistDrill) {
     const PointRest rest = rest_under_point(c, r.point_angle_rad);
     if (rest.height_mm > kTellRestMm)
       text += ", its point of " + deg_text(c.point_angle_rad) + " leaves " + trimmed(rest.height_mm, 2) +

@@ -34,7 +34,7 @@ std::string words_of(const ToolRequirement& r) {
   if (!r.thread_form.empty()) add("form " + r.thread_form);
   if (r.lead_threads_max > 0.0) add("a lead of at most " + trimmed(r.lead_threads_max, 1) + " threads");
   if (r.taper_angle_rad > 0.0) add(deg_text(r.taper_angle_rad) + " taper");
-  if (r.point_angle_rad <= 0.0 && r.point_angle_most_rad > 0.0)
+  if (r.point_angle_rad <= 0.0 && r.point_angle_most_rad > 0.0 && !r.solid_carbide)
     add("a point of at most " + deg_text(r.point_angle_most_rad));
   if (r.point_angle_rad > 0.0)
     add((r.point_angle_most_rad > r.point_angle_rad
@@ -52,7 +52,8 @@ std::string words_of(const ToolRequirement& r) {
   if (r.tip_diameter_max_mm > 0.0) add("a tip of at most " + mm_text(r.tip_diameter_max_mm));
   if (r.depth_of_cut_mm > 0.0) add(mm_text(r.depth_of_cut_mm) + " flutes");
   if (r.reach_mm > 0.0) add(mm_text(r.reach_mm) + " reach");
-  if (r.solid_carbide) with += ", of solid carbide";
+  const bool inserts_do = r.point_angle_rad <= 0.0 && r.point_angle_most_rad > 0.0;
+  if (r.solid_carbide) with += inserts_do ? ", of solid carbide or with inserts" : ", of solid carbide";
   if (r.centre_cutting) with += ", cutting to centre or ramping";
   if (r.coolant_through) with += ", with coolant through it";
   if (r.left_hand) with += ", left-hand";

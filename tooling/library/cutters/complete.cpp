@@ -8,6 +8,7 @@
 #include "planner/ground/vocabulary/thread_mill.h"
 #include "tooling/library/cutters/edges.h"
 #include "tooling/library/cutters/generic.h"
+#include "tooling/library/cutters/shape.h"
 #include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {
@@ -16,8 +17,10 @@ namespace {
 using model::Cutter;
 using model::CutterClass;
 
-/// Nearest in diameter of the class; of equals one of the same substrate and teeth, then the shorter.
+/// Nearest in diameter of the class, with edges that lean alike; of equals one of the same substrate and
+/// teeth, then the shorter.
 const Cutter* nearest(const Cutter& c, const std::vector<Cutter>& generic) {
+  constexpr double kUnlikeMm = 1e3;  // farther than any diameter
   const Cutter* best = nullptr;
   double best_distance = 0.0;
   for (const Cutter& g : generic) {
@@ -25,6 +28,7 @@ const Cutter* nearest(const Cutter& c, const std::vector<Cutter>& generic) {
     double d = std::abs(g.cutting_diameter_mm - c.cutting_diameter_mm);
     if (g.substrate != c.substrate) d += 1e-3;
     if (c.teeth > 0 && g.teeth != c.teeth) d += 1e-4;
+    if (!edges_lean_alike(c, g)) d += kUnlikeMm;
     if (c.thread_pitch_mm > 0.0) d += std::abs(g.thread_pitch_mm - c.thread_pitch_mm);
     if (best == nullptr || d < best_distance || (d == best_distance && g.stick_out_mm < best->stick_out_mm)) {
       best = &g;

@@ -128,6 +128,8 @@ class Reader {
       c_.taper_angle_rad = *taper->taper_angle;
       stated("taper_angle_rad", "taper_angle");
     }
+    leaning(m_.get<model::Facemill>(p_.body_ref));
+    leaning(m_.get<model::Endmill>(p_.body_ref));
     if (const double width = width_of(m_, p_.body_ref); width > 0.0) {
       c_.cutting_width_mm = width;
       stated("cutting_width_mm", "cutter_width");
@@ -142,6 +144,15 @@ class Reader {
     }
     if (const auto* t = m_.get<model::DovetailMill>(p_.body_ref); t != nullptr && t->included_angle)
       c_.lead_angle_rad = 0.5 * *t->included_angle;
+  }
+  /// The lead angle of a mill whose edges do not stand upright: 90 degrees less the cutting edge angle.
+  template <class Body>
+  void leaning(const Body* b) {
+    constexpr double kUpright = 0.5 * std::numbers::pi;
+    const double kappa = b != nullptr ? b->tool_cutting_edge_angle.value_or(0.0) : 0.0;
+    if (!(kappa > 0.0) || kappa >= kUpright) return;
+    c_.lead_angle_rad = kUpright - kappa;
+    c_.sources.emplace_back("lead_angle_rad", "derived: 90 degrees - tool_cutting_edge_angle");
   }
   void read_lengths() {
     double length = p_.tool->overall_assembly_length.value_or(0.0);

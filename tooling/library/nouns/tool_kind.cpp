@@ -18,7 +18,7 @@ using model::MachiningTool;
 using model::Model;
 using model::Ref;
 
-/// Smaller face mills are not made; the word is used for end mills that face.
+/// Smaller face mills are not made, but with edges that lean; the word is used for end mills that face.
 constexpr double kLeastFacemillMm = 25.0;
 constexpr double kSizeSlackMm = 1e-4;
 
@@ -62,11 +62,14 @@ std::optional<CutterClass> class_of_body(const Model& m, const ToolParts& p, dou
   if (m.holds<model::CenterDrill>(b))
     return point_angle_rad > 75.0 * kRadPerDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
   if (m.holds<model::Drill>(b)) {
-    // Neither standard has a word for them: one lip, and coolant through it.
-    const bool gun = p.body->number_of_teeth.value_or(0) == 1 && p.body->coolant_through_tool.value_or(false);
+    // Neither standard has a word for them: one lip, coolant through it, and a point that guides it.
+    constexpr double kFlatPointRad = 160.0 * kRadPerDegree;
+    const bool gun = point_angle_rad < kFlatPointRad && p.body->number_of_teeth.value_or(0) == 1 &&
+                     p.body->coolant_through_tool.value_or(false);
     return gun ? CutterClass::kGunDrill : CutterClass::kTwistDrill;
   }
-  if (m.holds<model::Facemill>(b) && d < kLeastFacemillMm) return CutterClass::kEndmill;
+  const auto* face = m.get<model::Facemill>(b);
+  if (face != nullptr && d < kLeastFacemillMm && !face->tool_cutting_edge_angle) return CutterClass::kEndmill;
   if (m.holds<model::MillingThreadingTool>(b)) return CutterClass::kThreadMill;
   // A side mill without a width, or a tapered kind without a taper, is the plain tool, or has no class.
   const auto by_noun = m.holds<model::SideMill>(b) ? std::nullopt : class_of_noun(b.type);
@@ -78,7 +81,7 @@ std::optional<CutterClass> class_of_body(const Model& m, const ToolParts& p, dou
 
 /// The points that each class is sold with, deg.
 std::span<const double> usual_points(CutterClass c) {
-  static constexpr std::array<double, 6> kDrill{118, 140, 135, 130, 120, 90};
+  static constexpr std::array<double, 7> kDrill{118, 140, 135, 130, 120, 90, 172};
   static constexpr std::array<double, 4> kCentre{60, 90, 120, 142};
   static constexpr std::array<double, 5> kSink{90, 60, 82, 120, 30};
   if (model::has(c, model::CutterTrait::kDrills)) return kDrill;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/tool.h"
@@ -97,6 +98,12 @@ void fill_body(Model& m, model::AnyRef body, const Cutter& c) {
   };
   threaded(m.get<model::Tap>(body));
   threaded(m.get<model::ThreadMill>(body));
+  const auto leaning = [&](auto* b) {
+    if (b != nullptr && c.lead_angle_rad > 0.0)
+      b->tool_cutting_edge_angle = 0.5 * std::numbers::pi - c.lead_angle_rad;
+  };
+  leaning(m.get<model::Facemill>(body));
+  leaning(m.get<model::Endmill>(body));
   if (auto* tap = m.get<model::Tap>(body)) tap->taper_thread_count = known(c.lead_threads);
   if (auto* reamer = m.get<model::Reamer>(body)) reamer->taper_length = known(c.lead_length_mm);
   if (auto* sink = m.get<model::Countersink>(body)) sink->minimum_cutting_diameter = known(c.tip_diameter_mm);

@@ -19,6 +19,7 @@
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/stability.h"
+#include "tooling/library/cutters/shape.h"
 #include "tooling/selection/select.h"
 
 namespace capstan::step {
@@ -126,6 +127,12 @@ void hold_quality(const PlanSoFar& p, const StepDraft& step, const toolpath::Pat
     return;
   q.wall_error_limit_mm = q.deflection_limit_mm;
   q.deflection_limit_mm = tip_beside_wall_mm(q.wall_error_limit_mm);
+}
+
+/// Speed of a face mill whose edges lean outwards: it counts where they leave the material.
+void count_speed_at_top(optimise::CutQuestion& q) {
+  const double widest = tooling::widest_circle_mm(q.cutter, q.depth_mm);
+  if (widest > q.cutter.cutting_diameter_mm) q.speed_diameter_mm = widest;
 }
 
 /// Largest cutting force that the workholding holds, N; 0: unknown. Applies to milling cuts whose technology
@@ -325,6 +332,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
   q.engaged_diameter_mm = engaged_diameter_mm(step.operation.type, step.cutter, job.cutting_depth_mm);
   start_at_point(q, start.wanted_vc_m_min);
+  count_speed_at_top(q);
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
   // The finishing pass cuts the terraces that the levels leave on a slope.

@@ -45,10 +45,13 @@ const std::vector<model::Plan>& plans() {
   return kPlans;
 }
 
-/// The widest circle that cuts: a spot of 90 degrees is twice as wide as it is deep.
+/// The widest circle that cuts: a spot of 90 degrees is twice as wide as it is deep, a face mill whose edges
+/// lean wider where they leave the material than at its tip.
 double widest_mm(const model::Plan& plan, const model::StepResult& s, const model::Cutter& c) {
   const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
   const auto* spot = plan.model.get<model::CenterDrilling>(ws->its_operation);
+  if (c.cutter_class == model::CutterClass::kFacemill)
+    return c.cutting_diameter_mm + 2.0 * s.axial_depth_mm * std::tan(c.lead_angle_rad);
   if (spot == nullptr) return c.cutting_diameter_mm;
   EXPECT_NEAR(c.point_angle_rad, 0.5 * std::numbers::pi, 1e-9) << c.id;
   return std::min(c.cutting_diameter_mm, 2.0 * spot->cutting_depth.value());

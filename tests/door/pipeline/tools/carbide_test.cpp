@@ -66,10 +66,10 @@ TEST(Bracket, IsFacedOnceInWholePasses) {
   // the torque of the spindle makes two passes of a smaller cutter as quick.
   const model::Plan soft = bracket_of("EN AW-6061"), tough = bracket_of("304");
   const model::StepResult& one = step_of(soft, "TOP FACE plane_finish");
-  EXPECT_EQ(one.cutter_id, "generic/face_mill/100");
+  EXPECT_EQ(one.cutter_id, "generic/face_mill_45/100");
   EXPECT_NEAR(cut_length(one), 120.0 + 2.0 * 75.0, 1e-6);
   const model::StepResult& two = step_of(tough, "TOP FACE plane_finish");
-  EXPECT_EQ(two.cutter_id, "generic/face_mill/63");
+  EXPECT_EQ(two.cutter_id, "generic/face_mill_45/63");
   EXPECT_GT(cut_length(two), 2.0 * 120.0);
   EXPECT_LT(cut_length(two), 3.0 * 120.0 + 2.0 * 63.0);
   for (const model::Plan* plan : {&soft, &tough})

@@ -316,6 +316,9 @@ void derive(CatalogueItem& item, ToolAssembly& assembly, LossReport& report) {
   if (item.cutter_class == CutterClass::kChamferMill && of("TA") > 0.0 &&
       of("TA") <= 0.5 * std::numbers::pi && of("SIG") == 0.0)
     derived(item, "SIG", 2.0 * of("TA"), "twice the taper angle TA", report);
+  if (item.cutter_class == CutterClass::kFacemill && of("TA") > 0.0 && of("TA") < 0.5 * std::numbers::pi &&
+      !has("PSIR"))
+    derived(item, "PSIR", of("TA"), "the taper angle TA of a face mill", report);
   if (item.kind == "slot mill" && of("LCF") > 0.0 && !has("CW"))
     derived(item, "CW", of("LCF"), "the flute length of a slot mill", report);
 }

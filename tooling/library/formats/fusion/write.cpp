@@ -185,6 +185,10 @@ class Writer {
       g.set("TA", Json::number(spelled(0.5 * *p.number, kRadPerDegree)));
       return true;
     }
+    if (p.symbol == "PSIR" && type == "face mill") {
+      if (!number_of(i, "TA")) g.set("TA", Json::number(spelled(*p.number, kRadPerDegree)));
+      return true;
+    }
     if (p.state == ValueState::kDerived && find(i.properties, "shoulder-length") != nullptr) return true;
     if (p.state == ValueState::kDerived && type == "slot mill" && p.symbol == "CW") return true;
     for (const GeometryKey& k : kGeometry)
