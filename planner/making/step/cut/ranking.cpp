@@ -114,7 +114,7 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
     times.emplace_back(t, i);
     if (i == 0 && cases && cases->advice.lowered)
       failed = {trial.cutter.id, std::string(kFirstFailed) + cases->advice.why + ": " +
-                                     casebase::words_of(cases->advice.cases, 3)};
+                                     casebase::words_of(cases->advice.cases, 3, cases->advice.cuts())};
   }
   in_order(plan, steps, step, std::move(times));
   if (failed && step.cutter.id != failed->what) step.rejected_tools.push_back(*std::move(failed));
