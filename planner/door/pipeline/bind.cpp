@@ -221,7 +221,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
 
   const auto margin = resolve_workpiece(plan, inputs, job);
   if (!margin) return tl::unexpected(margin.error());
-  const Asked asked{inputs, policy, tries.bans, recorded, not_made, *margin};
+  const Asked asked{inputs, policy, tries.bans, recorded, not_made, *margin, tries.thrift};
   piece::report_outside(plan, job);
   poll();
   auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);

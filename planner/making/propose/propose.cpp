@@ -388,6 +388,13 @@ class Proposer {
       }
     }
     if (chosen.chain == nullptr) {
+      if (const std::string full =
+              full_magazine(choice_, sources_.rules, context, p, s, member, out_.drafts.used);
+          !full.empty()) {
+        out_.full = true;
+        fail_member(f, given, full);
+        return {};
+      }
       const bool tried = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
         return choice_.bans.chain_banned(member, draft::key_of(chain)) != nullptr;
       });
@@ -454,7 +461,8 @@ class Proposer {
     for (const auto& chain : p.chains) longest = std::max(longest, chain.size());
     const int pockets = plan_.machine.magazine_pockets;
     if (pockets < 1 || before + longest <= static_cast<std::size_t>(pockets)) return false;
-    out_.drafts.used = share_tools(plan_, out_.drafts.steps, magazine_known(choice_.usable), choice_.batch);
+    out_.drafts.used = share_tools(plan_, out_.drafts.steps,
+                                   {magazine_known(choice_.usable), choice_.batch, choice_.thrift});
     return out_.drafts.used.size() < before;
   }
 
