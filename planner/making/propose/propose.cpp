@@ -155,7 +155,9 @@ class Proposer {
           context.surface_passage_mm = piece::passage_between(*plan_.target_mesh, form, plan_.stock.box);
       }
     }
-    const auto proposals = rules::propose_members(sources_.rules, shapes, context);
+    std::vector<FeatureShape> in_material = shapes;
+    for (FeatureShape& s : in_material) s.corner_radius_mm = piece::corner_in_material(choice_.piece, s);
+    const auto proposals = rules::propose_members(sources_.rules, in_material, context);
     const auto order = rules::member_order(shapes);
     const auto within = rules::made_within(shapes);
     std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
