@@ -99,12 +99,50 @@ std::optional<std::vector<ProposedStep>> by_carbide(const model::FeatureShape& s
   return chain;
 }
 
+/// Full angle of the spot that breaks an edge at 45 degrees.
+constexpr double kBevelSpotRad = 0.5 * std::numbers::pi;
+
+/// A chain that begins with a spot and breaks the hole's edge later: the spot goes as deep as the bevel is
+/// wide beyond the hole, and the step that breaks the edge falls away. Nothing of other chains, nor where the
+/// spot's tip would go through the hole's bottom or its body would not pass beside a wall. Its drill is none
+/// of solid carbide, whose corners would meet the cone first.
+std::optional<std::vector<ProposedStep>> by_spot(const model::FeatureShape& shape, const Context& context,
+                                                 std::vector<ProposedStep> chain) {
+  const double bevel = context.edge_break_mm;
+  if (shape.kind != model::ShapeKind::kHole || !(bevel > 0.0) || chain.size() < 3) return std::nullopt;
+  const auto edge = std::find_if(chain.begin() + 1, chain.end(), [](const ProposedStep& s) {
+    return s.operation == model::TypeId::kSideFinishMilling && s.tool.point_angle_rad == kBevelSpotRad &&
+           s.axial_depth_mm > 0.0;
+  });
+  ProposedStep& spot = chain[0];
+  if (spot.operation != model::TypeId::kCenterDrilling || edge == chain.end()) return std::nullopt;
+  const double wide = shape.diameter.nominal_mm + 2.0 * bevel, depth = 0.5 * wide;
+  if (depth >= shape.depth_mm) return std::nullopt;
+  if (const double most = spot.tool.diameter_max_mm; most > 0.0 && most < wide) return std::nullopt;
+  spot.tool.classes = {model::CutterClass::kSpotDrill};
+  spot.tool.diameter_min_mm = wide;
+  spot.tool.point_angle_rad = kBevelSpotRad;
+  spot.tool.point_angle_most_rad = 0.0;
+  spot.tool.reach_mm += depth - spot.depth_mm;
+  spot.depth_mm = spot.tool.depth_of_cut_mm = depth;
+  spot.tool.words = words_of(spot.tool);
+  spot.why.text += (spot.why.text.empty() ? "" : "; ") + ("breaks the hole's edge by " + trimmed(bevel, 3)) +
+                   " mm as well, [" + edge->why.id + "]";
+  const auto gone = static_cast<std::size_t>(edge - chain.begin());
+  chain.erase(edge);
+  for (ProposedStep& s : chain) {
+    for (std::size_t& after : s.after) after -= after >= gone ? 1 : 0;
+  }
+  return chain;
+}
+
 }  // namespace
 
 void carbide_first(const model::FeatureShape& shape, const Context& context, model::Proposal& proposal) {
   std::vector<std::vector<ProposedStep>> chains;
   for (std::vector<ProposedStep>& chain : proposal.chains) {
     if (auto carbide = by_carbide(shape, context, chain)) chains.push_back(*std::move(carbide));
+    if (auto bevelled = by_spot(shape, context, chain)) chains.push_back(*std::move(bevelled));
     chains.push_back(std::move(chain));
   }
   proposal.chains = std::move(chains);

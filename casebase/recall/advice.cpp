@@ -301,8 +301,10 @@ Advice advise(std::vector<Evidence> near, const Values& asked, double least_fz_m
   std::vector<Weighted> heaviest = all;
   std::stable_sort(heaviest.begin(), heaviest.end(),
                    [](const Weighted& a, const Weighted& b) { return a.weight > b.weight; });
+  std::set<std::pair<std::size_t, Verdict>> named;
   for (const Weighted& w : heaviest) {
     if (out.cases.size() == kLeanedShown) break;
+    if (!named.emplace(w.cut, w.of->verdict).second) continue;
     out.cases.push_back({w.of->id, w.of->distance, w.of->origin, w.of->verdict, w.weight, w.of->cut});
   }
   const int n = out.good + out.bad + out.unjudged;
@@ -322,14 +324,15 @@ std::string words_of(const Values& v) {
   return out;
 }
 
-std::string words_of(const std::vector<Leaned>& cases, std::size_t most) {
+std::string words_of(const std::vector<Leaned>& cases, std::size_t most, std::size_t cuts) {
   std::string out;
   for (std::size_t i = 0; i < std::min(most, cases.size()); ++i) {
     const Leaned& c = cases[i];
     out += fmt::format("{}{} ({}, {}, {} away)", i == 0 ? "" : ", ", c.id.substr(0, 12), to_text(c.origin),
                        to_text(c.verdict), trimmed(c.distance, 3));
   }
-  if (cases.size() > most) out += fmt::format(" and {} more", cases.size() - most);
+  const std::size_t named = std::min(most, cases.size());
+  if (cuts > named) out += fmt::format(" and {} more", cuts - named);
   return out;
 }
 

@@ -39,10 +39,11 @@ struct Advice {
   double nearest = 0.0;  ///< distance of the nearest
   double success_asked = kTrustInTable;  ///< probability that the asked values (else the centre) go well
   double success = kTrustInTable;        ///< the same of `start`
-  std::vector<Leaned> cases;             ///< heaviest first, at most kLeanedShown
+  std::vector<Leaned> cases;             ///< heaviest first, one of each cut, at most kLeanedShown
   std::string why;                       ///< one line for people, also when there is none
 
-  [[nodiscard]] bool any() const { return good + bad + unjudged > 0; }
+  [[nodiscard]] std::size_t cuts() const { return static_cast<std::size_t>(good + bad + unjudged); }
+  [[nodiscard]] bool any() const { return cuts() > 0; }
 };
 
 /// Cases that an advice names.
@@ -85,7 +86,8 @@ inline constexpr double kLeastSuccess = 0.75;
 
 /// "180 m/min and 0.08 mm per tooth, at most 4 mm deep".
 [[nodiscard]] std::string words_of(const Values& v);
-/// Cases a person can look up: "a1b2c3d4e5f6 (measured, bad, 0.02 away)", at most `most`.
-[[nodiscard]] std::string words_of(const std::vector<Leaned>& cases, std::size_t most);
+/// Cases a person can look up: "a1b2c3d4e5f6 (measured, bad, 0.02 away) and 2 more", at most `most` of those
+/// that tell of so many cuts.
+[[nodiscard]] std::string words_of(const std::vector<Leaned>& cases, std::size_t most, std::size_t cuts);
 
 }  // namespace capstan::casebase

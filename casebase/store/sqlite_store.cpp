@@ -104,6 +104,8 @@ Diagnostic SqliteStore::sqlite_fault(std::string_view doing) const {
     case SQLITE_NOTADB:
       return fault("CASE-SCHEMA", "this is not a case base: " + why);
     case SQLITE_CORRUPT:
+      return fault("CASE-DAMAGED", "its file is damaged or cut short: " + why,
+                   "restore the case base from a copy");
     case SQLITE_TOOBIG:
     case SQLITE_CONSTRAINT:
     case SQLITE_ERROR:
@@ -152,7 +154,7 @@ Status SqliteStore::harden(int busy_ms) {
   sqlite3_limit(db_.get(), SQLITE_LIMIT_LENGTH, kMaxValueBytes);
   sqlite3_limit(db_.get(), SQLITE_LIMIT_ATTACHED, 0);
   sqlite3_busy_timeout(db_.get(), busy_ms);
-  return run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA synchronous = FULL", "set it up");
+  return run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA synchronous = FULL", "open it");
 }
 
 Status SqliteStore::make_tables() {

@@ -79,5 +79,16 @@ TEST(Condemned, AnUnplannedFeatureCondemnsWhatRestsOnIt) {
   EXPECT_EQ(condemned(plan, {})[0].step, "");
 }
 
+TEST(Condemned, FeaturesThatAreLeftOutTogetherCondemnNothing) {
+  Plan plan = two_steps();
+  RoundHole core, thread;
+  core.its_id = std::string("CORE");
+  thread.its_id = std::string("TAP");
+  plan.unplanned.push_back({AnyRef(plan.model.add(core)), "no drill is as long", {"TAP"}});
+  ASSERT_EQ(condemned(plan, {}).size(), 1u);
+  plan.unplanned.push_back({AnyRef(plan.model.add(thread)), "it rests on 'CORE'"});
+  EXPECT_TRUE(condemned(plan, {}).empty());
+}
+
 }  // namespace
 }  // namespace capstan::model

@@ -238,4 +238,32 @@ TEST(Edges, OfAHoleUnderAWiderOneAreNotBroken) {
 }
 
 }  // namespace
+TEST(Edges, OfASpottedHoleAreBrokenByTheSpot) {
+  Context c = steel();
+  c.edge_break_mm = 0.3;
+  const auto chains = propose_members(shipped(), std::vector{hole(10, 25)}, c).at(0).chains;
+  const auto has_edge = [](const std::vector<model::ProposedStep>& chain) {
+    return std::any_of(chain.begin(), chain.end(),
+                       [](const auto& s) { return s.name.find("break_edge") != std::string::npos; });
+  };
+  std::size_t bevelled = 0;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const model::ProposedStep& spot = chains[i].front();
+    if (has_edge(chains[i]) || spot.operation != model::TypeId::kCenterDrilling) continue;
+    ++bevelled;
+    EXPECT_DOUBLE_EQ(spot.depth_mm, 5.3);  // half of 10 + 2 x 0.3 mm, at 90 degrees
+    EXPECT_DOUBLE_EQ(spot.tool.diameter_min_mm, 10.6);
+    EXPECT_FALSE(chains[i].at(1).tool.solid_carbide) << "its corners would meet the cone first";
+    EXPECT_THAT(spot.why.text, HasSubstr("edge_break.upper"));
+    ASSERT_LT(i + 1, chains.size());
+    EXPECT_TRUE(has_edge(chains[i + 1])) << "the same chain with a step for the edge comes after it";
+  }
+  EXPECT_GT(bevelled, 0U);
+  // No tip through the bottom.
+  const FeatureShape shallow = hole(10, 5);
+  const auto proposals = propose_members(shipped(), std::vector{shallow}, c);
+  ASSERT_FALSE(proposals.at(0).chains.empty());
+  for (const auto& chain : proposals[0].chains) EXPECT_LT(chain.front().depth_mm, 5.0 + 1e-9);
+}
+
 }  // namespace capstan::rules

@@ -98,6 +98,28 @@ double deepest_mm(const Cutter& c, const WorkMaterial& w, const Machine& m, cons
   return ap;
 }
 
+/// Way of a cutter's middle along the helix of a bore or thread, mm, in lengths at its full feed; nothing
+/// where the bore is cleared as a pocket. As planner/making/toolpath/hole (bore_and_thread.cpp): a thread
+/// mill makes a turn for each pitch, all of them in one where its profiles are as long as the thread; a mill
+/// goes round the hole that is there as deep as it may cut, else down by its ramp; a last turn is level.
+std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Preferences& p, double ap_mm) {
+  const double d = c.cutting_diameter_mm, r = 0.5 * (p.bore_mm - d);
+  if (!(r > 0.0)) return std::nullopt;
+  const double turn = 2.0 * kPi * r, in_and_out = kPi * r;
+  if (p.pitch_mm > 0.0) {
+    const bool all_at_once = c.maximum_depth_of_cut_mm >= p.depth_mm;
+    return turn * (all_at_once ? 1.0 : std::ceil(p.depth_mm / p.pitch_mm - 1e-9)) + in_and_out;
+  }
+  constexpr double kMiddle = 0.3;  // of the radius, which cuts badly; default, unsourced
+  const double hole = 0.5 * p.pre_hole_mm, flat = std::max(0.5 * d - c.corner_radius_mm, 0.25 * d);
+  if (r - flat > hole + 1e-9) return std::nullopt;  // a core would stay
+  if (r + kMiddle * 0.5 * d <= 0.5 * p.open_below_mm)
+    return turn * (std::ceil(p.depth_mm / ap_mm - 1e-9) + 1.0) + in_and_out;
+  const model::Ramp ramp = model::ramp_of(c, w);
+  if (!(ramp.angle_rad > 0.0) || r > 0.5 * d + 1e-9) return std::nullopt;
+  return p.depth_mm / (std::sin(ramp.angle_rad) * ramp.feed_share) + turn + in_and_out;
+}
+
 double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
                  const Machine& m, const Preferences& p, std::string& limited) {
   const double d = c.cutting_diameter_mm;
@@ -138,6 +160,9 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
                  "bending", scale, limited);
   }
   ap *= scale;
+  if (p.bore_mm > 0.0) {
+    if (const auto helix = helix_mm(c, w, p, ap)) return 60.0 * *helix / feed;
+  }
   // Levels are whole.
   if (p.depth_mm > 0.0) ap = p.depth_mm / std::ceil(p.depth_mm / ap - 1e-9);
   double minutes = volume / (ap * ae * feed);
@@ -145,7 +170,8 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
     const double walls = volume / (p.depth_mm * ae);
     minutes += std::max(0.0, p.floor_mm2 - walls * d) / (kWidthRatio * d * feed);
   }
-  if (r.centre_cutting && p.walled) {
+  const bool blind_bore = p.bore_mm > 0.0 && !(p.open_below_mm > 0.0);
+  if ((r.centre_cutting && p.walled) || blind_bore) {
     const model::Ramp ramp = model::ramp_of(c, w);
     if (ramp.angle_rad > 0.0) minutes += p.depth_mm / (std::sin(ramp.angle_rad) * ramp.feed_share * feed);
   }
@@ -176,8 +202,10 @@ double axial_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, 
       scale_down(std::pow(most->power_w / (margin * l->power_w), slope), "power", scale, limited);
     }
   }
-  // A tap comes out as slowly as it goes in.
-  const double ways = c.cutter_class == CutterClass::kTap ? 2.0 : 1.0;
+  // These come out as slowly as they go in.
+  const bool slowly = c.cutter_class == CutterClass::kTap || c.cutter_class == CutterClass::kReamer ||
+                      c.cutter_class == CutterClass::kBoringTool;
+  const double ways = slowly ? 2.0 : 1.0;
   return ways * 60.0 * length / (scale * s.feed_mm_min);
 }
 

@@ -251,7 +251,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (!resolved) return tl::unexpected(resolved.error());
   const mechanics::MarginPolicy margin = resolved->margin.policy;
   put_workpiece(plan, *std::move(resolved), inputs);
-  const Asked asked{inputs, policy, tries.bans, recorded, not_made, margin};
+  const Asked asked{inputs, policy, tries.bans, recorded, not_made, margin, tries.thrift};
   piece::report_outside(plan, job);
   poll();
   auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);

@@ -187,6 +187,9 @@ class PathMaker {
         return {};
       }
     }
+    if (used_.size() + further_.size() >=
+        static_cast<std::size_t>(std::max(0, plan_.machine.magazine_pockets)))
+      step::keep_in_magazine(plan_.machine, steps_, step);
     step::rank_by_time(plan_, p_, steps_, step, used_, stocks_, progress_, cuts_);
     step::rank_by_path(plan_, steps_, step, used_, [&](std::size_t i) { return seconds_with(step, i); });
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
@@ -228,7 +231,8 @@ class PathMaker {
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
     if (!seconds || *seconds <= kShiftS) return std::nullopt;
     return "it cuts " + trimmed(*seconds / 3600.0, 1) + " h, longer than a shift of " +
-           trimmed(kShiftS / 3600.0, 0) + " h; take a machine that turns a wider tool in this material (--machine), or change the feature";
+           trimmed(kShiftS / 3600.0, 0) +
+           " h; take a machine that turns a wider tool in this material (--machine), or change the feature";
   }
 
   [[nodiscard]] static bool exceeds(const StepDraft& step, const step::MeasuredCut& t) {
@@ -417,6 +421,7 @@ class PathMaker {
     if (nothing != nullptr && step::cut_around(p_, step) && left_out(step, *nothing)) return {};
     if (candidate > 0 && candidate < step.candidates.size())
       step::take_cutter(plan_, steps_, step, step.candidates[candidate]);
+    if (std::find(used_.begin(), used_.end(), step.cutter.id) == used_.end()) further_.insert(step.cutter.id);
     const step::PathWithCut& made = tried.made;
     step::tell_rapids(plan_.model, step, tried.rapid_removed_mm3, job_);
     step::let_go(plan_.model, step, made.let_go, job_);
@@ -483,8 +488,9 @@ class PathMaker {
   step::Means means_;
   Learned learned_;
   step::CasesTold told_;
-  std::set<AnyRef> failed_;   ///< features with a step that failed in this try
-  std::set<AnyRef> resting_;  ///< features that rest on those
+  std::set<std::string> further_;  ///< cutters that were taken in place of those in `used_`
+  std::set<AnyRef> failed_;        ///< features with a step that failed in this try
+  std::set<AnyRef> resting_;       ///< features that rest on those
   std::map<Member, std::string>
       lost_;  ///< what steps of the file would have made that have no path: the first
 };

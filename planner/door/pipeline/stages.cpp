@@ -60,13 +60,20 @@ std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, con
                                options,
                                asked.margin.deviations,
                                required.demands.batch,
-                               asked.inputs.cases.get()};
+                               asked.inputs.cases.get(),
+                               asked.thrift};
   const propose::Sources sources{asked.inputs.rules, required.demands, asked.unreadable, choice,
                                  asked.policy.reopen >= Reopen::kOperations};
   auto made = propose::propose_missing(plan, std::move(drafts), sources, job);
   Learned learned;
   learned.left_out = std::move(made.left_out);
   learned.again = made.again;
+  if (made.full && asked.thrift != propose::Thrift::kChains) {
+    learned.thrift =
+        asked.thrift == propose::Thrift::kNone ? propose::Thrift::kShared : propose::Thrift::kChains;
+    learned.left_out.clear();  // with other tools they may be made
+    learned.again = true;
+  }
   return {std::move(made.drafts), std::move(learned)};
 }
 
@@ -85,8 +92,9 @@ Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& requi
                              asked.inputs.tool_materials,
                              asked.inputs.cases.get()};
   given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);
-  drafts.used =
-      propose::share_tools(plan, drafts.steps, propose::magazine_known(library), required.demands.batch);
+  drafts.used = propose::share_tools(
+      plan, drafts.steps,
+      {propose::magazine_known(library), required.demands.batch, asked.thrift, /*back=*/true});
   given::stand_out_alike(drafts.steps);
   return drafts;
 }

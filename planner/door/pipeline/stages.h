@@ -37,6 +37,7 @@ struct Asked {
   const std::map<AnyRef, std::string>&
       unreadable;  ///< features and steps whose file states something wrongly
   mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
+  propose::Thrift thrift = propose::Thrift::kNone;
 };
 
 /// The demands on the features, and their shapes in the raw piece.

@@ -17,6 +17,7 @@ bool Tries::learn(Learned learned) {
   for (const auto& [feature, why] : learned.left_out) bans.leave_out(feature, why);
   for (const Learned::Rests& r : learned.rests) bans.rests(r.feature, r.on, r.why);
   for (std::string& s : learned.said) said.push_back(std::move(s));
+  if (learned.thrift) thrift = *learned.thrift;
   if (learned.smallest) smallest = *std::move(learned.smallest);
   return learned.again;
 }

@@ -10,6 +10,7 @@
 
 #include "planner/ground/memo/memo.h"
 #include "planner/making/draft/bans.h"
+#include "planner/making/propose/choose.h"
 #include "planner/making/step/cut/cuts.h"
 #include "planner/making/step/path/stocks.h"
 #include "planner/model/plan/needed_tool.h"
@@ -40,6 +41,7 @@ struct Learned {
   std::vector<Rests> rests;                       ///< features on others that are not planned
   std::vector<std::string> said;                  ///< what is planned anew, and why
   std::optional<step::SmallestCutters> smallest;  ///< of all tries so far
+  std::optional<propose::Thrift> thrift;          ///< of the next try
   bool again = false;                             ///< the plan is to be made again
 };
 
@@ -57,6 +59,8 @@ struct Tries {
   step::KnownCuts cuts;
   /// By set-up, where the last try began with another: the stock's cells follow it.
   step::SmallestCutters smallest;
+  /// How few tools: more thrift where the magazine was full, never less again.
+  propose::Thrift thrift = propose::Thrift::kNone;
   /// Results of stages: the caller's, or those of these tries alone.
   std::shared_ptr<memo::Memo> memo;
 

@@ -27,6 +27,14 @@ void Candidates::replace(const std::function<Shared(const Shared&)>& by) {
   }
 }
 
+std::vector<Candidates::Shared> Candidates::drop_if(const std::function<bool(const model::Candidate&)>& out) {
+  const auto rest =
+      std::stable_partition(all_.begin(), all_.end(), [&](const Shared& s) { return !out(*s); });
+  std::vector<Shared> dropped(rest, all_.end());
+  all_.erase(rest, all_.end());
+  return dropped;
+}
+
 Candidates CandidatePool::list(const std::vector<model::Candidate>& ranked) {
   Candidates out;
   for (const model::Candidate& c : ranked) {

@@ -45,6 +45,8 @@ class Candidates {
   void prefer(const std::vector<std::size_t>& first);
   /// Puts what `by` gives in the place of each; null: it stays.
   void replace(const std::function<Shared(const Shared&)>& by);
+  /// Drops those for which `out` holds; gives what was dropped.
+  std::vector<Shared> drop_if(const std::function<bool(const model::Candidate&)>& out);
 
  private:
   std::vector<Shared> all_;

@@ -1,5 +1,7 @@
 #include "planner/making/draft/draft.h"
 
+#include <algorithm>
+
 namespace capstan::draft {
 
 std::string key_of(const std::vector<model::ProposedStep>& chain) {
@@ -15,6 +17,18 @@ std::string name_of(const model::Model& m, const StepDraft& step) {
 bool cuts_levels(const model::Model& m, const StepDraft& step) {
   return m.holds<model::FreeformFinishMilling>(step.operation) &&
          step.cutter.cutter_class == model::CutterClass::kEndmill;
+}
+
+std::vector<std::string> cutters_of(const std::vector<StepDraft>& steps) {
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& id) {
+    if (!id.empty() && std::find(out.begin(), out.end(), id) == out.end()) out.push_back(id);
+  };
+  for (const StepDraft& s : steps) {
+    add(s.cutter.id);
+    if (s.probing && s.probing->probe) add(s.probing->probe->cutter.id);
+  }
+  return out;
 }
 
 }  // namespace capstan::draft

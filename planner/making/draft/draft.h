@@ -79,6 +79,9 @@ struct StepDraft {
 /// The name that messages call a step by.
 [[nodiscard]] std::string name_of(const model::Model& m, const StepDraft& step);
 
+/// The cutters that steps and the measurements before them use, each once.
+[[nodiscard]] std::vector<std::string> cutters_of(const std::vector<StepDraft>& steps);
+
 /// Whether a step finishes walls and level floors of a surface by an end mill.
 [[nodiscard]] bool cuts_levels(const model::Model& m, const StepDraft& step);
 

@@ -82,6 +82,24 @@ double sharp_corner_of(const Piece& piece, const FeatureShape& s) {
                                                                                : model::unstated_corner_mm(s);
 }
 
+double corner_in_material(const Piece& piece, const FeatureShape& s) {
+  const double r = s.corner_radius_mm;
+  if (s.kind != ShapeKind::kPocket || !(r > 0.0)) return r;
+  const geometry::Box3 raw = geometry::transformed(piece.plan.stock.box, inverse(s.frame));
+  const geometry::Box2 b = geometry::bounds(s.area);
+  if (b.lo.x >= raw.lo.x && b.lo.y >= raw.lo.y && b.hi.x <= raw.hi.x && b.hi.y <= raw.hi.y) return r;
+  // What a wider mill leaves: the corners, and passages that are hardly wider.
+  constexpr double kWider = 1.5;     // times the radius
+  constexpr double kNothing = 0.01;  // of r^2: chords of arcs
+  const double wide = kWider * r, arc_mm = 0.002 * r;
+  const auto left = geometry::subtract(
+      s.area, geometry::offset(geometry::offset(s.area, -wide, arc_mm), wide + 2.0 * arc_mm, arc_mm));
+  const auto in_raw =
+      geometry::intersect(left, geometry::rectangle({raw.lo.x, raw.lo.y}, {raw.hi.x, raw.hi.y}));
+  if (geometry::area(in_raw) > kNothing * r * r) return r;
+  return std::max(r, 0.5 * std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y));
+}
+
 std::string drawn_square(const Piece& piece, const FeatureShape& s) {
   if (piece.plan.target_mesh) return {};
   return model::drawn_square(piece.plan.model, s, piece.shapes.whole, part_form(piece));

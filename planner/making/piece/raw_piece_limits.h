@@ -17,6 +17,9 @@ namespace capstan::piece {
 /// The radius that may stay in the inner corners of a step, an outside or a closed pocket that are drawn
 /// sharp and state none, mm; 0: there are none.
 [[nodiscard]] double sharp_corner_of(const Piece& piece, const model::FeatureShape& shape);
+/// The radius of a pocket's corners that limits its cutters, mm: the stated one where one of these corners
+/// lies in the raw piece; where all lie beside it, half the width of the pocket.
+[[nodiscard]] double corner_in_material(const Piece& piece, const model::FeatureShape& pocket);
 /// Inside corners that a mill leaves round, in words (model::drawn_square); empty: none, or the part is a
 /// mesh.
 [[nodiscard]] std::string drawn_square(const Piece& piece, const model::FeatureShape& shape);

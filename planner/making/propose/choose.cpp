@@ -100,8 +100,9 @@ constexpr double kDecisive = 2.0;
 /// unsourced.
 constexpr double kWorthwhileS = 60.0;
 
-/// Whether the estimates of a shape's chains are good enough to choose by. Those of bores milled along a
-/// helix are off by up to 12 times, those of surfaces by 25.
+/// Whether the estimates of a shape's chains are good enough to choose by. Those of holes are of single steps
+/// (0.7 to 1.7 times as long, tests/door/pipeline/tools/estimate_test.cpp), those of surfaces off by up to 25
+/// times.
 bool judged_by_time(const FeatureShape& s) {
   return s.kind == model::ShapeKind::kPocket || s.kind == model::ShapeKind::kSlot;
 }
@@ -120,6 +121,7 @@ struct Equipped {
   Chosen chosen;
   std::string why_not;
   double seconds = 0.0;  ///< cutting, and changing to what is not in use, about
+  [[nodiscard]] std::size_t further() const { return chosen.further.size(); }
 };
 
 /// Finds cutters for all steps of a chain. `able`: also that drills, reamers and taps can be turned.
@@ -140,6 +142,7 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
     const model::ProposedStep step = as_opened(chain, i, tools);
     tooling::Preferences wanted = step::preferences_of(choice.piece, choice.batch, step, shape);
     wanted.used = used;
+    if (choice.thrift != Thrift::kNone) wanted.most = choice.usable.size();
     if (i > 0) take_what_is_left(chain[i - 1], step, wanted);
     auto s = tooling::select(step.tool, choice.usable, plan.material, plan.machine, wanted);
     const casebase::OfStep of{step.operation, member.feature, coolant_of(plan.machine, step)};
@@ -153,6 +156,12 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
       return out;
     }
     tell_apart(steps, tools, s);
+    if (choice.thrift != Thrift::kNone) {
+      const double most = s.ranked.front().estimated_s + kMostForFewerS;
+      std::stable_partition(s.ranked.begin(), s.ranked.end(), [&](const model::Candidate& c) {
+        return c.estimated_s <= most && std::find(used.begin(), used.end(), c.cutter.id) != used.end();
+      });
+    }
     out.why_not = keep_untried(choice.bans, member, out.chosen.key, i, s);
     if (out.why_not.empty() && able) out.why_not = keep_able(choice, step, s, job);
     if (!out.why_not.empty()) return out;
@@ -160,6 +169,7 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
     if (std::find(used.begin(), used.end(), id) == used.end()) {
       out.seconds += plan.machine.tool_change_s + plan.machine.spindle.spin_up_s;
       used.push_back(id);
+      out.chosen.further.push_back(id);
     }
     out.seconds += s.ranked.front().estimated_s;
     tools.push_back(std::move(s));
@@ -181,8 +191,8 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
   std::vector<Equipped> fit;           // chains that have all their cutters, in the rules' order
   std::vector<model::Rejected> after;  // the others that come after the first of those
   for (const auto& chain : p.chains) {
-    Equipped e =
-        equip(choice, chain, shape, member, steps, in_use, fit.empty() || judged_by_time(shape), job);
+    Equipped e = equip(choice, chain, shape, member, steps, in_use,
+                       fit.empty() || judged_by_time(shape) || choice.thrift == Thrift::kChains, job);
     if (e.why_not.empty())
       fit.push_back(std::move(e));
     else
@@ -196,16 +206,23 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
   });
   const Equipped& first = fit.front();
   const bool decisive = judged_by_time(shape) && decisively_quicker(quickest->seconds, first.seconds);
-  const auto taken = decisive ? quickest : fit.begin();
+  const auto taken =
+      choice.thrift == Thrift::kChains
+          ? std::min_element(fit.begin(), fit.end(),
+                             [](const Equipped& a, const Equipped& b) { return a.further() < b.further(); })
+      : decisive ? quickest
+                 : fit.begin();
+  const bool fewer = taken->further() < first.further() && choice.thrift == Thrift::kChains;
   for (auto e = fit.begin(); e != fit.end(); ++e) {
     if (e == taken) continue;
     const bool slower = decisive && e->seconds > taken->seconds;
     rejected.push_back({chain_text(*e->chosen.chain, shape),
                         about(*e) + " of cutting and tool changes, the chain taken " + about(*taken) +
-                            (e == fit.begin() ? "; the rules prefer it, but that is decisively longer"
-                             : slower         ? ""
-                                              : "; the rules prefer the chain taken, and these estimates are "
-                                                "not sure enough to take another")});
+                            (fewer ? "; the chain taken needs fewer tools, and the magazine is full"
+                             : e == fit.begin() ? "; the rules prefer it, but that is decisively longer"
+                             : slower           ? ""
+                                      : "; the rules prefer the chain taken, and these estimates are "
+                                        "not sure enough to take another")});
   }
   rejected.insert(rejected.end(), after.begin(), after.end());
   taken->chosen.seconds = taken->seconds;

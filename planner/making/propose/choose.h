@@ -19,6 +19,17 @@ class CaseBase;
 
 namespace capstan::propose {
 
+/// How few tools a plan is made with, where the magazine does not hold those that it would be made with best.
+enum class Thrift {
+  kNone,    ///< by time: a tool change is what it costs
+  kShared,  ///< a tool that the plan uses already does whatever it can
+  kChains,  ///< also of the chains the one that needs the fewest further tools
+};
+
+/// What a step may take longer, s, so that a plan has one tool less where the magazine is full; what rules
+/// take off for a class that they like less included. Default, unsourced.
+inline constexpr double kMostForFewerS = 1200.0;
+
 /// Criteria for chains and their cutters.
 struct Choice {
   const piece::Piece& piece;
@@ -28,6 +39,7 @@ struct Choice {
   double margin_deviations = 0.0;             ///< of loads against their limits
   int batch = 1;                              ///< pieces
   const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
+  Thrift thrift = Thrift::kNone;
 };
 
 struct Chosen {
@@ -35,6 +47,7 @@ struct Chosen {
   std::string key;                                          ///< draft::key_of
   std::vector<model::Selection> tools;                      ///< one per step
   double seconds = 0.0;                                     ///< cutting and tool changes, estimated
+  std::vector<std::string> further;                         ///< cutters of it that were not in use
 };
 
 /// Whether one estimate is so much shorter than another that it is surely less, and worth a choice.

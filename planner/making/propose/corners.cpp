@@ -125,4 +125,21 @@ InCorners choose_in_corners(const Choice& choice, const rules::RuleBase& rules, 
   return out;
 }
 
+std::string full_magazine(const Choice& choice, const rules::RuleBase& rules, const rules::Context& context,
+                          const model::Proposal& p, const FeatureShape& shape, const draft::Member& member,
+                          const std::vector<std::string>& used) {
+  const int pockets = choice.piece.plan.machine.magazine_pockets;
+  if (pockets < 2 || used.empty()) return {};
+  Job unsaid;
+  const Chosen alone = choose_in_corners(choice, rules, context, p, shape, member, {}, {}, unsaid).chosen;
+  if (alone.chain == nullptr) return {};
+  std::string further;
+  for (const std::string& id : alone.further) {
+    if (std::find(used.begin(), used.end(), id) == used.end()) further += (further.empty() ? "" : ", ") + id;
+  }
+  return "the magazine has " + std::to_string(pockets) + " pockets, and the tools of other features take " +
+         std::to_string(used.size()) + " of them; it also needs " + further +
+         ": make it in another run, or on a machine with more pockets";
+}
+
 }  // namespace capstan::propose

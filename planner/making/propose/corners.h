@@ -29,4 +29,11 @@ struct InCorners {
                                           const std::vector<draft::StepDraft>& steps,
                                           const std::vector<std::string>& used, Job& job);
 
+/// Why a shape finds no cutters that would with an empty magazine, and which these are; empty if it would not
+/// either. `used`: by the steps of other shapes.
+[[nodiscard]] std::string full_magazine(const Choice& choice, const rules::RuleBase& rules,
+                                        const rules::Context& context, const model::Proposal& p,
+                                        const model::FeatureShape& shape, const draft::Member& member,
+                                        const std::vector<std::string>& used);
+
 }  // namespace capstan::propose

@@ -155,7 +155,9 @@ class Proposer {
           context.surface_passage_mm = piece::passage_between(*plan_.target_mesh, form, plan_.stock.box);
       }
     }
-    const auto proposals = rules::propose_members(sources_.rules, shapes, context);
+    std::vector<FeatureShape> in_material = shapes;
+    for (FeatureShape& s : in_material) s.corner_radius_mm = piece::corner_in_material(choice_.piece, s);
+    const auto proposals = rules::propose_members(sources_.rules, in_material, context);
     const auto order = rules::member_order(shapes);
     const auto within = rules::made_within(shapes);
     std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
@@ -388,6 +390,13 @@ class Proposer {
       }
     }
     if (chosen.chain == nullptr) {
+      if (const std::string full =
+              full_magazine(choice_, sources_.rules, context, p, s, member, out_.drafts.used);
+          !full.empty()) {
+        out_.full = true;
+        fail_member(f, given, full);
+        return {};
+      }
       const bool tried = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
         return choice_.bans.chain_banned(member, draft::key_of(chain)) != nullptr;
       });
@@ -454,7 +463,8 @@ class Proposer {
     for (const auto& chain : p.chains) longest = std::max(longest, chain.size());
     const int pockets = plan_.machine.magazine_pockets;
     if (pockets < 1 || before + longest <= static_cast<std::size_t>(pockets)) return false;
-    out_.drafts.used = share_tools(plan_, out_.drafts.steps, magazine_known(choice_.usable), choice_.batch);
+    out_.drafts.used = share_tools(plan_, out_.drafts.steps,
+                                   {magazine_known(choice_.usable), choice_.batch, choice_.thrift});
     return out_.drafts.used.size() < before;
   }
 

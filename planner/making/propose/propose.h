@@ -37,6 +37,7 @@ struct Proposed {
   Drafts drafts;
   std::vector<std::pair<model::AnyRef, std::string>> left_out;  ///< features that cannot be made, with why
   bool again = false;  ///< a feature was left out that other proposals assumed as made: plan again
+  bool full = false;   ///< a feature found no cutter because the magazine was full
 };
 [[nodiscard]] Proposed propose_missing(model::Plan& plan, Drafts given, const Sources& sources, Job& job);
 

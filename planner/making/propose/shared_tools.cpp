@@ -36,8 +36,8 @@ const Candidate* own(const StepDraft& s) {
 
 class Sharer {
  public:
-  Sharer(model::Plan& plan, std::vector<StepDraft>& steps, bool magazine_known, int batch)
-      : plan_(plan), steps_(steps), magazine_known_(magazine_known), batch_(batch) {}
+  Sharer(model::Plan& plan, std::vector<StepDraft>& steps, const Sharing& how)
+      : plan_(plan), steps_(steps), how_(how) {}
 
   std::vector<std::string> run() {
     std::set<std::string> stay;
@@ -52,14 +52,12 @@ class Sharer {
         stay.insert(id);
       }
     }
-    for (const auto& [id, steps] : by_use()) take_smallest_point(steps);
-    // Cutters that were replaced are no longer in use.
-    std::vector<std::string> used;
-    for (const StepDraft& s : steps_) {
-      if (!s.cutter.id.empty()) tooling::use(used, s.cutter.id);
-      if (s.probing && s.probing->probe) tooling::use(used, s.probing->probe->cutter.id);
+    if (how_.back) {
+      while (give_back()) {
+      }
     }
-    return used;
+    for (const auto& [id, steps] : by_use()) take_smallest_point(steps);
+    return draft::cutters_of(steps_);
   }
 
  private:
@@ -77,8 +75,10 @@ class Sharer {
     return out;
   }
 
+  [[nodiscard]] bool thrifty() const { return how_.thrift != Thrift::kNone; }
+
   /// The best of the tools that the rest of the plan uses; of the same class, so that what the rules prefer
-  /// stays.
+  /// stays, but for thrift.
   [[nodiscard]] std::optional<Instead> instead(std::size_t i, const std::set<std::string>& others) const {
     const StepDraft& s = steps_[i];
     const Candidate* mine = own(s);
@@ -86,11 +86,13 @@ class Sharer {
     std::optional<Instead> best;
     for (std::size_t k = 0; k < s.candidates.size(); ++k) {
       const Candidate& c = s.candidates[k];
-      if (!others.contains(c.cutter.id) || c.cutter.cutter_class != mine->cutter.cutter_class) continue;
+      if (!others.contains(c.cutter.id)) continue;
+      if (!thrifty() && c.cutter.cutter_class != mine->cutter.cutter_class) continue;
       // A tool that is set to a size is not the same at another size.
       if (c.cutter.adjustable_to_mm > 0.0) continue;
       const double loss =
           std::max(1, static_cast<int>(s.shapes.size())) * (c.estimated_s - mine->estimated_s);
+      if (thrifty() && loss > kMostForFewerS) continue;
       if (!best || loss < best->loss_s) best = Instead{i, k, loss};
     }
     return best;
@@ -112,8 +114,45 @@ class Sharer {
       taken.push_back(*other);
     }
     const double saved = saved_s(steps_[steps.front()].cutter);
-    if (loss >= saved) return false;
+    if (loss >= saved && !thrifty()) return false;
     for (const Instead& t : taken) swap(t, id, loss, saved);
+    return true;
+  }
+
+  /// Thrift may leave pockets free: one more tool where it gains most. Whether one was taken.
+  bool give_back() {
+    const auto pockets = static_cast<std::size_t>(std::max(0, plan_.machine.magazine_pockets));
+    const std::vector<std::string> used = draft::cutters_of(steps_);
+    if (!thrifty() || used.size() >= pockets) return false;
+    std::map<std::string, std::vector<Instead>> gains;  // by the further tool; losses below zero
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      const StepDraft& s = steps_[i];
+      const Candidate* mine = own(s);
+      if (mine == nullptr || !(s.proposed || s.open_tool)) continue;
+      for (std::size_t k = 0; k < s.candidates.size(); ++k) {
+        const Candidate& c = s.candidates[k];
+        if (c.cutter.adjustable_to_mm > 0.0 || std::count(used.begin(), used.end(), c.cutter.id) > 0)
+          continue;
+        const double loss =
+            std::max(1, static_cast<int>(s.shapes.size())) * (c.estimated_s - mine->estimated_s);
+        if (loss < 0.0) gains[c.cutter.id].push_back({i, k, loss});
+      }
+    }
+    const std::vector<Instead>* most = nullptr;
+    double of_most = 0.0;
+    for (const auto& [id, all] : gains) {
+      double sum = saved_s(steps_[all.front().step].candidates[all.front().candidate].cutter);
+      for (const Instead& t : all) sum += t.loss_s;
+      if (sum < of_most) of_most = sum, most = &all;
+    }
+    if (most == nullptr) return false;
+    for (const Instead& t : *most) {
+      const std::string was = steps_[t.step].cutter.id;
+      take(t.step, t.candidate, was, "tooling.free_pocket",
+           "gives way to " + steps_[t.step].candidates[t.candidate].cutter.id +
+               ", for which the magazine has a pocket left: that saves about " + trimmed(-t.loss_s, 1) +
+               " s");
+    }
     return true;
   }
 
@@ -150,7 +189,8 @@ class Sharer {
 
   [[nodiscard]] double saved_s(const model::Cutter& c) const {
     const model::Machine& m = plan_.machine;
-    const double loading = magazine_known_ && !c.loaded ? tooling::kLoadingS / std::max(1, batch_) : 0.0;
+    const double loading =
+        how_.magazine_known && !c.loaded ? tooling::kLoadingS / std::max(1, how_.batch) : 0.0;
     return m.tool_change_s + m.spindle.spin_up_s + loading;
   }
 
@@ -180,8 +220,7 @@ class Sharer {
 
   model::Plan& plan_;
   std::vector<StepDraft>& steps_;
-  bool magazine_known_ = false;
-  int batch_ = 1;
+  const Sharing& how_;
 };
 
 }  // namespace
@@ -190,9 +229,8 @@ bool magazine_known(const std::vector<model::Cutter>& cutters) {
   return std::any_of(cutters.begin(), cutters.end(), [](const model::Cutter& c) { return c.loaded; });
 }
 
-std::vector<std::string> share_tools(model::Plan& plan, std::vector<StepDraft>& steps, bool magazine_known,
-                                     int batch) {
-  return Sharer(plan, steps, magazine_known, batch).run();
+std::vector<std::string> share_tools(model::Plan& plan, std::vector<StepDraft>& steps, const Sharing& how) {
+  return Sharer(plan, steps, how).run();
 }
 
 }  // namespace capstan::propose

@@ -120,6 +120,8 @@ TEST(Advice, ThousandCopiesOfOneCaseCountAsOne) {
   const Advice of_one = advise({copies.front()}, kTable);
   const Advice of_all = advise(copies, kTable);
   EXPECT_EQ(of_all.bad, 1);
+  ASSERT_EQ(of_all.cases.size(), 1U);  // and are named once
+  EXPECT_EQ(words_of(of_all.cases, 3, of_all.cuts()).find("more"), std::string::npos);
   EXPECT_NEAR(of_all.start.vc_m_min, of_one.start.vc_m_min, 1e-9);
   // Nor do they outvote others: of one run, without observations.
   std::vector<Evidence> fast = cuts(1000, Verdict::kGood, 1.2);
@@ -127,6 +129,12 @@ TEST(Advice, ThousandCopiesOfOneCaseCountAsOne) {
   const Advice mixed = advise(cuts(5, Verdict::kGood, 0.9) + fast, kTable);
   EXPECT_EQ(mixed.good, 6);
   EXPECT_NEAR(mixed.start.vc_m_min, 0.9 * kTable.vc_m_min, 1e-9);
+}
+
+TEST(Advice, NamesSomeCutsAndCountsTheOthers) {
+  const Advice of_all = advise(cuts(20, Verdict::kBad), kTable);
+  EXPECT_EQ(of_all.cases.size(), kLeanedShown);
+  EXPECT_NE(words_of(of_all.cases, 3, of_all.cuts()).find(" and 17 more"), std::string::npos);
 }
 
 TEST(Advice, TenTimesTheFeedThatWentWellIsNotBelieved) {

@@ -127,6 +127,18 @@ TEST(CaseStore, RefusesATriggerThatCameAfterOpening) {
   EXPECT_EQ(base.size(), 1u);
 }
 
+TEST(CaseStore, NamesAFileThatIsCutShort) {
+  const Folder folder;
+  fill(folder.file(), {sample(10.0), sample(20.0)});
+  std::filesystem::resize_file(folder.file(), 50);
+  Job job;
+  const auto base = CaseBase::open(folder.file(), job);
+  ASSERT_FALSE(base.has_value());
+  EXPECT_EQ(base.error().code, "CASE-DAMAGED");
+  EXPECT_THAT(base.error().message, HasSubstr("damaged or cut short"));
+  EXPECT_THAT(base.error().hint, HasSubstr("from a copy"));
+}
+
 TEST(CaseStore, LeavesOutAndNamesARowWhoseHeadWasAltered) {
   for (const std::string change : {"substr(head, 1, 40) || x'ff' || substr(head, 42)", "x''", "head || x'00'",
                                    "'text' || ''", "(SELECT head FROM capstan_head WHERE number = 2)"}) {

@@ -45,4 +45,14 @@ void fit_to_cutter(model::Model& m, std::vector<StepDraft>& steps, StepDraft& st
   }
 }
 
+bool goes_on_below(const model::FeatureShape& s, const model::FeatureShape& other) {
+  constexpr double kSame = 1e-4;  // mm
+  if (other.kind != model::ShapeKind::kHole) return false;
+  const auto rel = compose(inverse(s.frame), other.frame);
+  const bool coaxial = std::hypot(rel.origin.x, rel.origin.y) < kSame && rel.z.z > 1.0 - kSame;
+  const bool goes_on =
+      rel.origin.z > -s.depth_mm - kSame && rel.origin.z - other.depth_mm < -s.depth_mm - kSame;
+  return coaxial && goes_on && other.diameter.nominal_mm < s.diameter.nominal_mm - kSame;
+}
+
 }  // namespace capstan::step

@@ -27,4 +27,7 @@ namespace capstan::step {
 /// chain finds, are those of that cutter, in drafts and nouns. `step` is one of `steps`.
 void fit_to_cutter(model::Model& m, std::vector<draft::StepDraft>& steps, draft::StepDraft& step);
 
+/// Whether another hole, on the same axis and narrower, goes on below this one's bottom.
+[[nodiscard]] bool goes_on_below(const model::FeatureShape& hole, const model::FeatureShape& other);
+
 }  // namespace capstan::step

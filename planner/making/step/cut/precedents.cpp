@@ -130,7 +130,7 @@ model::Reason reason_of(const FromCases& from) {
             trimmed(100.0 * a.success, 0) + " %" + " likely to go well" +
             (a.at_bottom ? ", the least that is tried" : "");
   }
-  text += "; " + a.why + ": " + casebase::words_of(a.cases, kNamed);
+  text += "; " + a.why + ": " + casebase::words_of(a.cases, kNamed, a.cuts());
   const std::string first = a.cases.empty() ? "none" : a.cases.front().id;
   return {"case." + first, std::move(text), "case base"};
 }
@@ -164,7 +164,7 @@ Experience experience_with(const casebase::CaseBase& cases, const model::Plan& p
                             ? candidate.vc_m_min * candidate.fz_mm / (start.vc_m_min * start.fz_mm)
                             : 1.0;
   out.time_factor = std::max(1.0, slower) * casebase::kTrustInTable / advice.success;
-  out.words = advice.why + ": " + casebase::words_of(advice.cases, 3);
+  out.words = advice.why + ": " + casebase::words_of(advice.cases, 3, advice.cuts());
   return out;
 }
 

@@ -31,6 +31,20 @@ void take_cutter(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& st
                    {{step.step, "its_operation"}}, step.rejected_tools);
 }
 
+void keep_in_magazine(const model::Machine& machine, const std::vector<StepDraft>& steps, StepDraft& step) {
+  const auto pockets = static_cast<std::size_t>(std::max(0, machine.magazine_pockets));
+  if (pockets < 2 || step.candidates.size() < 2) return;
+  const std::string own = std::exchange(step.cutter.id, {});
+  const std::vector<std::string> others = draft::cutters_of(steps);
+  step.cutter.id = own;
+  if (others.size() < pockets) return;
+  const auto dropped = step.candidates.drop_if([&](const model::Candidate& c) {
+    return c.cutter.id != own && std::find(others.begin(), others.end(), c.cutter.id) == others.end();
+  });
+  for (const auto& c : dropped)
+    step.rejected_tools.push_back({c->cutter.id, "the other steps' tools fill the magazine"});
+}
+
 namespace {
 
 constexpr std::size_t kCompared = 5;
@@ -114,7 +128,7 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
     times.emplace_back(t, i);
     if (i == 0 && cases && cases->advice.lowered)
       failed = {trial.cutter.id, std::string(kFirstFailed) + cases->advice.why + ": " +
-                                     casebase::words_of(cases->advice.cases, 3)};
+                                     casebase::words_of(cases->advice.cases, 3, cases->advice.cuts())};
   }
   in_order(plan, steps, step, std::move(times));
   if (failed && step.cutter.id != failed->what) step.rejected_tools.push_back(*std::move(failed));

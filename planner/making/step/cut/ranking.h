@@ -28,6 +28,11 @@ void rank_by_path(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft
                   const std::vector<std::string>& used,
                   const std::function<std::optional<double>(std::size_t)>& seconds);
 
+/// Drops the cutters of a step for which the magazine has no pocket beside the tools of the other steps. One
+/// pocket is the spindle itself, and tools are changed by hand.
+void keep_in_magazine(const model::Machine& machine, const std::vector<draft::StepDraft>& steps,
+                      draft::StepDraft& step);
+
 /// Moves a step to a cutter further down the list, because the first one failed: into nouns and ledger.
 void take_cutter(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft::StepDraft& step,
                  const model::Candidate& c);

@@ -204,13 +204,7 @@ double hole_below(const Model& m, const StepDraft& step, const model::FeatureSha
   const auto all = model::shapes_of(m, Ref<model::ManufacturingFeature>(step.feature));
   if (!all) return out;
   for (const model::FeatureShape& other : *all) {
-    if (other.kind != model::ShapeKind::kHole) continue;
-    const auto rel = compose(inverse(s.frame), other.frame);
-    const bool coaxial = std::hypot(rel.origin.x, rel.origin.y) < kSame && rel.z.z > 1.0 - kSame;
-    const bool goes_on =
-        rel.origin.z > -s.depth_mm - kSame && rel.origin.z - other.depth_mm < -s.depth_mm - kSame;
-    if (coaxial && goes_on && other.diameter.nominal_mm < s.diameter.nominal_mm - kSame)
-      out = std::max(out, other.diameter.nominal_mm);
+    if (goes_on_below(s, other)) out = std::max(out, other.diameter.nominal_mm);
   }
   return out;
 }

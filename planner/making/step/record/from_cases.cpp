@@ -82,9 +82,8 @@ std::string failed_text(const casebase::Advice& a) {
   std::vector<casebase::Leaned> failed;
   std::copy_if(a.cases.begin(), a.cases.end(), std::back_inserter(failed),
                [](const casebase::Leaned& c) { return c.verdict == casebase::Verdict::kBad; });
-  const int all = a.good + a.bad + a.unjudged;
-  return std::to_string(a.bad) + " of " + counted(static_cast<std::size_t>(all), "near cut", "near cuts") +
-         " failed (" + casebase::words_of(failed, 3) + ")";
+  return std::to_string(a.bad) + " of " + counted(a.cuts(), "near cut", "near cuts") + " failed (" +
+         casebase::words_of(failed, 3, static_cast<std::size_t>(a.bad)) + ")";
 }
 
 /// Chains and cutters that failed cuts put behind what the step has.
@@ -123,7 +122,8 @@ void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, co
     ++told.weighed;
     if (auto* d = decision_of(plan, step); d != nullptr)
       d->rejected.push_back({"started from cases", made.cases->advice.why + ", which changes nothing: " +
-                                                       casebase::words_of(made.cases->advice.cases, kNamed)});
+                                                       casebase::words_of(made.cases->advice.cases, kNamed,
+                                                                          made.cases->advice.cuts())});
   } else {
     ++told.none;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/executable.h"
@@ -130,10 +131,15 @@ std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>
     for (const ExceededLimit& l : plan.steps[i].exceeded)
       reasons.add_at(i + 1, "PIP-EXCESS", text_of(l) + "; use a smaller tool or depth");
   }
+  const auto name_of = [&](AnyRef f) {
+    const auto* feature = plan.model.get<ManufacturingFeature>(f);
+    return feature == nullptr ? std::string() : feature->its_id.value_or("");
+  };
+  std::set<std::string> unplanned;
+  for (const Unplanned& u : plan.unplanned) unplanned.insert(name_of(u.feature));
   for (const Unplanned& u : plan.unplanned) {
     if (u.needed_by.empty()) continue;
-    const auto* feature = plan.model.get<ManufacturingFeature>(u.feature);
-    const std::string name = feature == nullptr ? "" : feature->its_id.value_or("");
+    const std::string name = name_of(u.feature);
     const std::string text = "feature '" + name + "' is not planned, and this rests on it: " + u.reason;
     bool found = false;
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
@@ -143,8 +149,11 @@ std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>
       found = true;
     }
     if (!found) {
-      std::string names;
-      for (const std::string& n : u.needed_by) names += (names.empty() ? "'" : ", '") + n + "'";
+      std::string names;  // of those that are not left out with it
+      for (const std::string& n : u.needed_by) {
+        if (!unplanned.contains(n)) names += (names.empty() ? "'" : ", '") + n + "'";
+      }
+      if (names.empty()) continue;
       reasons.add_at(0, "PIP-NEEDED",
                      "feature '" + name + "' is not planned, and " + names + " rests on it: " + u.reason);
     }

@@ -23,7 +23,8 @@ struct Condemnation {
 ///                                                     to that a step is not condemned; the check has its own
 ///                                                     bounds
 ///     a feature that is not planned, and needed       the steps of the features in Unplanned::needed_by,
-///                                                     or the whole plan when none of them has a step
+///                                                     or the whole plan when none of them has a step and
+///                                                     not all of them are left out with it
 ///
 /// Lists each reason once, in the order of the plan's steps, reasons of the whole plan first. Command,
 /// library and service call this, and nothing else, before they hand out a program.

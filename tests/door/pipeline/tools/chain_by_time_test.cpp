@@ -103,5 +103,26 @@ TEST(ChainByTime, KeepsTheRulesOrderWhereAnotherChainSavesLittle) {
   EXPECT_THAT(lost_chains(p.plan), HasSubstr("the rules prefer the chain taken"));
 }
 
+/// Time of a floor around a boss of 20 mm, in an outline that is drawn wider than the piece by `beyond_mm`.
+double seconds_of_floor(double beyond_mm, double corner_mm) {
+  const std::string boss =
+      "#90=TOLERANCED_LENGTH_MEASURE(20.,$);\n#91=CIRCULAR_CLOSED_PROFILE($,#90);\n"
+      "#92=BOSS('B',#4,(),#50,#56,#91,$);\n";
+  const double size = 100.0 + 2.0 * beyond_mm;
+  const auto p = planned(boss + pocket(rectangle(size, size), "#92", corner_mm));
+  EXPECT_THAT(p.plan.unplanned, testing::IsEmpty()) << p.said;
+  double out = 0.0;
+  for (const auto& s : p.plan.steps) out += s.cutting_s;
+  return out;
+}
+
+TEST(ChainByTime, IsNotAskedForCornersThatLieInTheAir) {
+  const double wide = seconds_of_floor(20.0, 20.0);
+  EXPECT_GT(wide, 0.0);
+  EXPECT_LE(seconds_of_floor(20.0, 6.0), wide);
+  // Corners of 6 mm just within the piece's edge keep their mill.
+  EXPECT_GT(seconds_of_floor(-1.0, 6.0), 1.1 * wide);
+}
+
 }  // namespace
 }  // namespace capstan::pipeline

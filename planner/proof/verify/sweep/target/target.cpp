@@ -132,23 +132,32 @@ void Target::add(const Form& s, bool bevel) {
 }
 
 // A finishing step with a cone along the side of a feature that is no chamfer breaks its upper edge, as deep
-// as the operation says, but no deeper than what still counts as broken.
+// as the operation says, but no deeper than what still counts as broken. So does a spot that goes deeper than
+// the hole is wide there: as deep as its cone stands over the hole's edge.
 void Target::add_broken_edges() {
   for (const model::StepResult& step : plan_.steps) {
     const auto* ws = plan_.model.get<model::MachiningWorkingstep>(step.step);
     const model::Cutter* c = model::find_cutter(plan_, step.cutter_id);
     if (ws == nullptr || c == nullptr || !(c->point_angle_rad > 0.0)) continue;
-    const bool cone = breaks_edges(c->cutter_class);
-    const auto* op = plan_.model.get<model::SideFinishMilling>(ws->its_operation);
-    if (!cone || op == nullptr) continue;
-    const double depth = op->axial_cutting_depth.value_or(0.0);
+    const double slope = std::tan(0.5 * c->point_angle_rad);
+    const auto* along = plan_.model.get<model::SideFinishMilling>(ws->its_operation);
+    const auto* spots = plan_.model.get<model::CenterDrilling>(ws->its_operation);
+    const bool mills = along != nullptr && breaks_edges(c->cutter_class);
+    const bool bores = spots != nullptr && c->cutter_class == model::CutterClass::kSpotDrill;
     const PartShapes::Entry* e = part_.find(ws->its_feature);
-    if (e == nullptr || !(depth > 0.0 && depth <= kMostEdgeBreakMm)) continue;
+    if (e == nullptr || !(mills || bores)) continue;
+    double widest = 0.0;  // bore: the edge on the top of a compound is its
+    for (const Form& s : e->shapes)
+      widest = std::max(widest, s.bore() == nullptr ? 0.0 : s.bore()->top_radius_mm);
     for (const Form& s : e->shapes) {
+      if (bores && (s.bore() == nullptr || s.bore()->top_radius_mm < widest)) continue;
       if (s.kind != ShapeKind::kPocket && s.kind != ShapeKind::kHole && s.kind != ShapeKind::kOutside)
         continue;
-      const double width = depth * std::tan(0.5 * c->point_angle_rad);
-      for (Form& edge : volumes::broken_edges(s, depth, width))
+      const double depth =
+          mills ? along->axial_cutting_depth.value_or(0.0)
+                : spots->cutting_depth.value_or(0.0) - (widest - 0.5 * c->tip_diameter_mm) / slope;
+      if (!(depth > 0.0 && depth <= kMostEdgeBreakMm)) continue;
+      for (Form& edge : volumes::broken_edges(s, depth, depth * slope))
         add(bevels_.emplace_back(std::move(edge)), true);
     }
   }
