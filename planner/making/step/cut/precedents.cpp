@@ -36,13 +36,38 @@ Values at_table_terms(Values cut, const optimise::CutQuestion& q) {
   return cut;
 }
 
-std::vector<Evidence> evidence_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& shape,
-                                  const optimise::CutQuestion& q) {
-  const auto asked = casebase::question_of(step.operation.type, p.plan.material, step.cutter, p.plan.machine,
-                                           casebase::sizes_of(shape));
-  auto near = casebase::evidence_near(*p.wishes.cases, asked);
-  for (Evidence& e : near) e.cut = at_table_terms(e.cut, q);
-  return near;
+/// The near cases, and each as evidence at the table's terms.
+struct Near {
+  casebase::Question question;
+  std::vector<casebase::Neighbour> cases;
+  std::vector<Evidence> told;
+};
+
+Near near_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& shape,
+             const optimise::CutQuestion& q) {
+  Near out;
+  out.question = casebase::question_of(step.operation.type, p.plan.material, step.cutter, p.plan.machine,
+                                       casebase::sizes_of(shape));
+  out.cases = casebase::cases_near(*p.wishes.cases, out.question);
+  out.told = casebase::evidence_of(out.cases, out.question);
+  for (Evidence& e : out.told) e.cut = at_table_terms(e.cut, q);
+  return out;
+}
+
+/// Starts from tuned values where there are some that are faster and likely enough to go well.
+void take_proven(FromCases& out, const Near& near, const Values& table) {
+  Advice& a = out.advice;
+  if (!a.leads || a.lowered) return;
+  const auto tuned = casebase::tune::proven_start(near.cases, near.told, near.question, table, a.start);
+  if (!tuned) return;
+  Values start = a.start;
+  start.vc_m_min = tuned->vc_m_min;
+  start.fz_mm = tuned->fz_mm;
+  const double success = casebase::success_of(near.told, start);
+  if (success < casebase::kLeastSuccess) return;
+  a.start = start;
+  a.success = success;
+  out.proven = tuned;
 }
 
 }  // namespace
@@ -55,7 +80,9 @@ std::optional<FromCases> start_from_cases(const PlanSoFar& p, const StepDraft& s
   out.table_fz_mm = q.fz_start_mm;
   out.table_ap_most_mm = q.ap_most_mm;
   const Values table{q.vc_start_m_min, q.fz_start_mm, q.ap_mm.value_or(0.0), q.ae_mm.value_or(0.0)};
-  out.advice = casebase::advise(evidence_of(p, step, shape, q), table);
+  const Near near = near_of(p, step, shape, q);
+  out.advice = casebase::advise(near.told, table);
+  take_proven(out, near, table);
   if (!out.bind()) return out;
   Values& start = out.advice.start;
   if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)
@@ -85,7 +112,7 @@ std::optional<Advice> judged_by_cases(const PlanSoFar& p, const StepDraft& step,
   if (!(d > 0.0) || !(a.n_rpm > 0.0)) return std::nullopt;
   const Values cut{std::numbers::pi * d * a.n_rpm / 1000.0, a.feed_mm_min / (a.n_rpm * teeth), a.ap_mm,
                    a.ae_mm};
-  Advice out = casebase::advise(evidence_of(p, step, shape, q), at_table_terms(cut, q));
+  Advice out = casebase::advise(near_of(p, step, shape, q).told, at_table_terms(cut, q));
   if (!out.any()) return std::nullopt;
   return out;
 }
@@ -93,7 +120,15 @@ std::optional<Advice> judged_by_cases(const PlanSoFar& p, const StepDraft& step,
 model::Reason reason_of(const FromCases& from) {
   const casebase::Advice& a = from.advice;
   std::string text;
-  if (a.leads) {
+  if (from.proven) {
+    const casebase::tune::ProvenStart& t = *from.proven;
+    text = "starts from tuned values, proven by " + counted(t.repeats.good, "good part", "good parts") +
+           " on " + counted(t.repeats.edges, "edge", "edges") + ": " +
+           words_of({t.vc_m_min, t.fz_mm, 0.0, 0.0}) + ", " + trimmed(100.0 * t.probability, 1) +
+           " % of parts expected beyond a limit; the middle of the cuts "
+           "that went well is " +
+           words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
+  } else if (a.leads) {
     text = "starts from the middle of " + std::string(to_text(a.origin)) +
            " cuts that went well: " + words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
     if (a.held_back)

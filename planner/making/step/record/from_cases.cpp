@@ -79,6 +79,7 @@ void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, co
   if (p.wishes.cases == nullptr || step.shapes.empty() || plan.steps.empty()) return;
   if (made.cases && made.cases->bind()) {
     ++told.leaning;
+    told.proven += made.cases->proven ? 1 : 0;
     tell_without(plan, step, made, cuts, told);
   } else if (made.cases && made.cases->advice.any()) {
     ++told.weighed;
@@ -121,6 +122,7 @@ void tell_all_cases(const CasesTold& told, Job& job) {
   std::string text = std::to_string(told.leaning) + " of " +
                      counted(static_cast<std::size_t>(all), "step starts", "steps start") +
                      " from near cases";
+  if (told.proven > 0) text += ", " + std::to_string(told.proven) + " of them from tuned values";
   if (told.lowered > 0) text += ", " + std::to_string(told.lowered) + " of them below failed ones";
   if (told.with_s > 0.0)
     text += ": about " + motion::duration_text(told.with_s) + " of cutting, by the table without cases " +
