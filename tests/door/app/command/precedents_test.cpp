@@ -88,11 +88,20 @@ class Precedents : public CommandTest {
   }
   /// Five good parts as planned on one edge, then one a tenth faster on each of these.
   std::vector<Case> usual_and_faster(const std::vector<std::string>& edges) {
-    auto out = cut(5, Verdict::kGood, [](Case& c) { c.from.tool_instance = "E1"; });
+    // A size that nobody measured might be wrong in more of them than tuning allows; each is measured as
+    // another.
+    const auto measure = [this](Case& c) {
+      c.observed.size_deviation_mm = casebase::Figure{(0.02 + 0.001 * parts_) * c.asked.tolerance_mm};
+    };
+    auto out = cut(5, Verdict::kGood, [&](Case& c) {
+      c.from.tool_instance = "E1";
+      measure(c);
+    });
     for (const std::string& edge : edges) {
       const auto one = cut(1, Verdict::kGood, [&](Case& c) {
         c.from.tool_instance = edge;
         c.bound.vc_m_min *= kFaster;
+        measure(c);
       });
       out.insert(out.end(), one.begin(), one.end());
     }
@@ -180,6 +189,14 @@ TEST_F(Precedents, TunedValuesThatRepeatsOnTwoEdgesHaveProvenAreTaken) {
   EXPECT_THAT(last_.err, HasSubstr("of them from tuned values"));
   EXPECT_THAT(explained(), HasSubstr("starts from tuned values, proven by 4 good parts on 2 edges"));
   EXPECT_THAT(explained(), HasSubstr("the table without cases"));
+}
+
+TEST_F(Precedents, TunedValuesWhoseSizesNobodyMeasuredAreNotTaken) {
+  auto cases = usual_and_faster({"E1", "E1", "E2", "E2"});
+  for (Case& c : cases) c.observed.size_deviation_mm.reset();
+  add("shop.db", cases);
+  EXPECT_EQ(program("shop.db"), plain());
+  EXPECT_THAT(explained(), Not(HasSubstr("tuned values")));
 }
 
 TEST_F(Precedents, TunedValuesOfOneEdgeAreNotTaken) {
