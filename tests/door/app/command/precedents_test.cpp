@@ -91,6 +91,34 @@ class Precedents : public CommandTest {
     EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
     return slurp(folder_ / "out.ngc");
   }
+  /// What `explain` says of all steps of the plan made last.
+  std::string explained() {
+    std::string out;
+    for (const Case& c : planned_) out += run("explain out.json '" + c.from.workingstep + "'").out;
+    return out;
+  }
+  /// Five good parts as planned on one edge, then one a tenth faster on each of these.
+  std::vector<Case> usual_and_faster(const std::vector<std::string>& edges) {
+    // A size that nobody measured might be wrong in more of them than tuning allows; each is measured as
+    // another.
+    const auto measure = [this](Case& c) {
+      c.observed.size_deviation_mm = casebase::Figure{(0.02 + 0.001 * parts_) * c.asked.tolerance_mm};
+    };
+    auto out = cut(5, Verdict::kGood, [&](Case& c) {
+      c.from.tool_instance = "E1";
+      measure(c);
+    });
+    for (const std::string& edge : edges) {
+      const auto one = cut(1, Verdict::kGood, [&](Case& c) {
+        c.from.tool_instance = edge;
+        c.bound.vc_m_min *= kFaster;
+        measure(c);
+      });
+      out.insert(out.end(), one.begin(), one.end());
+    }
+    return out;
+  }
+  static constexpr double kFaster = 1.1;
   std::string plain() { return slurp(folder_ / "plain.ngc"); }
 
   std::vector<Case> planned_;
@@ -102,9 +130,8 @@ TEST_F(Precedents, ACutAtTenTimesTheFeedThatWentWellChangesNoProgram) {
   add("poison.db", cut(1, Verdict::kGood, [](Case& c) { c.bound.fz_mm *= 10.0; }));
   EXPECT_EQ(program("poison.db"), plain());
   EXPECT_THAT(last_.err, HasSubstr("CASE-USED"));
-  std::string explained;
-  for (const Case& c : planned_) explained += run("explain out.json '" + c.from.workingstep + "'").out;
-  EXPECT_THAT(explained, HasSubstr("not believed"));
+  const std::string said = explained();
+  EXPECT_THAT(said, HasSubstr("not believed"));
 }
 
 TEST_F(Precedents, PoisonThatIsRepeatedStaysBelowTheBoundAndTheCheck) {
@@ -174,6 +201,7 @@ TEST_F(Precedents, ACaseOfAnotherMachineCountsNothing) {
   EXPECT_EQ(program("other.db"), plain());
   EXPECT_THAT(last_.err, HasSubstr("without a case within a distance of 0.5: there the table holds"));
   EXPECT_THAT(last_.err, Not(HasSubstr("CASE-BAD-NEAR")));
+  EXPECT_THAT(explained(), Not(HasSubstr("case base")));
 }
 
 TEST_F(Precedents, AThousandCopiesOfOneFailureAreOne) {
@@ -190,6 +218,7 @@ TEST_F(Precedents, AThousandCopiesOfOneFailureAreOne) {
   const std::string of_one = program("one.db");
   EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
   EXPECT_EQ(program("copies.db"), of_one);
+  EXPECT_THAT(explained(), HasSubstr("one cut is near (1 failed)"));
 }
 
 TEST_F(Precedents, TimesInTheFutureDecideNothing) {
@@ -198,7 +227,10 @@ TEST_F(Precedents, TimesInTheFutureDecideNothing) {
   add("now.db", cases);
   for (Case& c : cases) c.from.time_utc = "2199-06-28T17:32:31Z";
   add("skewed.db", cases);
-  EXPECT_EQ(program("skewed.db"), program("now.db"));
+  const std::string of_now = program("now.db");
+  EXPECT_THAT(explained(), HasSubstr("5 cuts are near (5 failed)"));
+  EXPECT_EQ(program("skewed.db"), of_now);
+  EXPECT_THAT(explained(), HasSubstr("5 cuts are near (5 failed)"));
 }
 
 TEST_F(Precedents, ThirteenFailuresLowerTheCutAndLaterGoodRepeatsLiftIt) {
@@ -207,11 +239,10 @@ TEST_F(Precedents, ThirteenFailuresLowerTheCutAndLaterGoodRepeatsLiftIt) {
   EXPECT_NE(lowered, plain());
   EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
   EXPECT_THAT(last_.err, HasSubstr("13 of 13 near cuts failed"));
-  std::string explained;
-  for (const Case& c : planned_) explained += run("explain out.json '" + c.from.workingstep + "'").out;
-  EXPECT_THAT(explained, HasSubstr("below cuts that failed"));
-  EXPECT_THAT(explained, HasSubstr("the table without cases"));
-  EXPECT_THAT(explained, HasSubstr("(measured, bad, 0 away)"));
+  const std::string said = explained();
+  EXPECT_THAT(said, HasSubstr("below cuts that failed"));
+  EXPECT_THAT(said, HasSubstr("the table without cases"));
+  EXPECT_THAT(said, HasSubstr("(measured, bad, 0 away)"));
   add("shop.db", cut(60, Verdict::kGood));
   EXPECT_NE(program("shop.db"), lowered);
   EXPECT_THAT(last_.err, Not(HasSubstr("CASE-BAD-NEAR")));
@@ -232,6 +263,38 @@ TEST_F(Precedents, APlansOwnGoodCasesSlowNoStepOfIt) {
   for (std::size_t i = 0; i < planned_.size(); ++i)
     EXPECT_LE(leaning[i].predicted.time_s, kRounding * planned_[i].predicted.time_s)
         << planned_[i].from.workingstep;
+}
+
+TEST_F(Precedents, TunedValuesThatRepeatsOnTwoEdgesHaveProvenAreTaken) {
+  add("shop.db", usual_and_faster({"E1", "E1", "E2", "E2"}));
+  EXPECT_NE(program("shop.db"), plain());
+  EXPECT_THAT(last_.err, HasSubstr("of them from tuned values"));
+  EXPECT_THAT(explained(), HasSubstr("starts from tuned values, proven by 4 good parts on 2 edges"));
+  EXPECT_THAT(explained(), HasSubstr("the table without cases"));
+}
+
+TEST_F(Precedents, TunedValuesWhoseSizesNobodyMeasuredAreNotTaken) {
+  auto cases = usual_and_faster({"E1", "E1", "E2", "E2"});
+  for (Case& c : cases) c.observed.size_deviation_mm.reset();
+  add("shop.db", cases);
+  EXPECT_EQ(program("shop.db"), plain());
+  EXPECT_THAT(explained(), Not(HasSubstr("tuned values")));
+}
+
+TEST_F(Precedents, TunedValuesOfOneEdgeAreNotTaken) {
+  add("shop.db", usual_and_faster({"E1", "E1", "E1", "E1"}));
+  EXPECT_EQ(program("shop.db"), plain());
+  EXPECT_THAT(explained(), Not(HasSubstr("tuned values")));
+}
+
+TEST_F(Precedents, FailuresGoBeforeTunedValues) {
+  auto cases = usual_and_faster({"E1", "E1", "E2", "E2"});
+  const auto failed = cut(13, Verdict::kBad);
+  cases.insert(cases.end(), failed.begin(), failed.end());
+  add("shop.db", cases);
+  EXPECT_FALSE(program("shop.db").empty());
+  EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
+  EXPECT_THAT(explained(), Not(HasSubstr("tuned values")));
 }
 
 TEST_F(Precedents, ThePlansOwnSimulationProvesNothing) {
