@@ -273,6 +273,79 @@ TEST_F(Precedents, TunedValuesThatRepeatsOnTwoEdgesHaveProvenAreTaken) {
   EXPECT_THAT(explained(), HasSubstr("the table without cases"));
 }
 
+TEST_F(Precedents, ATenfoldFeedThatWentWellThreeTimesOnTwoEdgesChangesNoProgram) {
+  auto cases = usual_and_faster({});
+  for (const char* edge : {"E1", "E2", "E2"}) {
+    const auto poison = cut(1, Verdict::kGood, [&](Case& c) {
+      c.from.tool_instance = edge;
+      c.bound.fz_mm *= 10.0;
+      c.observed.size_deviation_mm = casebase::Figure{(0.02 + 0.001 * parts_) * c.asked.tolerance_mm};
+    });
+    cases.insert(cases.end(), poison.begin(), poison.end());
+  }
+  add("poison.db", cases);
+  EXPECT_EQ(program("poison.db"), plain());  // and its check is clean
+  EXPECT_THAT(explained(), HasSubstr("not believed"));
+  EXPECT_THAT(explained(), Not(HasSubstr("tuned values")));
+}
+
+TEST_F(Precedents, TunedValuesAreHeldByTheLimitsOfTheMachine) {
+  // Cases say that a tenth more went well. The spot drill is planned at 101 mm/min: 111 would be more than
+  // the axis does.
+  constexpr double kMostFeed = 105.0;
+  std::string machine = slurp(capstan::testing::source_dir() + "/tooling/data/machines/generic_vmc.yaml");
+  const auto put_in = [&](std::size_t after, const std::string& was, const std::string& now) {
+    machine.replace(machine.find(was, after), was.size(), now);
+  };
+  put_in(0, "id: generic_vmc", "id: slow");
+  put_in(machine.find("  Z:"), "feed_max_mm_min: 10000", "feed_max_mm_min: 105");
+  put("slow.yaml", machine);
+  const std::string plan =
+      "plan plate.p21 --material C45 --reopen all --tools shop.yaml --machine slow.yaml ";
+  ASSERT_LE(run(plan + "-o plain.json").code, 1);
+  planned_ = cases_of_plan(folder_ / "plain.json");
+  const auto feed_of_spot_drill = [](const std::vector<Case>& steps) {
+    for (const Case& c : steps) {
+      if (c.asked.tool_class != "hss/spotdrill") continue;
+      const double n_rpm = 1000.0 * c.bound.vc_m_min / (std::numbers::pi * c.asked.cutter_diameter_mm);
+      return n_rpm * c.asked.teeth * c.bound.fz_mm;
+    }
+    return 0.0;
+  };
+  const double before = feed_of_spot_drill(planned_);
+  ASSERT_GT(kFaster * before, kMostFeed);
+  add("shop.db", usual_and_faster({"E1", "E1", "E2", "E2"}));
+  last_ = run(plan + "--cases shop.db -o out.json");
+  ASSERT_LE(last_.code, 1) << last_.err;
+  EXPECT_THAT(explained(), HasSubstr("starts from tuned values, proven by 4 good parts on 2 edges"));
+  EXPECT_EQ(run("check out.json").code, 0);
+  const double after = feed_of_spot_drill(cases_of_plan(folder_ / "out.json"));
+  EXPECT_GT(after, before);
+  EXPECT_LE(after, kMostFeed + 1e-6);
+}
+
+TEST_F(Precedents, EdgesWhoseEndIsNearAreNamed) {
+  const auto worn = [&](int parts) {
+    auto cases = cut(parts, Verdict::kGood, [&](Case& c) {
+      c.from.tool_instance = "drill";
+      c.observed.time_s = casebase::Figure{120.0};
+    });
+    std::erase_if(cases, [](const Case& c) { return c.asked.tool_class != "hss/twist_drill"; });
+    return cases;
+  };
+  add("fresh.db", worn(1));
+  (void)program("fresh.db");
+  EXPECT_THAT(last_.err, Not(HasSubstr("CASE-EDGE")));
+  // Of a life of 15 minutes six are cut, and then twenty.
+  add("used.db", worn(3));
+  (void)program("used.db");
+  EXPECT_THAT(last_.err,
+              HasSubstr("note: edge 'drill' of tool 'drill' has cut 6 min, 40 % of the life expected"));
+  add("used.db", worn(7));
+  (void)program("used.db");
+  EXPECT_THAT(last_.err, HasSubstr("warning: edge 'drill' of tool 'drill' has cut 20 min"));
+}
+
 TEST_F(Precedents, TunedValuesWhoseSizesNobodyMeasuredAreNotTaken) {
   auto cases = usual_and_faster({"E1", "E1", "E2", "E2"});
   for (Case& c : cases) c.observed.size_deviation_mm.reset();
