@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <mutex>
 
@@ -47,6 +48,22 @@ struct CaseBase::Impl {
     return {};
   }
 
+  /// The cases that are not removed and of which this holds, by id.
+  std::vector<Case> live_where(const std::function<bool(const Entry&)>& holds) const {
+    const std::vector<Entry>& entries = log.entries();
+    std::vector<std::uint32_t> live;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (!entries[i].removed && holds(entries[i])) live.push_back(static_cast<std::uint32_t>(i));
+    }
+    std::vector<Case> out;
+    for (std::optional<Case>& c : log.load(live)) {
+      if (c) out.push_back(*std::move(c));
+    }
+    std::sort(out.begin(), out.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
+    return out;
+  }
+
+  /// Places become cases; those that are not what was stored are left out.
   /// What others wrote meanwhile may have come with what was written: verdicts may be others.
   void forget() { read.clear(); }
 
@@ -198,17 +215,13 @@ Result<std::vector<Neighbour>> CaseBase::within(const Question& q, double distan
 std::size_t CaseBase::size() const { return impl_->log.live(); }
 
 std::vector<Case> CaseBase::cases() const {
-  const std::vector<Entry>& entries = impl_->log.entries();
-  std::vector<std::uint32_t> live;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (!entries[i].removed) live.push_back(static_cast<std::uint32_t>(i));
-  }
-  std::vector<Case> out;
-  for (std::optional<Case>& c : impl_->log.load(live)) {
-    if (c) out.push_back(*std::move(c));
-  }
-  std::sort(out.begin(), out.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
-  return out;
+  return impl_->live_where([](const Entry&) { return true; });
+}
+
+std::vector<Case> CaseBase::cut_with(std::string_view tool_class) const {
+  return impl_->live_where([&](const Entry& e) {
+    return e.origin != Origin::kSimulated && tool_class_in(impl_->log.categories(e)) == tool_class;
+  });
 }
 
 std::vector<Diagnostic> CaseBase::take_faults() const { return impl_->log.take_faults(); }

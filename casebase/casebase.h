@@ -102,6 +102,8 @@ class CaseBase {
   /// All of them by id, read and verified now; one that is not what was stored is left out, and `take_faults`
   /// tells.
   [[nodiscard]] std::vector<Case> cases() const;
+  /// Those that were cut, measured or entered, with a tool of this class; else as `cases`.
+  [[nodiscard]] std::vector<Case> cut_with(std::string_view tool_class) const;
   /// What was found altered or gone since this was asked last, as warnings (CASE-ROW).
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 

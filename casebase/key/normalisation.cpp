@@ -111,6 +111,11 @@ std::string categories_of(const Question& q) {
   return q.operation + '\n' + q.material_group + '\n' + q.tool_class + '\n' + q.machine_class;
 }
 
+std::string_view tool_class_in(std::string_view categories) {
+  for (int before = 2; before > 0; --before) categories.remove_prefix(categories.find('\n') + 1);
+  return categories.substr(0, categories.find('\n'));
+}
+
 Comparison comparison(std::uint16_t known_of_question, std::uint16_t known_of_case) {
   Comparison c;
   c.comparable = (known_of_question & kStrict) == (known_of_case & kStrict);

@@ -100,6 +100,9 @@ std::optional<std::string> put(Reading& r, const Column& column, std::string_vie
     case Item::kWorkingstep:
       r.workingstep = text;
       return std::nullopt;
+    case Item::kToolInstance:
+      r.tool_instance = text;
+      return std::nullopt;
     case Item::kProgram:
       r.program = text;
       return std::nullopt;

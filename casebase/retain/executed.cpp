@@ -42,6 +42,7 @@ void Splitter::open(const Reading& r) {
   o.step.workingstep = workingstep_;
   o.step.program = program_;
   o.step.tool = tool_;
+  o.step.tool_instance = tool_instance_;
   o.step.begin_s = o.step.end_s = r.t_s;
   o.step.first_log_line = r.line;
   o.step.tool_changed = std::exchange(tool_changed_, false);
@@ -180,11 +181,17 @@ void Splitter::take(const Reading& r) {
     }
   }
   if (running_ && !was_running) ++run_;
-  const bool other = tool != tool_ || step != workingstep_ || running_ != was_running;
+  std::string instance = tool != tool_ ? std::string() : tool_instance_;
+  if (r.tool_instance) instance = *r.tool_instance;
+  // A tool that says its serial number a moment after it was loaded is the same tool.
+  const bool other_edge = instance != tool_instance_ && !tool_instance_.empty();
+  const bool other = tool != tool_ || other_edge || step != workingstep_ || running_ != was_running;
   if (tool != tool_ && tool != 0) tool_changed_ = true;
   tool_ = tool;
+  tool_instance_ = std::move(instance);
   workingstep_ = std::move(step);
   if (other) close();
+  if (open_) open_->step.tool_instance = tool_instance_;
 
   for (std::size_t i = 0; i < kNumbers; ++i) {
     if (r.says(static_cast<Item>(i))) now_[i] = r.number[i];

@@ -51,6 +51,7 @@ struct Executed {
   int run = 1;  ///< of the program, counted in the log
   std::string workingstep, program;
   int tool = 0;
+  std::string tool_instance;          ///< empty: not said
   double begin_s = 0.0, end_s = 0.0;  ///< as the log has them
   double active_s = 0.0;              ///< the program ran, and this step was its work
   double moving_s = 0.0;              ///< of it with a feed above zero, rapids included
@@ -111,7 +112,7 @@ class Splitter {
   bool running_ = false, tool_changed_ = false, tool_said_ = false;
   int run_ = 0, tool_ = 0;
   long line_ = 0;
-  std::string workingstep_, said_workingstep_, program_;
+  std::string workingstep_, said_workingstep_, program_, tool_instance_;
 };
 
 }  // namespace capstan::casebase::retain

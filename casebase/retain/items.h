@@ -25,6 +25,7 @@ enum class Item : std::uint8_t {
   kLine,  ///< of the program, from 1
   kRunning,
   kWorkingstep,
+  kToolInstance,  ///< serial number of the very tool
   kProgram,
   kTime,
 };

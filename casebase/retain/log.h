@@ -28,7 +28,8 @@ struct Reading {
   std::optional<int> tool = {};
   std::optional<long> program_line = {};
   std::optional<bool> running = {};
-  std::optional<std::string_view> workingstep = {}, program = {};  ///< live until the function returns
+  /// These live until the function returns.
+  std::optional<std::string_view> workingstep = {}, program = {}, tool_instance = {};
 
   void set(Item i, double v) {
     number[index_of(i)] = v;

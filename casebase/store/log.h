@@ -57,6 +57,8 @@ class Log {
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   /// The number of these categories (`categories_of`); nothing: no case has them.
   [[nodiscard]] std::optional<std::uint32_t> category(std::string_view categories) const;
+  /// The categories of an entry.
+  [[nodiscard]] const std::string& categories(const Entry& e) const { return categories_[e.categories]; }
   [[nodiscard]] const std::vector<Note>& notes() const { return notes_; }
   [[nodiscard]] std::size_t live() const { return entries_.size() - removed_; }
   [[nodiscard]] std::string name() const { return store_->name(); }

@@ -34,6 +34,17 @@ Diagnostic warning(std::string code, std::string message, std::string file, std:
           .hint = std::move(hint)};
 }
 
+/// The heads of a copy that is whole, by number from 1.
+struct Copied {
+  std::string bytes;  // one behind the other: a string each would take as long as reading them
+  std::vector<std::size_t> ends;
+  Totals totals;
+  std::string_view head(std::size_t row) const {
+    const std::size_t from = row == 0 ? 0 : ends[row - 1];
+    return std::string_view(bytes).substr(from, ends[row] - from);
+  }
+};
+
 class ServerStore final : public Store {
  public:
   ServerStore(std::string uri, LocalFiles files)
@@ -56,7 +67,7 @@ class ServerStore final : public Store {
 
   Status drain(Job& job);
   void set_aside(Job& job);
-  std::optional<Totals> copied() const;
+  std::optional<Copied> copied() const;
   Status copy(std::vector<NewRow> rows, const std::optional<Totals>& before);
   Status follow(std::int64_t after, std::vector<NewRow> rows);
   void tell(const Status& copying);
@@ -197,13 +208,21 @@ Status ServerStore::copy_into(Store& to, std::vector<NewRow>& rows, const Totals
   return {};
 }
 
-/// The totals of the copy; nothing: there is none that is whole. Needs the lock.
-std::optional<Totals> ServerStore::copied() const {
+/// The copy's heads; nothing: there is none that is whole. Needs the lock.
+std::optional<Copied> ServerStore::copied() const {
   if (!exists(files_.copy)) return std::nullopt;
   Job quiet;
   const Result<std::unique_ptr<Store>> file = open_sqlite(files_.copy, Missing::kRefuse, quiet);
-  const Result<FileRows> rows = file ? rows_of(**file) : Result<FileRows>(fail(file.error()));
-  return rows && rows->whole ? std::optional(rows->totals) : std::nullopt;
+  if (!file) return std::nullopt;
+  Copied out;
+  const Result<std::string> stated = (*file)->read(0, [&](std::int64_t, std::string_view head) -> Status {
+    out.totals.count(head);
+    out.bytes += head;
+    out.ends.push_back(out.bytes.size());
+    return {};
+  });
+  const bool whole = stated && totals_of(*stated) == std::optional(out.totals);
+  return whole ? std::optional(std::move(out)) : std::nullopt;
 }
 
 /// Brings the copy up to date, as far as it can be: the server has the rows. `before`: the copy's totals when
@@ -227,35 +246,53 @@ void ServerStore::tell(const Status& copying) {
 
 Result<std::string> ServerStore::read(std::int64_t after, const TakeHead& take) {
   if (!server_) return local_->read(after, take);
-  if (after != 0) return server_->read(after, take);
-  // The rows behind the copy's are kept while they pass; where the copy is of other rows, all are.
-  std::optional<Totals> before;
-  if (!files_.copy.empty()) {
-    const Result<FileLock> lock = FileLock::take(files_.lock);
-    if (lock) before = copied();
-  }
-  Totals now, then;
-  std::vector<NewRow> all;
+  if (after != 0 || files_.copy.empty()) return server_->read(after, take);
+  std::optional<Copied> before;
+  if (const Result<FileLock> lock = FileLock::take(files_.lock); lock) before = copied();
+  // As long as the server's rows are the copy's, to the byte, only those behind them are kept while they
+  // pass; where the copy is of other rows, all are.
+  const std::size_t held = before ? before->ends.size() : 0;
+  std::size_t same = 0;
+  Totals now;
+  std::vector<NewRow> behind;
   bool whole = true;
+  const auto keep = [&](std::int64_t number, std::string_view head) {
+    now.count(head);
+    whole = whole && number == now.rows && head_of(head, number).has_value();
+    behind.push_back({number, std::string(head), {}});
+  };
+  const auto keep_same = [&] {  // where the copy is of other rows after all
+    if (same == held) return;
+    for (std::size_t i = 0; i < same; ++i) keep(static_cast<std::int64_t>(i + 1), before->head(i));
+    same = 0;
+  };
   const Result<std::string> stated =
       server_->read(0, [&](std::int64_t number, std::string_view head) -> Status {
-        now.count(head);
-        whole = whole && number == now.rows && head_of(head, number).has_value();
-        if (before && now.rows == before->rows) then = now;
-        all.push_back({number, std::string(head), {}});
+        const bool next = number == static_cast<std::int64_t>(same + 1);
+        if (behind.empty() && same < held && next && before->head(same) == head) {
+          if (++same == held) now = before->totals;
+          return take(number, head);
+        }
+        keep_same();
+        keep(number, head);
         return take(number, head);
       });
-  if (!stated || files_.copy.empty()) return stated;
+  if (!stated) return stated;
+  const bool ours = before && same == held;
+  if (!ours) keep_same();
   if (!whole || totals_of(*stated) != std::optional(now)) return stated;  // the copy is the better one
-  const bool ours = before && then == *before;
-  if (ours && before->rows == now.rows) return stated;
+  if (ours && behind.empty()) return stated;
   const Result<FileLock> lock = FileLock::take(files_.lock);
   if (!lock) {
     tell(fail(lock.error()));
-  } else if (copied() == before) {  // else another program is bringing it up to date
-    if (ours) all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before->rows));
-    tell(copy(std::move(all), ours ? before : std::nullopt));
+    return stated;
   }
+  const std::optional<Copied> meanwhile = copied();
+  const auto totals = [](const std::optional<Copied>& rows) {
+    return rows ? std::optional(rows->totals) : std::nullopt;
+  };
+  if (totals(meanwhile) == totals(before))  // else another program is bringing it up to date
+    tell(copy(std::move(behind), ours ? totals(before) : std::nullopt));
   return stated;
 }
 

@@ -293,7 +293,37 @@ std::string binding_of(const Learnt& learnt, const Gate& gate, const Setting& at
   return gate.hard(further) ? "" : "the planner's own limits";
 }
 
+/// The handbook's setting, or a faster one that was proven; where the handbook's breaks a limit any proven
+/// one.
+SettingView fastest_proven(const Learnt& learnt, const Gate& gate, const std::vector<Setting>& tried,
+                           const TuneOptions& options) {
+  SettingView out = learnt.at({});
+  for (const Setting& s : tried) {
+    SettingView v = learnt.at(s);
+    const bool better = v.time < out.time || !gate.open(out);
+    if (better && proven_by(v.repeats, options) && gate.open(v)) out = std::move(v);
+  }
+  return out;
+}
+
 }  // namespace
+
+std::optional<SettingView> proven(std::span<const Evidence> evidence, const Handbook& all,
+                                  const TuneOptions& options) {
+  Heard said = heard(evidence, all.machine, options.today);
+  keep_nearest(said.evidence, options.most_cases);
+  const std::vector<Setting> tried = settings_of(said.evidence);
+  const bool any = std::any_of(tried.begin(), tried.end(), [&](const Setting& s) {
+    return !same_setting(s, {}) && proven_by(repeats_at(said.evidence, s), options);
+  });
+  if (!any) return std::nullopt;
+  const Handbook handbook = told_by(said.evidence, all);
+  const std::vector<Evidence> none;
+  const Learnt learnt(said.evidence, handbook, options), unlearnt(none, handbook, options);
+  SettingView out = fastest_proven(learnt, Gate(unlearnt, handbook, options), tried, options);
+  if (same_setting(out.at, {})) return std::nullopt;
+  return out;
+}
 
 Advice advise(std::span<const Evidence> evidence, const Handbook& all, const TuneOptions& options) {
   Heard said = heard(evidence, all.machine, options.today);
@@ -319,13 +349,9 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& all, const Tun
     if (learnt.load(i)) out.spreads[i] = learnt.load(i)->spreads();
   }
 
-  out.handbook = out.proven = learnt.at({});
+  out.handbook = learnt.at({});
   const std::vector<Setting> tried = settings_of(said.evidence);
-  for (const Setting& s : tried) {
-    SettingView v = learnt.at(s);
-    const bool better = v.time < out.proven.time || !gate.open(out.proven);
-    if (better && proven_by(v.repeats, options) && gate.open(v)) out.proven = std::move(v);
-  }
+  out.proven = fastest_proven(learnt, gate, tried, options);
   out.lowered = !gate.open(out.proven);
   out.trial = out.proven;
   if (out.heard == 0) {

@@ -20,16 +20,10 @@ namespace {
 constexpr double kMcSpread = 0.06;
 // 1 / n of carbide: 2 to 5 (Kalpakjian & Schmid: n 0.2 to 0.5); of feed and depth about 1 and less.
 constexpr double kLifeBySpeedSpread = 1.0, kLifeByFeedSpread = 0.7, kLifeByDepthSpread = 0.7;
-constexpr double kLifeSpread = 0.5;        // ln T0 of a table. Default, unsourced
-constexpr double kLifeScatter = 0.3;       // as mechanics/life
-constexpr double kForceNoise = 0.08;       // std dev of ln kc between cuts of one edge. Default, unsourced
-constexpr double kForceEdges = 0.08;       // and between edges. Default, unsourced
-constexpr double kWearByTimeSpread = 0.3;  // of kWearByTime. Default, unsourced
-constexpr double kWearNoise = 0.1;         // std dev of ln VB of a reading. Default, unsourced
-constexpr double kLeastReadingMm = 0.05;   // less is the scatter of the reading
+constexpr double kForceNoise = 0.08;  // std dev of ln kc between cuts of one edge. Default, unsourced
+constexpr double kForceEdges = 0.08;  // and between edges. Default, unsourced
 // Edges or parts that are left out in turn: fewer tell nothing, more take long. Default, unsourced.
 constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;
-constexpr double kZ90 = 1.6449;   // of the normal distribution, both sides
 constexpr double kBlock0S = 0.1;  // where the time's first term counts
 // Std devs of ln(observed / planned), of its slope by ln of the block's time, and of one part. Default,
 // unsourced.
@@ -52,7 +46,7 @@ Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<co
   out.groups = fit.groups;
   if (fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
     const std::vector<LeftOut> left_out = leave_groups_out(rows, fit.coefficient.size(), options);
-    out.left_out = {rms(left_out), coverage(left_out, kZ90)};
+    out.left_out = {rms(left_out), coverage_90(left_out)};
   }
   out.doubted = static_cast<std::size_t>(
       std::count_if(fit.weight.begin(), fit.weight.end(), [](double w) { return w < 0.5; }));
@@ -118,7 +112,7 @@ WearCurve wear_curve(std::span<const WearReading> readings) {
   }
   out.readings = rows.size();
   if (!rows.empty())
-    out.fit = regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kWearNoise});
+    out.fit = regress(rows, 2, {.prior = {{}, {kWearByTime, kWearByTimeSpread}}, .noise = kReadingNoise});
   return out;
 }
 
@@ -213,18 +207,24 @@ std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples) 
                              rows, options, fit)};
 }
 
+std::size_t slenderness_of(double stick_out_ratio) {
+  return static_cast<std::size_t>(std::lround(std::log2(std::max(1.0, stick_out_ratio))));
+}
+
 double BoreCorrection::deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const {
   return how.fit.at(bore_terms(feed_per_turn_mm, stick_out_ratio));
 }
 double BoreCorrection::std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const {
-  return how.fit.predictive_std_dev_at(bore_terms(feed_per_turn_mm, stick_out_ratio));
+  return how.fit.predictive_std_dev_at(bore_terms(feed_per_turn_mm, stick_out_ratio),
+                                       slenderness_of(stick_out_ratio));
 }
 
 std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples) {
   std::vector<Row> rows;
   for (const BoreSample& s : samples) {
     if (!usable({s.feed_per_turn_mm, s.stick_out_ratio}) || !std::isfinite(s.deviation_mm)) continue;
-    rows.push_back({bore_terms(s.feed_per_turn_mm, s.stick_out_ratio), s.deviation_mm, 1.0, s.group});
+    rows.push_back({bore_terms(s.feed_per_turn_mm, s.stick_out_ratio), s.deviation_mm, 1.0, s.group,
+                    slenderness_of(s.stick_out_ratio)});
   }
   if (rows.empty()) return std::nullopt;
   const PriorTerm any{0.0, kBoreSpreadMm};

@@ -65,6 +65,13 @@ struct WearReading {
 
 /// b of VB = c t^b where readings do not tell it: wear runs in fast and goes on slower. Default, unsourced.
 inline constexpr double kWearByTime = 0.7;
+/// Its std dev, and that of ln VB of one reading. Defaults, unsourced.
+inline constexpr double kWearByTimeSpread = 0.3, kReadingNoise = 0.1;
+/// Wear below is the scatter of the reading.
+inline constexpr double kLeastReadingMm = 0.05;
+/// Std dev of ln T0 of a table's law (default, unsourced), and of the lives of edges of one kind: as
+/// mechanics/life.
+inline constexpr double kLifeSpread = 0.5, kLifeScatter = 0.3;
 /// Wear of the edge after a time in the cut, mm, by the same curve through the readings of at least 0.05 mm,
 /// of which one is enough: then b is `kWearByTime`. Nothing where none can be used.
 [[nodiscard]] std::optional<double> wear_after(std::span<const WearReading> readings, double time_min);
@@ -104,6 +111,9 @@ struct BoreSample {
   double feed_per_turn_mm = 0.0, stick_out_ratio = 0.0;  ///< stick-out over the cutter's diameter
   std::size_t group = 0;                                 ///< the part
 };
+/// Cutters of one slenderness scatter alike: stick-outs over diameter within a factor of two, 3 and 11 apart.
+/// Default, unsourced. Needs a positive number.
+[[nodiscard]] std::size_t slenderness_of(double stick_out_ratio);
 struct BoreCorrection {
   Corrected how;
   [[nodiscard]] double deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const;

@@ -33,10 +33,6 @@ constexpr double kLeastShare = 0.02;  // of a limit: less is below what can be m
 
 bool evidence(const std::optional<Figure>& f) { return f && f->origin != Origin::kSimulated; }
 
-std::string edge_of(const From& f) {
-  return f.tool_instance.empty() && f.tool_edge.empty() ? std::string() : f.tool_instance + '/' + f.tool_edge;
-}
-
 bool positive(double v) { return std::isfinite(v) && v > 0.0; }
 
 double limit_of(const PlannedStep& p, Watched w) {
@@ -124,6 +120,10 @@ class Groups {
 };
 
 }  // namespace
+
+std::string edge_of(const From& f) {
+  return f.tool_edge.empty() ? f.tool_instance : f.tool_instance + '/' + f.tool_edge;
+}
 
 std::optional<long> day_of(const std::string& time_utc) {
   int year = 0;

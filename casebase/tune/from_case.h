@@ -17,6 +17,9 @@ namespace capstan::casebase::tune {
 /// edges of one kind differ by 30 to 40 %, and few may be worn out before.
 inline constexpr double kLifeUsed = 0.5;
 
+/// The very edge that a case was cut with: tool instance and edge; empty: not known.
+[[nodiscard]] std::string edge_of(const From& from);
+
 /// Days since 1970-01-01 of a date or a time in ISO 8601; nothing where it is none.
 [[nodiscard]] std::optional<long> day_of(const std::string& time_utc);
 

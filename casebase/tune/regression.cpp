@@ -17,6 +17,10 @@
 /// with an expected value that counts as some rows. The weights are Huber's (Ann. Math. Statist. 35, 1964)
 /// until they stay, then Tukey's biweight, whose tuning constants give 95 % efficiency on normal noise
 /// (Holland and Welsch, Comm. Statist. A6, 1977).
+///
+/// Kinds of rows that scatter differently are whitened: rows are divided by the scatter of their kind, which
+/// follows from their residuals by moments, less what the terms took of them (feasible generalised least
+/// squares; Judge et al., The Theory and Practice of Econometrics, 1985, 11.2).
 namespace capstan::casebase::tune {
 namespace {
 
@@ -26,6 +30,7 @@ using Eigen::VectorXd;
 constexpr double kHuber = 1.345, kTukey = 4.685;  // Holland and Welsch 1977
 constexpr double kMadToDeviation = 1.4826;        // of the normal distribution
 constexpr int kHuberTurns = 15, kTukeyTurns = 10;
+constexpr int kKindTurns = 12;  // until the scatters stay within a hundredth
 constexpr double kVague = 1e3;  // std dev of a coefficient that nothing is known of
 
 struct Spread {
@@ -188,15 +193,27 @@ double Regression::std_dev_at(std::span<const double> x) const {
   return std::sqrt(std::max(0.0, out));
 }
 
-double Regression::predictive_std_dev_at(std::span<const double> x) const {
-  return std::hypot(std_dev_at(x), noise, between);
+const Regression::Kind* Regression::kind_of(std::size_t kind) const {
+  const auto at = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.kind == kind; });
+  if (at != kinds.end()) return &*at;
+  const auto most = std::max_element(kinds.begin(), kinds.end(),
+                                     [](const Kind& a, const Kind& b) { return a.scatter < b.scatter; });
+  return most == kinds.end() ? nullptr : &*most;
+}
+
+double Regression::predictive_std_dev_at(std::span<const double> x, std::size_t kind) const {
+  const Kind* k = kind_of(kind);
+  return std::hypot(std_dev_at(x), (k != nullptr ? k->scatter : 1.0) * std::hypot(noise, between));
 }
 
 double Regression::std_dev(std::size_t term) const {
   return std::sqrt(std::max(0.0, covariance[term * coefficient.size() + term]));
 }
 
-Regression regress(std::span<const Row> rows, std::size_t terms, const RegressionOptions& options) {
+namespace {
+
+/// All rows as one kind.
+Regression regress_alike(std::span<const Row> rows, std::size_t terms, const RegressionOptions& options) {
   const auto n = static_cast<Eigen::Index>(terms);
   VectorXd mean = VectorXd::Zero(n), precision = VectorXd::Constant(n, 1.0 / (kVague * kVague));
   for (std::size_t i = 0; i < std::min(terms, options.prior.size()); ++i) {
@@ -251,6 +268,60 @@ Regression regress(std::span<const Row> rows, std::size_t terms, const Regressio
   return out;
 }
 
+/// The scatter of each kind over what is expected beforehand, from the residuals of a fit to whitened rows.
+void learn_scatter(std::span<const Row> rows, const Regression& fit, const RegressionOptions& o,
+                   std::vector<Regression::Kind>& kinds) {
+  const double expected = std::max(std::hypot(o.noise, o.between), 1e-9);
+  for (Regression::Kind& k : kinds) {
+    double square = o.noise_rows, freedom = o.noise_rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Row& row = rows[i];
+      if (row.kind != k.kind || row.weight <= 0.0) continue;
+      const double believed = row.weight * fit.weight[i];
+      const double residual = (row.y - fit.at(row.x)) / expected;
+      const double taken =
+          fit.std_dev_at(row.x) / (k.scatter * std::max(std::hypot(fit.noise, fit.between), 1e-9));
+      square += believed * residual * residual;
+      freedom += believed * (1.0 - std::min(1.0, taken * taken));
+    }
+    k.freedom = freedom;
+    k.scatter = std::max(1e-6, std::sqrt(square / std::max(freedom, 1e-9)));
+  }
+}
+
+}  // namespace
+
+Regression regress(std::span<const Row> rows, std::size_t terms, const RegressionOptions& options) {
+  std::vector<Regression::Kind> kinds;
+  for (const Row& row : rows) {
+    if (std::none_of(kinds.begin(), kinds.end(), [&](const auto& k) { return k.kind == row.kind; }))
+      kinds.push_back({row.kind, 1.0, 0.0});
+  }
+  if (kinds.size() < 2) return regress_alike(rows, terms, options);
+  std::vector<Row> whitened(rows.begin(), rows.end());
+  const auto whiten = [&] {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto kind =
+          std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.kind == rows[i].kind; });
+      whitened[i].y = rows[i].y / kind->scatter;
+      for (std::size_t j = 0; j < terms; ++j) whitened[i].x[j] = rows[i].x[j] / kind->scatter;
+    }
+  };
+  // Every row is heard while the scatters are learned: rows of a wild kind are no outliers.
+  RegressionOptions all = options;
+  all.robust = false;
+  for (int turn = 0; turn < kKindTurns; ++turn) {
+    whiten();
+    learn_scatter(rows, regress_alike(whitened, terms, all), options, kinds);
+  }
+  whiten();
+  Regression fit = regress_alike(whitened, terms, options);
+  fit.noise = options.noise;  // what the scatters are multiples of
+  fit.between = options.between;
+  fit.kinds = kinds;
+  return fit;
+}
+
 std::vector<LeftOut> leave_groups_out(std::span<const Row> rows, std::size_t terms,
                                       const RegressionOptions& options) {
   std::vector<std::size_t> names;
@@ -266,7 +337,9 @@ std::vector<LeftOut> leave_groups_out(std::span<const Row> rows, std::size_t ter
     const Regression fit = regress(others, terms, options);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].group == name) {
-        out[i] = {rows[i].y, fit.at(rows[i].x), fit.predictive_std_dev_at(rows[i].x)};
+        const Regression::Kind* kind = fit.kind_of(rows[i].kind);
+        out[i] = {rows[i].y, fit.at(rows[i].x), fit.predictive_std_dev_at(rows[i].x, rows[i].kind),
+                  kind != nullptr ? kind->freedom : 0.0};
       }
     }
   }
@@ -279,11 +352,23 @@ double rms(std::span<const LeftOut> left_out) {
   return left_out.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(left_out.size()));
 }
 
-double coverage(std::span<const LeftOut> left_out, double deviations) {
+double deviations_90(double freedom) {
+  constexpr double z = 1.6449;  // of the normal distribution, both sides
+  if (!(freedom > 0.0)) return z;
+  const double n = freedom, z2 = z * z;
+  const double g1 = (z2 + 1.0) / 4.0;
+  const double g2 = ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0;
+  const double g3 = (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0;
+  const double g4 = ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) / 92160.0;
+  return z * (1.0 + (g1 + (g2 + (g3 + g4 / n) / n) / n) / n);
+}
+
+bool LeftOut::within_90() const { return std::abs(observed - predicted) <= deviations_90(freedom) * std_dev; }
+
+double coverage_90(std::span<const LeftOut> left_out) {
   if (left_out.empty()) return 0.0;
-  const auto within = std::count_if(left_out.begin(), left_out.end(), [&](const LeftOut& l) {
-    return std::abs(l.observed - l.predicted) <= deviations * l.std_dev;
-  });
+  const auto within =
+      std::count_if(left_out.begin(), left_out.end(), [](const LeftOut& l) { return l.within_90(); });
   return static_cast<double>(within) / static_cast<double>(left_out.size());
 }
 

@@ -13,6 +13,8 @@ struct Row {
   double y = 0.0;         ///< most often a logarithm
   double weight = 1.0;    ///< against the others; 0: not heard
   std::size_t group = 0;  ///< rows of one edge, one plate, one source: they do not count as independent
+  /// Rows of one kind scatter alike, those of another need not: slender tools more than short ones.
+  std::size_t kind = 0;
 };
 
 /// What is held of one coefficient before anything is observed. The default says nothing of it.
@@ -39,16 +41,25 @@ struct Regression {
   double effective_rows = 0.0;     ///< sum of the weights that the rows ended with, as shares of the largest
   std::size_t groups = 0;
   std::vector<double> weight;  ///< of each row in the end, 0 to 1: how far it was believed
+  /// Of a kind of rows: its scatter over `noise` and `between`, and how many degrees of freedom tell it.
+  struct Kind {
+    std::size_t kind = 0;
+    double scatter = 1.0, freedom = 0.0;
+  };
+  std::vector<Kind> kinds;  ///< empty: all rows are of one kind
 
   [[nodiscard]] double at(std::span<const double> x) const;
   /// Of the mean at x, by the coefficients alone.
   [[nodiscard]] double std_dev_at(std::span<const double> x) const;
-  /// Of one further row of a further group at x.
-  [[nodiscard]] double predictive_std_dev_at(std::span<const double> x) const;
+  /// Of one further row of a further group at x. Of a kind that no row is of: as of the one that scatters
+  /// most.
+  [[nodiscard]] double predictive_std_dev_at(std::span<const double> x, std::size_t kind = 0) const;
+  [[nodiscard]] const Kind* kind_of(std::size_t kind) const;
   [[nodiscard]] double std_dev(std::size_t term) const;
 };
 
-/// Ridge regression with a random effect of the groups, fitted by iterated weights.
+/// Ridge regression with a random effect of the groups, fitted by iterated weights. Where rows are of several
+/// kinds each kind has a scatter of its own: what is expected beforehand counts in each as `noise_rows`.
 ///
 /// Needs    rows of `terms` finite numbers, weights of at least 0. Terms that neither rows nor prior tell
 ///          anything of stay at the prior's mean (0 where there is none) with a std dev of 1e3.
@@ -60,12 +71,20 @@ struct Regression {
 struct LeftOut {
   double observed = 0.0, predicted = 0.0;
   double std_dev = 0.0;  ///< that the prediction states
+  double freedom = 0.0;  ///< degrees of freedom that `std_dev` is told by; 0: as good as known
+  /// Whether what was observed lies within the stated interval of 90 %.
+  [[nodiscard]] bool within_90() const;
 };
+/// Half the interval of 90 %, in standard deviations that so many degrees of freedom tell (Student's t); 0:
+/// the normal distribution's.
+/// Accuracy  0.3 % from two degrees on.
+/// Source    Abramowitz and Stegun, Handbook of Mathematical Functions, 1972, 26.7.5.
+[[nodiscard]] double deviations_90(double freedom);
 [[nodiscard]] std::vector<LeftOut> leave_groups_out(std::span<const Row> rows, std::size_t terms,
                                                     const RegressionOptions& options);
 /// Root of the mean square of observed - predicted.
 [[nodiscard]] double rms(std::span<const LeftOut> left_out);
-/// Share of those that lie within this many stated standard deviations.
-[[nodiscard]] double coverage(std::span<const LeftOut> left_out, double deviations);
+/// Share of those that lie within their interval of 90 %.
+[[nodiscard]] double coverage_90(std::span<const LeftOut> left_out);
 
 }  // namespace capstan::casebase::tune

@@ -4,7 +4,9 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <random>
 
 #include "casebase/casebase.h"
@@ -164,6 +166,60 @@ void add_one(benchmark::State& state) {
   if (!good) state.SkipWithError("a case was not added");
 }
 BENCHMARK(add_one)->Unit(benchmark::kMillisecond)->MinTime(0.5);
+
+/// The base of 100,000 cases on the server that CAPSTAN_BENCHMARK_SERVER names (a URI of an empty database);
+/// its local copy where CAPSTAN_CASES says. Nothing where there is none.
+std::optional<std::string> on_server(benchmark::State& state) {
+  const char* uri = std::getenv("CAPSTAN_BENCHMARK_SERVER");
+  if (uri == nullptr) {
+    state.SkipWithError("CAPSTAN_BENCHMARK_SERVER names no server");
+    return std::nullopt;
+  }
+  static const bool kFilled = [&] {
+    Job job;
+    auto base = CaseBase::open_or_create(uri, job);
+    return base && (base->size() >= kPoints || base->add(many(kPoints)));
+  }();
+  if (!kFilled) state.SkipWithError("the server takes no cases");
+  return kFilled ? std::optional<std::string>(uri) : std::nullopt;
+}
+
+void open_on_server(benchmark::State& state) {
+  const auto uri = on_server(state);
+  if (!uri) return;
+  std::size_t n = 0;
+  for (auto _ : state) {
+    Job job;
+    n = CaseBase::open(*uri, job)->size();
+  }
+  if (n < kPoints) state.SkipWithError("not all cases are there");
+}
+BENCHMARK(open_on_server)->Unit(benchmark::kMillisecond);
+
+/// What the connection alone costs: a base without a case, on the server that CAPSTAN_BENCHMARK_EMPTY names.
+void connect_to_server(benchmark::State& state) {
+  const char* uri = std::getenv("CAPSTAN_BENCHMARK_EMPTY");
+  if (uri == nullptr) {
+    state.SkipWithError("CAPSTAN_BENCHMARK_EMPTY names no server");
+    return;
+  }
+  Job job;
+  if (!CaseBase::open_or_create(uri, job)) state.SkipWithError("the server takes no cases");
+  for (auto _ : state) benchmark::DoNotOptimize(CaseBase::open(uri, job));
+}
+BENCHMARK(connect_to_server)->Unit(benchmark::kMillisecond);
+
+void add_one_on_server(benchmark::State& state) {
+  const auto uri = on_server(state);
+  if (!uri) return;
+  Job job;
+  auto base = CaseBase::open(*uri, job).value();
+  std::uint64_t n = 1'000'000'000 + static_cast<std::uint64_t>(base.size());
+  bool good = true;
+  for (auto _ : state) good = base.add(made(n++)).has_value() && good;
+  if (!good) state.SkipWithError("a case was not added");
+}
+BENCHMARK(add_one_on_server)->Unit(benchmark::kMillisecond)->MinTime(0.5);
 
 /// A million in batches of 10,000; memory is the most that the program took, the cases being added included.
 void add_million(benchmark::State& state) {

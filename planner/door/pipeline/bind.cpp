@@ -16,6 +16,7 @@
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
+#include "planner/making/step/record/worn_edges.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -288,6 +289,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
     given::tell_assumed_materials(plan, job);
   }
   if (policy.bind == Bind::kAll) {
+    step::tell_edges(plan, inputs.cases.get(), job);
     given::state_machine_needs(plan);
     piece::settle_corner_rests(plan, required->shapes, grown_mm(inputs), drafts.steps, job);
     piece::tell_corners(piece, drafts.steps, job);

@@ -76,6 +76,58 @@ TEST(RegressionProperty, StatedUncertaintyCoversTheTruth) {
   EXPECT_GE(within, all * 80 / 100);
 }
 
+/// Rows of a line of which every second one is of a kind that scatters ten times as much.
+std::vector<Row> two_kinds(unsigned seed, bool named) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> z;
+  std::vector<Row> out;
+  for (std::size_t i = 0; i < 16; ++i) {
+    const double x = std::sin(static_cast<double>(3 * i + 1));
+    const bool wild = i % 2 == 1;
+    out.push_back(
+        {{1.0, x}, 1.0 + 2.0 * x + (wild ? 0.2 : 0.02) * z(random), 1.0, i, wild && named ? 1U : 0U});
+  }
+  return out;
+}
+
+TEST(RegressionProperty, KindsThatScatterDifferentlyEachHoldTheirInterval) {
+  for (const bool named : {true, false}) {
+    int wild = 0, tame = 0, all = 0;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+      const std::vector<LeftOut> left_out =
+          leave_groups_out(two_kinds(seed, named), 2, {.noise = 0.02, .between = 0.01});
+      for (std::size_t i = 0; i < left_out.size(); i += 2) {
+        tame += left_out[i].within_90() ? 1 : 0;
+        wild += left_out[i + 1].within_90() ? 1 : 0;
+        ++all;
+      }
+    }
+    // 90 of 100 are asked for; 1,600 of each kind, so that chance is a hundredth.
+    EXPECT_GE(tame, all * 87 / 100);
+    if (named) {
+      EXPECT_GE(wild, all * 85 / 100);
+      EXPECT_LE(wild, all * 95 / 100);
+    } else {
+      EXPECT_LT(wild, all * 80 / 100);
+    }
+  }
+}
+
+TEST(Regression, AKindThatNoRowIsOfScattersAsTheWildestOne) {
+  const Regression r = regress(two_kinds(1, true), 2, {.noise = 0.02, .between = 0.01});
+  const std::vector<double> here = {1.0, 0.0};
+  EXPECT_GT(r.predictive_std_dev_at(here, 1), 3.0 * r.predictive_std_dev_at(here, 0));
+  EXPECT_DOUBLE_EQ(r.predictive_std_dev_at(here, 7), r.predictive_std_dev_at(here, 1));
+}
+
+TEST(Interval, IsWiderWhereFewRowsTellTheScatter) {
+  // Quantiles of 95 % of Student's t, as tables have them.
+  EXPECT_NEAR(deviations_90(2.0), 2.920, 0.01);
+  EXPECT_NEAR(deviations_90(6.0), 1.943, 0.001);
+  EXPECT_NEAR(deviations_90(30.0), 1.697, 0.001);
+  EXPECT_NEAR(deviations_90(0.0), 1.645, 0.001);
+}
+
 TEST(LeaveGroupsOut, NeverPredictsAGroupFromItself) {
   std::vector<Row> rows = line(6, 4, 0.0, 0.0);
   for (Row& row : rows) {

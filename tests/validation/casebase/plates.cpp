@@ -30,14 +30,14 @@ namespace tune = casebase::tune;
 const std::set<std::string> kTraced = {"2", "5", "9", "12", "16", "18"};
 const std::set<std::string> kInterrupted = {"1", "10", "11", "19"};
 constexpr const char* kDoubtful = "7";  // its feeds are not known (section 1)
-constexpr double kNinety = 1.645;       // standard deviations of an interval of 90 %
 constexpr double kSlender = 10.0;       // stick-out over diameter that the term is 1 at, times mm per turn
 
 /// One prediction without the plate.
 struct Left {
   const Case* c = nullptr;
   double observed = 0.0, untuned = 0.0, predicted = 0.0, std_dev = 0.0;
-  [[nodiscard]] bool within() const { return std::abs(observed - predicted) <= kNinety * std_dev; }
+  double half_90 = 0.0;  ///< of the interval of 90 %
+  [[nodiscard]] bool within() const { return std::abs(observed - predicted) <= half_90; }
 };
 
 Result<std::vector<Case>> import_plates(const std::string& folder, Job& job) {
@@ -77,6 +77,7 @@ std::vector<Left> leave_plates_out(const std::vector<Case>& cases,
                                    const std::function<bool(const Case&)>& usable,
                                    const std::function<Left(const Case&)>& observed,
                                    const std::function<std::vector<double>(const Case&)>& terms,
+                                   const std::function<std::size_t(const Case&)>& kind,
                                    const tune::RegressionOptions& options) {
   std::map<std::string, std::vector<const Case*>> steps;
   for (const Case& c : cases) {
@@ -87,14 +88,15 @@ std::vector<Left> leave_plates_out(const std::vector<Case>& cases,
     std::vector<tune::Row> rows;
     std::map<std::string, std::size_t> plates;
     for (const Case* c : of)
-      rows.push_back(
-          {terms(*c), observed(*c).observed, 1.0, plates.emplace(c->from.part, plates.size()).first->second});
+      rows.push_back({terms(*c), observed(*c).observed, 1.0,
+                      plates.emplace(c->from.part, plates.size()).first->second, kind(*c)});
     const auto left = tune::leave_groups_out(rows, rows.front().x.size(), options);
     for (std::size_t i = 0; i < of.size(); ++i) {
       Left l = observed(*of[i]);
       l.c = of[i];
       l.predicted = left[i].predicted;
       l.std_dev = left[i].std_dev;
+      l.half_90 = tune::deviations_90(left[i].freedom) * l.std_dev;
       out.push_back(l);
     }
   }
@@ -159,6 +161,7 @@ std::vector<Left> times_of(const std::vector<Case>& cases) {
       [](const Case& c) {
         return std::vector<double>{1.0, std::log(c.predicted.time_s)};
       },
+      [](const Case&) { return std::size_t{0}; },
       // Nothing is held of the constant; time goes at most with path over feed, and not at all where a tool
       // never reaches its feed. Noise: as `tune::correct_time`, of its expectation alone.
       {.prior = {{}, {0.5, 0.5}}, .noise = 0.05, .between = 0.025});
@@ -174,6 +177,7 @@ std::vector<Left> bores_of(const std::vector<Case>& cases) {
         const double slender = c.asked.stick_out_mm / c.asked.cutter_diameter_mm / kSlender;
         return std::vector<double>{1.0, c.bound.fz_mm * c.asked.teeth * slender * slender * slender};
       },
+      [](const Case& c) { return tune::slenderness_of(c.asked.stick_out_mm / c.asked.cutter_diameter_mm); },
       {.noise = 0.02, .between = 0.01});
 }
 
@@ -194,9 +198,8 @@ void tell_times(const std::vector<Left>& times, Comparison& out) {
   Table data{{"part", "untuned", "predicted", "low", "high", "measured"}, {}};
   for (const Left& l : times) {
     data.rows.push_back({l.c->from.part, fixed(std::exp(l.untuned), 3), fixed(std::exp(l.predicted), 3),
-                         fixed(std::exp(l.predicted - kNinety * l.std_dev), 3),
-                         fixed(std::exp(l.predicted + kNinety * l.std_dev), 3),
-                         fixed(std::exp(l.observed), 3)});
+                         fixed(std::exp(l.predicted - l.half_90), 3),
+                         fixed(std::exp(l.predicted + l.half_90), 3), fixed(std::exp(l.observed), 3)});
   }
   out.data.emplace_back("plates_times.dat", columns(data));
 }
@@ -219,7 +222,7 @@ void tell_bores(const std::vector<Left>& bores, Comparison& out) {
                                                           : key(a) < key(b);
   });
   for (const Left& l : sorted) {
-    const double low = l.predicted - kNinety * l.std_dev, high = l.predicted + kNinety * l.std_dev;
+    const double low = l.predicted - l.half_90, high = l.predicted + l.half_90;
     each.rows.push_back({l.c->from.part, l.c->from.workingstep, fixed(l.c->asked.stick_out_mm, 1),
                          fixed(l.c->bound.fz_mm * l.c->asked.teeth, 3), fixed(l.observed, 3),
                          fixed(l.predicted, 3), fixed(low, 3) + " to " + fixed(high, 3),

@@ -133,7 +133,7 @@ Comparison wear(const std::string& corpus) {
                    {"the same against lives between the two readings around the limit",
                     fixed(spread_of(ahead_of_readings, std::log(1.5)).rms, 3)},
                    {"within the stated interval of 90 %, when left out",
-                    fixed(100.0 * tune::coverage(left_out, 1.6449), 0) + " %"},
+                    fixed(100.0 * tune::coverage_90(left_out), 0) + " %"},
                    {"predicted within a factor of 1.5 when left out",
                     std::to_string(s.within) + " of " + std::to_string(s.n)}}};
   out.headline = "rms of ln(predicted/measured) " + fixed(s.rms, 2) + ", each case left out in turn; " +

@@ -52,14 +52,44 @@ void to_table_terms(std::vector<Evidence>& near, const optimise::CutQuestion& q,
   }
 }
 
-Result<std::vector<Evidence>> evidence_of(const PlanSoFar& p, const StepDraft& step,
-                                          const model::FeatureShape& shape, const optimise::CutQuestion& q,
-                                          double table_fz_mm) {
-  auto near = casebase::evidence_near(
-      *p.wishes.cases,
-      casebase::question_of(p.plan, of_step(p.plan.model, step), step.cutter, casebase::sizes_of(shape)));
-  if (near) to_table_terms(*near, q, table_fz_mm);
-  return near;
+/// The near cases, and each as evidence at the table's terms.
+struct Near {
+  casebase::Question question;
+  std::vector<casebase::Neighbour> cases;
+  std::vector<Evidence> told;
+};
+
+Result<Near> near_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& shape,
+                     const optimise::CutQuestion& q, double table_fz_mm) {
+  Near out;
+  out.question =
+      casebase::question_of(p.plan, of_step(p.plan.model, step), step.cutter, casebase::sizes_of(shape));
+  auto cases = casebase::cases_near(*p.wishes.cases, out.question);
+  if (!cases) return tl::unexpected(cases.error());
+  out.cases = *std::move(cases);
+  out.told = casebase::evidence_of(out.cases, out.question);
+  to_table_terms(out.told, q, table_fz_mm);
+  return out;
+}
+
+/// Starts from tuned values where there are some that are faster and likely enough to go well.
+void take_proven(FromCases& out, const Near& near, const Values& table, double least_fz_mm) {
+  Advice& a = out.advice;
+  if (!a.leads || a.lowered) return;
+  const auto tuned = casebase::tune::proven_start(near.cases, near.told, near.question, table, a.start);
+  if (!tuned) return;
+  Values start = a.start;
+  start.vc_m_min = tuned->vc_m_min;
+  start.fz_mm = std::max(tuned->fz_mm, least_fz_mm);
+  const auto feed_of = [&](double fz_mm) {
+    return casebase::tune::Setting{0.0, std::log(fz_mm / table.fz_mm)};
+  };
+  if (!same_setting(feed_of(start.fz_mm), feed_of(tuned->fz_mm))) return;  // a chip that nobody cut so fast
+  const double success = casebase::success_of(near.told, start);
+  if (success < casebase::kLeastSuccess) return;
+  a.start = start;
+  a.success = success;
+  out.proven = tuned;
 }
 
 }  // namespace
@@ -74,9 +104,10 @@ std::optional<FromCases> start_from_cases(const PlanSoFar& p, const StepDraft& s
   const Values table{q.vc_start_m_min, q.fz_start_mm, q.ap_mm.value_or(0.0), q.ae_mm.value_or(0.0)};
   // Where a mill's feed follows its sections no case tells the largest chip of its path: the table's stands.
   const double least_fz_mm = mills(q) ? table.fz_mm : 0.0;
-  auto near = evidence_of(p, step, shape, q, table.fz_mm);
+  const auto near = near_of(p, step, shape, q, table.fz_mm);
   if (!near) out.why_unasked = near.error().message;
-  out.advice = casebase::advise(near ? *std::move(near) : std::vector<Evidence>{}, table, least_fz_mm);
+  out.advice = casebase::advise(near ? near->told : std::vector<Evidence>{}, table, least_fz_mm);
+  if (near) take_proven(out, *near, table, least_fz_mm);
   if (!out.bind()) return out;
   Values& start = out.advice.start;
   if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)
@@ -106,9 +137,9 @@ std::optional<Advice> judged_by_cases(const PlanSoFar& p, const StepDraft& step,
   if (!(d > 0.0) || !(a.n_rpm > 0.0)) return std::nullopt;
   const Values cut{std::numbers::pi * d * a.n_rpm / 1000.0, a.feed_mm_min / (a.n_rpm * teeth), a.ap_mm,
                    a.ae_mm};
-  auto near = evidence_of(p, step, shape, q, q.fz_start_mm);
+  auto near = near_of(p, step, shape, q, q.fz_start_mm);
   if (!near) return std::nullopt;
-  Advice out = casebase::advise(*std::move(near), at_table_terms(cut, q));
+  Advice out = casebase::advise(std::move(near->told), at_table_terms(cut, q));
   if (!out.any()) return std::nullopt;
   return out;
 }
@@ -116,7 +147,15 @@ std::optional<Advice> judged_by_cases(const PlanSoFar& p, const StepDraft& step,
 model::Reason reason_of(const FromCases& from) {
   const casebase::Advice& a = from.advice;
   std::string text;
-  if (a.leads) {
+  if (from.proven) {
+    const casebase::tune::ProvenStart& t = *from.proven;
+    text = "starts from tuned values, proven by " + counted(t.repeats.good, "good part", "good parts") +
+           " on " + counted(t.repeats.edges, "edge", "edges") + ": " +
+           words_of({t.vc_m_min, t.fz_mm, 0.0, 0.0}) + ", " + trimmed(100.0 * t.probability, 1) +
+           " % of parts expected beyond a limit; the middle of the cuts "
+           "that went well is " +
+           words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
+  } else if (a.leads) {
     text = "starts from the middle of " + std::string(to_text(a.origin)) +
            " cuts that went well: " + words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
     if (a.held_back)

@@ -6,6 +6,7 @@
 
 #include "casebase/planned.h"
 #include "casebase/recall/advice.h"
+#include "casebase/tune/start.h"
 #include "planner/making/draft/draft.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/making/step/plan_so_far.h"
@@ -20,15 +21,18 @@ namespace capstan::step {
 struct FromCases {
   casebase::Advice advice;
   double table_vc_m_min = 0.0, table_fz_mm = 0.0;
-  double table_ap_most_mm = 0.0;  ///< CutQuestion::ap_most_mm before
-  std::string why_unasked;        ///< why the base could not be asked; empty: it was
+  double table_ap_most_mm = 0.0;                      ///< CutQuestion::ap_most_mm before
+  std::string why_unasked;                            ///< why the base could not be asked; empty: it was
+  std::optional<casebase::tune::ProvenStart> proven;  ///< tuned values; `advice.start` is then theirs
 
   /// Whether the cut starts from them: from good ones, or below failed ones.
   [[nodiscard]] bool bind() const { return advice.leads || advice.lowered; }
 };
 
 /// Lets near cases say where speed and feed start from and how deep the cut may be; both are upper bounds,
-/// too, and every limit of the mechanics still holds. Nothing where there is no case base.
+/// too, and every limit of the mechanics still holds. Nothing where there is no case base. A faster setting
+/// that repeats have proven (casebase/tune/start.h) goes before the middle of the good cuts, where no failed
+/// cut lowers the start and it is as likely to go well as a start must be.
 /// Cases are compared at the table's terms: the feed of a narrow cut by its largest chip, the speed of a
 /// short arc of contact by that of a long one, that of a deep slot by that of a shallow one, that of a cutter
 /// in with its tip by the diameter that cuts. Good cases raise a mill's chip, and never lower it: what is

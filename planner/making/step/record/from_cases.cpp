@@ -117,6 +117,7 @@ void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, co
     job.warn("CASE-INVALID", step_text(plan, step) + made.cases->why_unasked + "; the table holds");
   if (made.cases && made.cases->bind()) {
     ++told.leaning;
+    told.proven += made.cases->proven ? 1 : 0;
     tell_without(plan, step, made, asked, cuts, told);
   } else if (made.cases && made.cases->advice.any()) {
     ++told.weighed;
@@ -160,6 +161,7 @@ void tell_all_cases(const CasesTold& told, Job& job) {
   std::string text = std::to_string(told.leaning) + " of " +
                      counted(static_cast<std::size_t>(all), "step starts", "steps start") +
                      " from near cases";
+  if (told.proven > 0) text += ", " + std::to_string(told.proven) + " of them from tuned values";
   if (told.lowered > 0) text += ", " + std::to_string(told.lowered) + " of them below failed ones";
   if (!told.behind.empty())
     text += "; " + counted(told.behind.size(), "chain or cutter", "chains or cutters") +

@@ -15,6 +15,7 @@ namespace capstan::step {
 /// What cases came to in a plan, for one line at its end.
 struct CasesTold {
   int leaning = 0;  ///< steps that start from near cases
+  int proven = 0;   ///< of these, from tuned values
   int lowered = 0;  ///< of these, below failed ones
   int weighed = 0;  ///< steps near which there are cases that change nothing
   int none = 0;     ///< steps without a case near

@@ -60,6 +60,20 @@ TEST(Import, TimeSpeedAndFeedOfAStepAreThoseOfTheLog) {
   EXPECT_EQ(cases->back().observed.verdict, Verdict::kUnknown);
 }
 
+TEST(Import, AToolsSerialNumberNamesTheEdgeOfItsSteps) {
+  Job job;
+  // Tool 1 says its number a moment after it was loaded; tool 2 never does.
+  const auto cases = import(
+      "time_s,tool,tool_serial,feed_mm_min,spindle_rpm\n"
+      "0,1,,600,3000\n1,1,DR-0815,600,3000\n10,2,,300,3000\n18,2,,300,3000\n25,2,,300,3000\n32,2,,0,3000\n",
+      LogFormat::kCsv, {}, job);
+  ASSERT_TRUE(cases) << to_text(cases.error());
+  ASSERT_EQ(cases->size(), 2U);
+  EXPECT_EQ(cases->front().from.tool_instance, "DR-0815");
+  EXPECT_DOUBLE_EQ(cases->front().observed.time_s->value, 10.0);
+  EXPECT_EQ(cases->back().from.tool_instance, "");
+}
+
 TEST(Import, StepInWhichALimitIsExceededIsABadCase) {
   Job job;
   const auto cases = import(kLog, LogFormat::kCsv, {.triggers = {*trigger_of("lag_mm>0.05")}}, job);

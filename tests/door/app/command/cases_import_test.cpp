@@ -72,6 +72,28 @@ TEST_F(CasesImport, ReportsByStepToolAndFeatureWithAPicture) {
   EXPECT_THAT(run("cases report base.db --json").out, HasSubstr("\"workingsteps\": ["));
 }
 
+TEST_F(CasesImport, ReportsWhatIsLeftOfAnEdgeOverItsCuttingTime) {
+  // An edge that is expected to live for a minute, and cuts for 20 s in each of two parts.
+  std::string sheet = kSheet;
+  sheet.replace(sheet.find("path_length_mm\n"), 15, "path_length_mm,predicted_tool_life_min\n");
+  sheet.replace(sheet.find("2,100\n"), 6, "2,100,\n");
+  sheet.replace(sheet.find("2,200\n"), 6, "2,200,1\n");
+  put("sheet.csv", sheet);
+  put("log.csv",
+      "time_s,tool,tool_serial,feed_mm_min,spindle_rpm\n"
+      "0,1,DR-1,600,3000\n10,2,EM-2,0,3000\n12,2,EM-2,300,3000\n22,2,EM-2,300,3000\n32,2,EM-2,0,3000\n");
+  for (const char* part : {"7", "8"}) {
+    const Ran r = run("cases import base.db csv log.csv --plan sheet.csv --part " + std::string(part));
+    ASSERT_EQ(r.code, 0) << r.err;
+  }
+  const Ran told = run("cases report base.db");
+  EXPECT_THAT(told.out, ::testing::ContainsRegex("EM-2 +carbide/endmill D4 +2 +0\\.7 +67 % .* near its end"));
+  EXPECT_THAT(told.out, ::testing::ContainsRegex("DR-1 .* 2 .2 not counted. .* life not known"));
+  EXPECT_THAT(run("cases report base.db --json").out,
+              ::testing::ContainsRegex(
+                  "\"edge\": \"EM-2\".*\"history\": ..\"cut_min\": 0\\.33.*\"cut_min\": 0\\.66"));
+}
+
 TEST_F(CasesImport, JoinsALogWithAPlanByTheMarkersOfItsProgram) {
   const Ran planned =
       run("plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o plan.json -o plan.ngc");

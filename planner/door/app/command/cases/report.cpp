@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "casebase/report/picture.h"
+#include "casebase/tune/edges.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/file.h"
@@ -16,6 +17,7 @@ namespace capstan::app {
 namespace {
 
 namespace report = casebase::report;
+namespace tune = casebase::tune;
 using service::table;
 using Rows = std::vector<std::vector<std::string>>;
 
@@ -47,6 +49,58 @@ std::string partings_text(const std::vector<report::Group>& steps) {
     }
   }
   return rows.size() == 1 ? std::string("no case was both predicted and observed\n") : table(rows, "");
+}
+
+constexpr double kZ90 = 1.6449;  // of the normal distribution, both sides
+
+std::string state_of(const tune::EdgeUse& e) {
+  if (e.broken) return "broken";
+  if (!(e.used > 0.0)) return "life not known";
+  if (e.worn_out() > 0.5) return "worn out";
+  return e.worn_out() >= tune::kNearItsEnd ? "near its end" : "-";
+}
+
+// Edges and what is left of them: expected, and 90 of 100 edges within.
+std::string edges_text(const std::vector<tune::EdgeUse>& edges) {
+  if (edges.empty()) return {};
+  Rows rows = {{"edge", "tool", "cuts", "cut min", "of its life", "worn out", "left min", "of 100 edges 90",
+                "VB mm", "so"}};
+  for (const tune::EdgeUse& e : edges) {
+    const bool known = e.used > 0.0;
+    std::string wear = "-";
+    for (const tune::EdgePoint& p : e.history) {
+      if (p.wear_mm) wear = trimmed(*p.wear_mm, 3);
+    }
+    rows.push_back({e.edge, e.tool + " D" + trimmed(e.diameter_mm, 3),
+                    std::to_string(e.history.size()) +
+                        (e.unknown > 0 ? " (" + std::to_string(e.unknown) + " not counted)" : ""),
+                    trimmed(e.cut_min, 1), known ? trimmed(100.0 * e.used, 0) + " %" : "-",
+                    known ? trimmed(100.0 * e.worn_out(), 0) + " %" : "-",
+                    known ? trimmed(e.left_min(), 1) : "-",
+                    known ? trimmed(e.left_min(-kZ90), 1) + " to " + trimmed(e.left_min(kZ90), 1) : "-", wear,
+                    state_of(e)});
+  }
+  return table(rows, "") + "\n";
+}
+
+std::string edges_json(const std::vector<tune::EdgeUse>& edges) {
+  std::string out = "[";
+  for (const tune::EdgeUse& e : edges) {
+    out += std::string(&e == edges.data() ? "\n" : ",\n") + "{\"edge\": " + json_text(e.edge) +
+           ", \"tool\": " + json_text(e.tool) + ", \"diameter_mm\": " + shortest(e.diameter_mm) +
+           ", \"material\": " + json_text(e.material) + ", \"cut_min\": " + shortest(e.cut_min) +
+           ", \"life_used\": " + shortest(e.used) + ", \"ln_std_dev\": " + shortest(e.ln_std_dev) +
+           ", \"worn_out\": " + shortest(e.worn_out()) + ", \"left_min\": " + shortest(e.left_min()) +
+           ", \"left_90_min\": [" + shortest(e.left_min(-kZ90)) + ", " + shortest(e.left_min(kZ90)) +
+           "], \"not_counted\": " + std::to_string(e.unknown) + ", \"history\": [";
+    for (const tune::EdgePoint& p : e.history) {
+      out += std::string(&p == e.history.data() ? "" : ", ") + "{\"cut_min\": " + shortest(p.cut_min) +
+             ", \"life_used\": " + shortest(p.used) +
+             (p.wear_mm ? ", \"wear_mm\": " + shortest(*p.wear_mm) : std::string()) + "}";
+    }
+    out += "]}";
+  }
+  return out + "]";
 }
 
 std::string json_number(const report::Spread& s) {
@@ -90,6 +144,7 @@ int run_cases_report(Session& s) {
   const auto steps = report::grouped(cases, report::By::kWorkingstep);
   const auto tools = report::grouped(cases, report::By::kTool);
   const auto features = report::grouped(cases, report::By::kFeature);
+  const auto edges = tune::edges_of(cases);
   for (const std::string& file : s.options.outputs) {
     const std::string title =
         "What was observed over what was predicted: " + counted(cases.size(), "case", "cases") + " of " +
@@ -101,13 +156,13 @@ int run_cases_report(Session& s) {
               counted(base->size(), "case", "cases");
   if (s.options.json) {
     return print("{\"workingsteps\": " + groups_json(steps) + ",\n\"tools\": " + groups_json(tools) +
-                 ",\n\"features\": " + groups_json(features) + "}\n")
+                 ",\n\"features\": " + groups_json(features) + ",\n\"edges\": " + edges_json(edges) + "}\n")
                ? kDone
                : kImpossible;
   }
   if (cases.empty()) return print("no observed case\n") ? kDone : kImpossible;
   return print(tables_of("workingstep", steps) + tables_of("tool", tools) + tables_of("feature", features) +
-               partings_text(steps))
+               edges_text(edges) + partings_text(steps))
              ? kDone
              : kImpossible;
 }
