@@ -8,6 +8,7 @@
 #include "planner/door/pipeline/checked.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/stages.h"
+#include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
@@ -181,15 +182,66 @@ void tell_needed(model::Plan& plan, const std::vector<model::NeededTool>& needed
               .hint = "the plan holds them as entries for a list of tools (--tools): capstan explain"});
 }
 
+/// How many of the drafts a window counts as cut: those that have a result.
+std::size_t cut_before(const Asked& asked, const Drafts& drafts) {
+  return asked.policy.window ? std::min(asked.policy.window->first, drafts.steps.size()) : 0;
+}
+
+/// Drops the steps after the window. Of those before it nothing is open.
+Status keep_window(const model::Plan& plan, Drafts& drafts, const Asked& asked) {
+  const Window window = *asked.policy.window;
+  for (const StepDraft& s : drafts.steps) {
+    if (s.proposed)
+      return fail({.code = std::string(kOperationsOpen),
+                   .message = "operations of '" + draft::name_of(plan.model, s) + "' are not chosen yet",
+                   .file = plan.file_name,
+                   .hint = "plan the operations before single steps are bound"});
+  }
+  std::vector<StepDraft>& steps = drafts.steps;
+  if (window.count == 0 || window.first >= steps.size() || asked.recorded.steps.size() < window.first)
+    return fail({.code = "PIP-NEXT",
+                 .message = "there is no workingstep " + std::to_string(window.first + 1) +
+                            " to bind: the plan has " + counted(steps.size(), "step", "steps") + ", " +
+                            std::to_string(asked.recorded.steps.size()) + " of them bound",
+                 .file = plan.file_name,
+                 .expected = "a step of the plan, all before which are bound"});
+  for (std::size_t i = 0; i < window.first; ++i) {
+    const model::StepResult& cut = asked.recorded.steps[i];
+    if (cut.step != steps[i].step || cut.path == nullptr)
+      return fail({.code = "PIP-NEXT",
+                   .message = "step " + std::to_string(i + 1) + " '" + draft::name_of(plan.model, steps[i]) +
+                              "' has no path, so that what it left is not known",
+                   .file = plan.file_name,
+                   .hint = "bring the plan that the steps before were bound in"});
+    steps[i].open_tool = steps[i].open_technology = false;
+  }
+  if (steps.size() - window.first > window.count) steps.resize(window.first + window.count);
+  return {};
+}
+
+/// What is cut was cut with the cutter that the plan had then.
+void take_cut_cutters(Drafts& drafts, const Asked& asked) {
+  for (std::size_t i = 0; i < cut_before(asked, drafts); ++i) {
+    const std::string& id = asked.recorded.steps[i].cutter_id;
+    for (const model::Cutter& c : asked.recorded.cutters)
+      if (c.id == id) drafts.steps[i].cutter = c;
+  }
+}
+
 /// The stages of one try that choose steps, tools and order; whether all of them came to their end.
 Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& required, const Asked& asked,
                           Tries& tries, Job& job) {
   poll();
+  const auto window = asked.policy.window;
   auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
   tries.need(proposed.needed);
   if (tries.learn(std::move(learned))) return false;
+  if (window) {
+    if (auto ok = keep_window(plan, proposed, asked); !ok) return tl::unexpected(ok.error());
+  }
   poll();
   drafts = select_open_tools(plan, std::move(proposed), required, asked, job);
+  if (window) take_cut_cutters(drafts, asked);
   tries.need(drafts.needed);
   if (tries.learn(leave_what_rests(plan, drafts))) return false;
   poll();
@@ -243,7 +295,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   const step::PlanSoFar so_far{plan, drafts.setups, drafts.steps, piece, required->demands, recorded, wishes};
   if (policy.bind == Bind::kAll) {
     given::carry_tools(plan.model, drafts.steps);
-    auto made = make_paths(plan, drafts.steps, so_far, drafts.used, tries, options_of(inputs), job);
+    auto made = make_paths(plan, drafts.steps, so_far, drafts.used, cut_before(asked, drafts), tries,
+                           options_of(inputs), job);
     if (!made) return tl::unexpected(made.error());
     if (tries.learn(*std::move(made))) return again;
     given::join_paths(plan, drafts.setups);

@@ -30,6 +30,10 @@ struct Listed {
                                         const std::map<model::AnyRef, std::string>& unreadable,
                                         double grown_mm, Job& job);
 
+/// What a plan's workplan executes, in order, as `list_steps` lists it; nothing is said of what is not
+/// understood.
+[[nodiscard]] std::vector<model::AnyRef> steps_in_order(const model::Plan& plan);
+
 /// The security planes lie above the raw piece, every feature that is cut and what holds the piece; a given
 /// one that does not is raised (PIP-SECPLANE), in `setups` and in the nouns.
 void raise_security_planes(model::Plan& plan, std::vector<draft::SetupDraft>& setups,

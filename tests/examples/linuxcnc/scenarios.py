@@ -83,6 +83,12 @@ o2 endwhile
 '''
 
 
+def forget():
+    """What an adapter before knew of a part."""
+    for file in ('journal.jsonl', 'so_far.json'):
+        pathlib.Path(file).unlink(missing_ok=True)
+
+
 def journal():
     file = pathlib.Path('journal.jsonl')
     return file.read_text() if file.exists() else ''
@@ -163,7 +169,7 @@ class Shop:
         subprocess.run(['halcmd', 'sets', 'mark', str(self.mark)], check=True, stdin=subprocess.DEVNULL)
 
     def scenario(self, name, table=MILL_8 + MILL_10, program=None, ask=None, during=None, until=None, adapter=(), **more):
-        pathlib.Path('journal.jsonl').unlink(missing_ok=True)
+        forget()
         self.ready(table)
         self.new_mark()
         process = self.adapter(*adapter, **more)
@@ -192,7 +198,7 @@ def kill_who_asks():
 
 def restart(shop):
     """The power goes while the second workingstep is cut; another adapter goes on from the journal."""
-    pathlib.Path('journal.jsonl').unlink(missing_ok=True)
+    forget()
     shop.ready(MILL_8 + MILL_10)
     shop.new_mark()
     process = shop.adapter()
