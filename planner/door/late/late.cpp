@@ -244,25 +244,25 @@ void finish(LateOutcome& out, const model::Plan& brought, const Case& c,
   tell_late(out, c.policy, c.began, job);
 }
 
-/// A plan whose operations are all chosen: where some are open, they are planned for the whole part, with the
-/// tools that are loaded.
-Result<model::Plan> with_operations(model::Plan plan, const pipeline::Inputs& inputs,
-                                    const LatePolicy& policy, const std::vector<model::AnyRef>& steps,
-                                    Job& job) {
-  if (!operations_open(plan, steps)) return plan;
+/// The operations of a plan, chosen for the whole part with the tools that are loaded: those that are open,
+/// or all.
+Result<model::Plan> with_operations(const model::Plan& plan, const pipeline::Inputs& inputs,
+                                    const LatePolicy& policy, pipeline::Reopen reopen, Job& job) {
   if (!policy.may.has(Choice::kOrder))
     return fail(
         {.code = "LATE-POLICY",
-         .message = "the plan has no operations for all of its features, and this control may not decide "
-                    "order (it may: " +
+         .message = "operations would have to be chosen, and this control may not decide order (it may: " +
                     policy.may.text() + ")",
          .file = plan.file_name,
          .hint = "plan the operations first (capstan plan --bind strategy), or allow it (may)"});
   pipeline::Policy how;
   how.bind = pipeline::Bind::kStrategy;
   how.only_loaded_cutters = true;
+  how.reopen = reopen;
   const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
-  auto out = pipeline::bind(std::move(plan), inputs, how, job);
+  auto out = stoppable(
+      job, [&] { return pipeline::bind(plan, inputs, how, job); },
+      [&]() -> Result<model::Plan> { return tl::unexpected(pipeline::stopped_planning(plan)); });
   job.evaluation_budget = budget;
   return out;
 }
@@ -303,10 +303,9 @@ void improve_in_time(LateOutcome& out, const Case& c, pipeline::Reopen reopen, D
       nothing_more);
 }
 
-}  // namespace
-
-Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
-  const TimePoint began = policy.began.value_or(job.now());
+/// `bind`; `why`: what was decided of the plan before.
+Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
+                              TimePoint began, std::vector<std::string> why, Job& job) {
   const std::vector<model::Cutter> magazine = inputs.library;
   // The improvement repeats most of the fallback.
   if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
@@ -315,18 +314,19 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   const std::size_t bound = policy.next && policy.next->from ? *policy.next->from - 1 : plan.steps.size();
   const auto ways = take_branches(plan, policy.measured, magazine, policy.may, bound);
   if (!ways) return tl::unexpected(ways.error());
+  why.insert(why.end(), ways->begin(), ways->end());
   // Results of steps behind a way that was taken are of other places in the workplan.
   if (!ways->empty() && plan.steps.size() > bound) plan.steps.resize(bound);
   std::optional<pipeline::Window> window;
   std::set<model::AnyRef> operations;
   if (policy.next) {
     std::vector<model::AnyRef> steps = given::steps_in_order(plan);
-    auto chosen = stoppable(
-        job, [&] { return with_operations(plan, inputs, policy, steps, job); },
-        [&]() -> Result<model::Plan> { return tl::unexpected(pipeline::stopped_planning(plan)); });
-    if (!chosen) return tl::unexpected(as_stopped(chosen.error(), policy, began, job));
-    plan = *std::move(chosen);
-    steps = given::steps_in_order(plan);
+    if (operations_open(plan, steps)) {
+      auto chosen = with_operations(plan, inputs, policy, pipeline::Reopen::kNothing, job);
+      if (!chosen) return tl::unexpected(as_stopped(chosen.error(), policy, began, job));
+      plan = *std::move(chosen);
+      steps = given::steps_in_order(plan);
+    }
     auto meant = window_of(plan, *policy.next, steps);
     if (!meant) return tl::unexpected(meant.error());
     window = *meant;
@@ -335,6 +335,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   const model::Plan brought = plan;
   auto reopened = given::match_loaded(plan, inputs.library, job, window ? &operations : nullptr);
   if (!reopened) return tl::unexpected(reopened.error());
+  why.insert(why.end(), reopened->begin(), reopened->end());
   const Case c{plan,
                inputs,
                policy,
@@ -361,24 +362,29 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
     return stoppable(
         job, [&] { return still_holds(c, checking, job); }, [] { return std::optional<LateOutcome>(); });
   };
-  const auto why = [&] {
-    std::vector<std::string> out = *ways;
-    out.insert(out.end(), reopened->begin(), reopened->end());
-    return out;
-  };
   if (auto holds = as_brought()) {
-    finish(*holds, brought, c, why(), job);
+    finish(*holds, brought, c, why, job);
     return *std::move(holds);
   }
   auto out = fallen_back();
   const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
-  if (nothing_fits && !window && !reopened->empty() && planning_chose_all(plan)) {
+  const bool nothing_cut = !window || window->first == 0;
+  if (nothing_fits && nothing_cut && !reopened->empty() && planning_chose_all(plan)) {
+    const std::string anew_for = "with the loaded tools alone the plan's operations cannot be made (" +
+                                 out.error().message + "); all of them were chosen anew";
     auto said = job.take_diagnostics();
     reopen = pipeline::Reopen::kOperations;
+    if (window) {
+      auto chosen = with_operations(plan, inputs, policy, reopen, job);
+      if (!chosen) return tl::unexpected(as_stopped(chosen.error(), policy, began, job));
+      // Nothing of it names a tool that is missing, so that this comes once.
+      why.push_back(anew_for);
+      inputs.library = magazine;
+      return bind_case(*std::move(chosen), inputs, policy, began, std::move(why), job);
+    }
     auto anew = fallen_back();
     if (anew) {
-      reopened->push_back("with the loaded tools alone the plan's operations cannot be made (" +
-                          out.error().message + "); all of them were chosen anew");
+      why.push_back(anew_for);
       out = std::move(anew);
     } else {
       (void)job.take_diagnostics();
@@ -389,8 +395,15 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   }
   if (!out) return out;
   improve_in_time(*out, c, reopen, checking, job);
-  finish(*out, brought, c, why(), job);
+  finish(*out, brought, c, why, job);
   return out;
+}
+
+}  // namespace
+
+Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
+  const TimePoint began = policy.began.value_or(job.now());
+  return bind_case(std::move(plan), std::move(inputs), policy, began, {}, job);
 }
 
 }  // namespace capstan::late

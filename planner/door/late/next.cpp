@@ -104,6 +104,9 @@ Plan joined(const Plan& brought, const Plan& bound, const pipeline::Window& wind
   out.steps.insert(out.steps.end(), bound.steps.begin(), bound.steps.end());
   out.steps.insert(out.steps.end(), brought.steps.begin() + static_cast<std::ptrdiff_t>(later),
                    brought.steps.end());
+  // Set-ups that the steps bound so far have not reached.
+  for (std::size_t i = out.setups.size(); i < brought.setups.size(); ++i)
+    out.setups.push_back(brought.setups[i]);
   std::map<std::string, std::string> as_cut;  // names of cutters that are others now
   for (std::size_t i = 0; i < out.steps.size(); ++i) {
     StepResult& s = out.steps[i];

@@ -18,6 +18,7 @@
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/reopen_all.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/range/positions.h"
@@ -127,6 +128,7 @@ std::map<AnyRef, MadeStep> made_steps(const step::PlanSoFar& p) {
 /// Leaves open what the policy does not want bound: feeds and paths always, tools too when only operations
 /// are wanted. A plan written like this is closed by a later bind.
 void leave_open(model::Plan& plan, const std::vector<StepDraft>& steps, Bind bind) {
+  std::vector<model::DecisionKey> open;
   for (const StepDraft& s : steps) {
     auto* op = plan.model.get<model::MachiningOperation>(s.operation);
     if (op == nullptr) continue;
@@ -136,15 +138,16 @@ void leave_open(model::Plan& plan, const std::vector<StepDraft>& steps, Bind bin
         t->feedrate.reset();
         t->spindle.reset();
       }
-      if (technology.set() && !s.keep_feed) plan.ledger.reopen({technology, "feedrate"});
-      if (technology.set() && !s.keep_speed) plan.ledger.reopen({technology, "spindle"});
+      if (technology.set() && !s.keep_feed) open.push_back({technology, "feedrate"});
+      if (technology.set() && !s.keep_speed) open.push_back({technology, "spindle"});
     }
     if (bind == Bind::kStrategy && s.proposed) {
       const auto wanted = tooling::nouns_from_requirement(plan.model, s.proposal.tool);
       plan.model.get<model::MachiningOperation>(s.operation)->its_tool = wanted;
-      plan.ledger.reopen({s.operation, "its_tool"});
+      open.push_back({s.operation, "its_tool"});
     }
   }
+  model::reopen_all(plan.ledger, open);
 }
 
 /// By feature and workingstep: what its file states wrongly.
@@ -187,27 +190,19 @@ std::size_t cut_before(const Asked& asked, const Drafts& drafts) {
   return asked.policy.window ? std::min(asked.policy.window->first, drafts.steps.size()) : 0;
 }
 
-/// Drops the steps after the window. Of those before it nothing is open.
-Status keep_window(const model::Plan& plan, Drafts& drafts, const Asked& asked) {
+/// Of the steps before the window nothing is open: they are cut.
+Status close_cut(const model::Plan& plan, Drafts& drafts, const Asked& asked) {
   const Window window = *asked.policy.window;
-  for (const StepDraft& s : drafts.steps) {
-    if (s.proposed)
-      return fail({.code = std::string(kOperationsOpen),
-                   .message = "operations of '" + draft::name_of(plan.model, s) + "' are not chosen yet",
-                   .file = plan.file_name,
-                   .hint = "plan the operations before single steps are bound"});
-  }
   std::vector<StepDraft>& steps = drafts.steps;
-  if (window.count == 0 || window.first >= steps.size() || asked.recorded.steps.size() < window.first)
+  if (steps.size() != window.first + window.count)
     return fail({.code = "PIP-NEXT",
-                 .message = "there is no workingstep " + std::to_string(window.first + 1) +
-                            " to bind: the plan has " + counted(steps.size(), "step", "steps") + ", " +
-                            std::to_string(asked.recorded.steps.size()) + " of them bound",
+                 .message = "of the first " + counted(window.first + window.count, "step", "steps") +
+                            " only " + std::to_string(steps.size()) + " have an operation",
                  .file = plan.file_name,
-                 .expected = "a step of the plan, all before which are bound"});
+                 .hint = "plan the operations before single steps are bound"});
   for (std::size_t i = 0; i < window.first; ++i) {
-    const model::StepResult& cut = asked.recorded.steps[i];
-    if (cut.step != steps[i].step || cut.path == nullptr)
+    const bool there = i < asked.recorded.steps.size();
+    if (!there || asked.recorded.steps[i].step != steps[i].step || asked.recorded.steps[i].path == nullptr)
       return fail({.code = "PIP-NEXT",
                    .message = "step " + std::to_string(i + 1) + " '" + draft::name_of(plan.model, steps[i]) +
                               "' has no path, so that what it left is not known",
@@ -215,7 +210,6 @@ Status keep_window(const model::Plan& plan, Drafts& drafts, const Asked& asked) 
                    .hint = "bring the plan that the steps before were bound in"});
     steps[i].open_tool = steps[i].open_technology = false;
   }
-  if (steps.size() - window.first > window.count) steps.resize(window.first + window.count);
   return {};
 }
 
@@ -232,16 +226,17 @@ void take_cut_cutters(Drafts& drafts, const Asked& asked) {
 Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& required, const Asked& asked,
                           Tries& tries, Job& job) {
   poll();
-  const auto window = asked.policy.window;
-  auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
-  tries.need(proposed.needed);
-  if (tries.learn(std::move(learned))) return false;
-  if (window) {
-    if (auto ok = keep_window(plan, proposed, asked); !ok) return tl::unexpected(ok.error());
+  if (asked.policy.window) {
+    if (auto ok = close_cut(plan, drafts, asked); !ok) return tl::unexpected(ok.error());
+  } else {
+    auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
+    tries.need(proposed.needed);
+    if (tries.learn(std::move(learned))) return false;
+    drafts = std::move(proposed);
   }
   poll();
-  drafts = select_open_tools(plan, std::move(proposed), required, asked, job);
-  if (window) take_cut_cutters(drafts, asked);
+  drafts = select_open_tools(plan, std::move(drafts), required, asked, job);
+  if (asked.policy.window) take_cut_cutters(drafts, asked);
   tries.need(drafts.needed);
   if (tries.learn(leave_what_rests(plan, drafts))) return false;
   poll();
@@ -276,7 +271,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   const Asked asked{inputs, policy, tries.bans, recorded, not_made, *margin};
   piece::report_outside(plan, job);
   poll();
-  auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);
+  const std::size_t most = policy.window ? policy.window->first + policy.window->count : given::kAllSteps;
+  auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job, most);
   if (!listed) return tl::unexpected(listed.error());
   piece::keep_corner_rests(plan, corners, listed->steps);
   poll();

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "planner/ground/base/job.h"
@@ -89,14 +88,10 @@ struct Policy {
   Bind bind = Bind::kAll;
   /// Late binding: only cutters that are in the magazine (Cutter::pocket > 0) may be used.
   bool only_loaded_cutters = false;
-  /// Late binding: only these steps are bound, against the stock that the steps before them leave. The plan
-  /// that comes of it has the results of these steps alone.
+  /// Late binding: only these steps, whose operations are chosen, are bound, against the stock that the steps
+  /// before them leave. The plan that comes of it has the results of these steps alone.
   std::optional<Window> window = std::nullopt;
 };
-
-/// The code of the fault where a window is asked for and features have no operations yet: they are planned
-/// first (Bind::kStrategy).
-inline constexpr std::string_view kOperationsOpen = "PIP-NEXT-OPEN";
 
 /// Closes what is open in a plan: proposes operations, picks cutters, orders the steps, and for each step in
 /// order chooses depths, makes the path, measures it against the stock and schedules feed and speed.

@@ -445,10 +445,11 @@ void say_assumptions(const model::Plan& plan, const std::vector<StepDraft>& step
 }  // namespace
 
 Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRef, std::string>& unreadable,
-                          double grown_mm, Job& job) {
+                          double grown_mm, Job& job, std::size_t most) {
   Listed out;
   Walker walker(plan, unreadable, out, job);
   walker.walk();
+  if (out.steps.size() > most) out.steps.resize(most);
   plan.unplanned.insert(plan.unplanned.end(), walker.not_done().begin(), walker.not_done().end());
   if (out.setups.empty()) {
     SetupDraft s;

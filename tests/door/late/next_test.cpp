@@ -164,6 +164,29 @@ TEST(LateNext, AToolThatIsNotLoadedIsNotCalled) {
   }
 }
 
+TEST(LateNext, WhereNoLoadedToolFitsTheFirstStepTheOperationsAreChosenAnewForTheWholePart) {
+  const std::string narrower = "T1 P1 Z+80 D+8 ;8 mm carbide end mill, 3 flutes\n",
+                    wider = "T3 P3 Z+90 D+10 ;10 mm carbide end mill, 3 flutes\n";
+  Job job;
+  auto read = pipeline::read_plan(testing::slurp(kPocket), kPocket, job);
+  const auto early = pipeline::bind(*std::move(read), shop_of(narrower), {}, job);
+  ASSERT_TRUE(early) << to_text(early.error());
+  const auto bound = bind(*early, shop_of(wider), next(), job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_EQ(bound->part->cutters.front().pocket, 3);
+  EXPECT_THAT(bound->reopened.back(), ::testing::HasSubstr("chosen anew"));
+  Job second;
+  const auto then = bind(bound->plan, shop_of(wider), next(), second);
+  ASSERT_TRUE(then) << to_text(then.error());
+  EXPECT_EQ(then->first, 2U);
+  LatePolicy policy = next();
+  policy.may = *Decisions::parse("tools,feeds,depths,strategy");
+  Job third;
+  const auto refused = bind(*early, shop_of(wider), policy, third);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "LATE-POLICY");
+}
+
 TEST(LateNext, AStepThatIsNotThereOrFollowsOneWithoutAPathIsRefused) {
   const Open part = open(kPocket);
   const pipeline::Inputs in = shop_of(part.table);
@@ -209,8 +232,7 @@ TEST(LateInterface, BindsTheNextWorkingstepsOfThePlanThatItHas) {
   const std::string json = json::write_json(part.plan);
   capstan_late* s = capstan_late_open("generic_vmc", path.c_str());
   ASSERT_EQ(capstan_late_take(s, json.data(), json.size()), CAPSTAN_LATE_OK) << capstan_late_message(s);
-  ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 0, 1, 600'000), CAPSTAN_LATE_OK)
-      << capstan_late_message(s);
+  ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 0, 1, 600'000), CAPSTAN_LATE_OK) << capstan_late_message(s);
   const std::string first = capstan_late_output(s, CAPSTAN_LATE_LINUXCNC, nullptr);
   EXPECT_EQ(capstan_late_steps(s), 2U);
   ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 0, 1, 600'000), CAPSTAN_LATE_OK) << capstan_late_message(s);

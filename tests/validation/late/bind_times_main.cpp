@@ -174,6 +174,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   Measuring m;
+  std::cerr << std::unitbuf;
   const std::string bracket =
       capstan::testing::slurp(capstan::testing::source_dir() + "/examples/bracket.p21");
   const Early plate = early(capstan::testing::plate(22).text, pipeline::Bind::kAll);
