@@ -28,9 +28,16 @@ class Session {
   Code set(std::string_view name, const std::string& text);
   /// Opens the shop, so that the first `bind` need not.
   Code open();
+  /// Reads a plan, so that the first `bind_next`, without one, need not.
+  Code take(std::string plan);
   /// Binds a plan before the deadline (unset: that of the options, or none). After it the code is kLate,
   /// never kDone.
   Code bind(std::string plan, std::optional<std::chrono::milliseconds> deadline);
+  /// The same of so many workingsteps only, against the stock that those before leave (late/next.h). `from`:
+  /// the first of them, counted from 1; 0: the first of which something is open. An empty plan: the one that
+  /// the last bind gave, so that a part is bound step by step without being read again.
+  Code bind_next(std::string plan, std::size_t from, std::size_t count,
+                 std::optional<std::chrono::milliseconds> deadline);
   /// Asks the running `bind` to end; it then returns its checked fallback, or kImpossible. A later one is not
   /// affected.
   void stop();
@@ -43,8 +50,10 @@ class Session {
   const std::string* output(std::string_view format);
   /// What changed against the plan that was brought (Planned::changes); null without a plan.
   [[nodiscard]] const std::string* changes() const { return bound_ ? &bound_->changes : nullptr; }
-  /// Of the bound plan; 0 if there is none.
+  /// Of what was bound; 0 if nothing is.
   [[nodiscard]] double machining_s() const;
+  /// How many workingsteps the bound plan has, those that are still open among them; 0 without a plan.
+  [[nodiscard]] std::size_t steps() const;
 
   /// Code and diagnostics (lines of text) of the last call but `output`.
   [[nodiscard]] Code code() const { return code_; }
@@ -58,6 +67,7 @@ class Session {
   Code guarded(Body body);
   Code end(Code code, const std::string& line = {});
   Code opened(Job& job);
+  Code bind_as(std::string plan, Request request);
 
   /// A plan as it was read: the next bind of the same bytes need not read them again.
   struct Read {
@@ -65,7 +75,7 @@ class Session {
     model::Plan plan;
     std::vector<Diagnostic> said;
   };
-  [[nodiscard]] Outcome<const Read*> read(std::string plan, Job& job);
+  [[nodiscard]] Outcome<const model::Plan*> read(std::string plan, Job& job);
 
   Request request_;
   Job::Progress progress_;
@@ -75,6 +85,7 @@ class Session {
   std::optional<Read> read_;
   bool failed_ = false;  ///< the shop did not open, and no option was set since
   std::optional<Planned> bound_;
+  std::optional<model::Plan> last_;  ///< that `bind_next` goes on with
   std::map<std::string, std::string, std::less<>> outputs_;
   std::string message_;
   Code code_ = Code::kDone;

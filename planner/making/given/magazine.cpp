@@ -145,6 +145,19 @@ const Cutter* stating_material(const std::vector<Cutter>& library, const Cutter&
   return differ ? nullptr : found;
 }
 
+std::optional<std::string> missing_tool(const model::Plan& plan, AnyRef operation,
+                                        const std::vector<Cutter>& library) {
+  const auto* op = plan.model.get<model::MachiningOperation>(operation);
+  if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool) ||
+      tooling::is_requirement(plan.model, op->its_tool) || plan.ledger.is_open(operation, "its_tool"))
+    return std::nullopt;
+  Job silent;  // what is to be said of the tool is said when it is used
+  auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, silent, plan.cutters);
+  if (wanted) take_assumed(model::assumed_tool_materials(plan), *wanted);
+  if (!wanted || loaded_like(library, *wanted) != nullptr) return std::nullopt;
+  return wanted->id;
+}
+
 void take_length(const Cutter& loaded, Cutter& into) {
   if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
   if (!(loaded.functional_length_mm > 0.0)) return;
@@ -152,13 +165,16 @@ void take_length(const Cutter& loaded, Cutter& into) {
   model::take_measured_length(into, loaded.functional_length_mm, "derived: as long as the loaded tool");
 }
 
-Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job) {
+Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job,
+                                              const std::set<AnyRef>* of) {
   const auto assumed = model::assumed_tool_materials(plan);
   std::vector<std::string> reopened;
   std::vector<Cutter> merged;
   std::set<std::string> seen;
   const std::vector<AnyRef> roots = {plan.project};
-  for (const AnyRef r : model::reachable(plan.model, roots)) {
+  const std::vector<AnyRef> all =
+      of != nullptr ? std::vector<AnyRef>(of->begin(), of->end()) : model::reachable(plan.model, roots);
+  for (const AnyRef r : all) {
     const auto* op = plan.model.get<model::MachiningOperation>(r);
     if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool)) continue;
     if (tooling::is_requirement(plan.model, op->its_tool)) continue;

@@ -7,6 +7,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/memo/memo.h"
 #include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
 
@@ -19,6 +20,8 @@ struct ProgramText {
   std::string tool_table;  ///< LinuxCNC's .tbl; may be empty: then nothing is said about it
 };
 
+using model::CutBefore;
+
 /// What is wrong with a plan. Reads what the plan holds, computes everything else itself: stock, removal,
 /// force bound, order. Findings come by step in the order of execution, then property, then move; equal
 /// ones of a step are folded into the worst with their number.
@@ -30,15 +33,20 @@ struct ProgramText {
 ///            keeps what was found of steps: where the stock before a step, its cutter with shank and holder,
 ///            its sizes and moves are as in an earlier check, it is not swept again. The findings are the
 ///            same.
+/// Part       of `before` nothing is said, and what later steps work on is not asked to be done; the life of
+/// a tool
+///            is not judged over what it cut before.
 [[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job,
-                                                     memo::Memo* known = nullptr);
+                                                     memo::Memo* known = nullptr,
+                                                     const CutBefore* before = nullptr);
 
 /// What is wrong with a program, alone or against the plan that it was written from. Steps are told by the
 /// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1.
 [[nodiscard]] std::vector<model::Finding> check_program(const ProgramText& program, const model::Plan* plan,
                                                         const model::Machine& machine,
                                                         const std::vector<model::Cutter>& cutters, Job& job,
-                                                        memo::Memo* known = nullptr);
+                                                        memo::Memo* known = nullptr,
+                                                        const CutBefore* before = nullptr);
 
 /// What each property asks, one sentence; empty for a number that is not checked.
 [[nodiscard]] std::string_view property_text(int number);
