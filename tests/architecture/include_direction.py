@@ -72,7 +72,9 @@ ALLOWED = {
     "given": MODEL + " mechanics motion rules shop library formats selection draft piece step",
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
-    "gcode": MODEL + " motion", "controls": MODEL + " gcode",
+    "gcode": MODEL + " motion",
+    # A conformance profile is a data file, read as those of the shop are.
+    "controls": MODEL + " gcode shop",
     "volumes": PROVEN,
     # The one place that looks at the planner's shapes: to hold them against the own reading.
     "compared": MODEL + " volumes verify",

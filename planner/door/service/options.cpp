@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "planner/controls/profile/profile.h"
 #include "planner/door/late/changes.h"
 #include "planner/door/service/formats.h"
 #include "planner/ground/base/nearest_names.h"
@@ -132,6 +133,14 @@ const char* allow_help() {
                                    endings_of(Holds::kToolTable) +
                                    ") although the check condemns it: its header and markers say why, and it "
                                    "stops (M0) before each condemned step";
+  return kText.c_str();
+}
+const char* control_help() {
+  static const std::string kText = [] {
+    std::string out = "hold plans against what this control is able to do: ";
+    for (const std::string& id : controls::profile_ids()) out += id + ", ";
+    return out + "or a profile's file";
+  }();
   return kText.c_str();
 }
 constexpr const char* kStrict = "write nothing when there are findings";
@@ -264,6 +273,11 @@ std::vector<Option> table() {
        0,
        0,
        "strict"},
+      {"control",
+       Value::kText,
+       {nullptr, nullptr, control_help()},
+       [](Request& r, Text t) { return r.control = t, std::string(); },
+       {}},
       {"schema",
        Value::kFlag,
        {nullptr, nullptr, "what does not follow the schema is a finding, too"},
