@@ -88,7 +88,7 @@ ALLOWED = {
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " service motion mechanics optimise json rules casebase retain shop library formats",
+    "app": MODEL + " service transport motion mechanics optimise json rules casebase retain shop library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}
@@ -114,11 +114,12 @@ FENCES = {
     "valijson": (r"valijson/", None),
     "xxHash": (r"xxhash\.h$", 3),
     "Eigen": (r"(unsupported/)?Eigen/", None),
+    "Boost": (r"boost/", 1),
 }
 FENCES = {name: (re.compile(pattern), limit) for name, (pattern, limit) in FENCES.items()}
 
 C_HEADERS = {"stdbool.h", "stddef.h", "stdint.h"}
-EXTERNAL_NAME = re.compile(r"\b(Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|pqxx|ClipperLib)::|\bsqlite3\b")
+EXTERNAL_NAME = re.compile(r"\b(boost|Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|pqxx|ClipperLib)::|\bsqlite3\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 

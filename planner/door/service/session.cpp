@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "planner/door/service/explain/explain.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
 #include "planner/door/service/reading.h"
@@ -77,6 +78,21 @@ Code Session::open() {
   });
 }
 
+Code Session::bring(std::string plan) {
+  return guarded([&] {
+    message_.clear();
+    if (plan.empty()) return end(Code::kUsage, "error: there is no plan");
+    Job job;
+    const auto at_hand = read(std::move(plan), job);
+    for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
+    return at_hand ? end(Code::kDone) : end(at_hand.error().code, to_text(at_hand.error().what));
+  });
+}
+
+std::vector<std::string> Session::left_open() const {
+  return read_ ? open_texts(read_->plan) : std::vector<std::string>{};
+}
+
 Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> deadline) {
   const auto began = std::chrono::steady_clock::now();
   return guarded([&] {
@@ -135,6 +151,12 @@ const std::string* Session::output(std::string_view name) {
     return code_;
   });
   return made;
+}
+
+std::optional<Broadcasts> Session::broadcasts(const std::optional<DefaultContent>& otherwise) const {
+  if (bound_) return Broadcasts(bound_->plan, otherwise);
+  if (read_) return Broadcasts(read_->plan, otherwise);
+  return std::nullopt;
 }
 
 double Session::machining_s() const {

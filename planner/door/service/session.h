@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "planner/door/service/broadcast/broadcast.h"
 #include "planner/door/service/planning.h"
 #include "planner/door/service/request.h"
 #include "planner/ground/base/job.h"
@@ -28,6 +30,10 @@ class Session {
   Code set(std::string_view name, const std::string& text);
   /// Opens the shop, so that the first `bind` need not.
   Code open();
+  /// Reads a plan, so that a `bind` of the same bytes need not.
+  Code bring(std::string plan);
+  /// What the plan that was read last leaves open, each in a few words ("its_tool of DRILLING 'x'").
+  [[nodiscard]] std::vector<std::string> left_open() const;
   /// Binds a plan before the deadline (unset: that of the options, or none). After it the code is kLate,
   /// never kDone.
   Code bind(std::string plan, std::optional<std::chrono::milliseconds> deadline);
@@ -43,6 +49,8 @@ class Session {
   const std::string* output(std::string_view format);
   /// What changed against the plan that was brought (Planned::changes); null without a plan.
   [[nodiscard]] const std::string* changes() const { return bound_ ? &bound_->changes : nullptr; }
+  /// The broadcasts of the bound plan, else of the one that was read last; nothing without either.
+  [[nodiscard]] std::optional<Broadcasts> broadcasts(const std::optional<DefaultContent>& otherwise) const;
   /// Of the bound plan; 0 if there is none.
   [[nodiscard]] double machining_s() const;
 
