@@ -34,7 +34,7 @@ struct Request {
   bool allow_findings = false;                        ///< a program even when the check condemns it
   std::optional<std::string> may;                     ///< bind: what may be decided (late/changes.h)
   std::string time;                                   ///< bind: when it is, for the record
-  std::optional<std::string> control;                 ///< check: a control's profile, by id or file
+  std::optional<std::string> profile;                 ///< check: a control's profile, by id or file
   bool schema = false;                                ///< check: what reading found is a finding, too
   unsigned threads = 1;
 
