@@ -29,6 +29,15 @@ struct Conformance {
   bool path_tolerance = true;        ///< a program may say how far corners are rounded
   int largest_tool_number = 0;       ///< 0: not limited
   std::size_t look_ahead_moves = 0;  ///< it is ready to stop within so many moves; 0: not limited
+  int axes = 3;                      ///< that move at once
+  std::size_t work_offsets = 0;      ///< that a program can name; 0: not limited
+  double block_time_s = 0.0;         ///< it takes for one move; 0: as the machine states
+  double largest_radius_mm = 0.0;    ///< of an arc; 0: not limited
+  double largest_feed_mm_min = 0.0;  ///< that a program can state; 0: not limited
+  bool splines = false;              ///< a program may hold B-splines
+  bool compensation = true;          ///< it offsets paths of the contact by the cutter's radius
+  bool tool_changes = true;          ///< a program may change tools
+  bool broadcasts = false;           ///< it sends what broadcasts of a plan (AP238 edition 4) ask for
 };
 
 /// One control that programs are written for: what it is, what its files hold and who writes them. How it

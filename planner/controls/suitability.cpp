@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "planner/controls/controls.h"
@@ -52,6 +53,7 @@ class Suitability {
                 " is more than the control's largest tool number, " +
                 std::to_string(can_.largest_tool_number));
     }
+    of_plan();
     for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
       const StepResult& step = plan_.steps[i];
       if (!step.path) continue;
@@ -78,19 +80,48 @@ class Suitability {
           message + (w.count > 1 ? "; " + std::to_string(w.count - 1) + " more such moves" : std::string()));
   }
 
+  void of_plan() {
+    std::set<std::string> offsets, cutters;
+    for (const model::SetupResult& s : plan_.setups) offsets.insert(s.work_offset);
+    for (const StepResult& s : plan_.steps) cutters.insert(s.cutter_id);
+    if (can_.work_offsets > 0 && offsets.size() > can_.work_offsets)
+      add("FIT-OFFSETS", Severity::kError, {}, -1,
+          "the plan has " + std::to_string(offsets.size()) + " work offsets; the control has " +
+              std::to_string(can_.work_offsets));
+    if (!can_.tool_changes && cutters.size() > 1)
+      add("FIT-TOOL-CHANGE", Severity::kError, {}, -1,
+          "the plan has " + std::to_string(cutters.size()) +
+              " cutters; the control's programs change no tool: plan one program for each");
+  }
+
   void kinds(const StepResult& step, const std::string& id) {
     const CutterPath& path = *step.path;
-    Worst arcs, helices, taps;
+    Worst arcs, helices, taps, radii, axes, feeds;
     for (std::size_t i = 1; i < path.size(); ++i) {
       const bool arc = model::is_arc(path.kind[i]);
       if (arc && !can_.arcs) arcs.see(i, 0.0);
       if (arc && can_.arcs && !can_.helices && path.z[i] != path.z[i - 1]) helices.see(i, 0.0);
       if (path.role[i] == model::MoveRole::kTap && !can_.rigid_tapping) taps.see(i, 0.0);
+      const int moving = (path.x[i] != path.x[i - 1] ? 1 : 0) + (path.y[i] != path.y[i - 1] ? 1 : 0) +
+                         (path.z[i] != path.z[i - 1] ? 1 : 0);
+      if (!arc && moving > can_.axes) axes.see(i, moving);
+      const double radius_mm = arc ? std::hypot(path.x[i] - path.cx[i], path.y[i] - path.cy[i]) : 0.0;
+      if (can_.largest_radius_mm > 0.0 && radius_mm > can_.largest_radius_mm) radii.see(i, radius_mm);
+      const double feed = path.kind[i] == MoveKind::kRapid ? 0.0 : 60.0 * feed_of(step, i);
+      if (can_.largest_feed_mm_min > 0.0 && feed > can_.largest_feed_mm_min) feeds.see(i, feed);
     }
     add("FIT-ARC", Severity::kError, id, arcs, "the control knows no arcs, and the path has one");
     add("FIT-HELIX", Severity::kError, id, helices, "the control knows no helices, and the path has one");
     add("FIT-TAP", Severity::kError, id, taps,
         "the control does not keep spindle and feed together for tapping");
+    add("FIT-AXES", Severity::kError, id, axes,
+        trimmed(axes.by, 0) + " axes move at once; the control moves " + std::to_string(can_.axes));
+    add("FIT-RADIUS", Severity::kError, id, radii,
+        "an arc has a radius of " + trimmed(radii.by, 3) + " mm; the control's largest is " +
+            shortest(can_.largest_radius_mm) + " mm");
+    add("FIT-FEED", Severity::kError, id, feeds,
+        "the feed is " + trimmed(feeds.by, 1) + " mm/min; the control's largest is " +
+            shortest(can_.largest_feed_mm_min));
   }
 
   void tolerance(const StepResult& step, const std::string& id) {
@@ -115,7 +146,7 @@ class Suitability {
 
   void times(const StepResult& step, const std::string& id) {
     const CutterPath& path = *step.path;
-    const double block_s = plan_.machine.control.block_time_s;
+    const double block_s = can_.block_time_s > 0.0 ? can_.block_time_s : plan_.machine.control.block_time_s;
     double acceleration = plan_.machine.axes[0].acceleration_mm_s2;
     for (const auto& axis : plan_.machine.axes)
       acceleration = std::min(acceleration, axis.acceleration_mm_s2);

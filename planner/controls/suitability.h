@@ -9,7 +9,8 @@ namespace capstan::controls {
 
 /// Whether the control of a plan's machine is able to do what the plan asks of it, before the first chip.
 ///
-/// Errors    what it cannot do: FIT-ARC, FIT-HELIX, FIT-TAP, FIT-TOOL-NUMBER.
+/// Errors    what it cannot do: FIT-ARC, FIT-HELIX, FIT-TAP, FIT-AXES, FIT-RADIUS, FIT-FEED, FIT-OFFSETS,
+///           FIT-TOOL-NUMBER, FIT-TOOL-CHANGE.
 /// Warnings  what comes out otherwise than planned: FIT-TOLERANCE, a tolerance of the path that the program
 /// cannot say, or
 ///           that is less than the last decimal of its numbers.

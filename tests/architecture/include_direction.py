@@ -80,7 +80,9 @@ ALLOWED = {
     "given": MODEL + " mechanics motion rules shop catalogue selection draft piece step",
     "toolpath": MODEL + " stock",
     "optimise": MODEL + " mechanics motion",
-    "gcode": MODEL + " motion", "controls": MODEL + " gcode",
+    "gcode": MODEL + " motion",
+    # A conformance profile is a data file, read as those of the shop are.
+    "controls": MODEL + " gcode shop",
     "volumes": PROVEN,
     # The one place that looks at the planner's shapes: to hold them against the own reading.
     "compared": MODEL + " volumes verify",
@@ -95,7 +97,7 @@ ALLOWED = {
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " service motion mechanics optimise json rules casebase retain shop catalogue library formats",
+    "app": MODEL + " service transport motion mechanics optimise json rules casebase retain shop catalogue library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}
@@ -121,11 +123,12 @@ FENCES = {
     "valijson": (r"valijson/", None),
     "xxHash": (r"xxhash\.h$", 3),
     "Eigen": (r"(unsupported/)?Eigen/", None),
+    "Boost": (r"boost/", 1),
 }
 FENCES = {name: (re.compile(pattern), limit) for name, (pattern, limit) in FENCES.items()}
 
 C_HEADERS = {"stdbool.h", "stddef.h", "stdint.h"}
-EXTERNAL_NAME = re.compile(r"\b(Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|pqxx|ClipperLib)::|\bsqlite3\b")
+EXTERNAL_NAME = re.compile(r"\b(boost|Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|pqxx|ClipperLib)::|\bsqlite3\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 

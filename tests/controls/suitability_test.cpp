@@ -112,6 +112,41 @@ TEST(Suitability, AFeedFromWhichItCannotStopInSightIsNoted) {
   EXPECT_THAT(found[0].message, HasSubstr("179 more such moves"));
 }
 
+TEST(Suitability, NamesAxesRadiiAndFeedsThatTheControlDoesNotHave) {
+  CutterPath slope;
+  slope.start({0, 0, 0});
+  slope.line({3, 4, -1}, MoveRole::kCut);
+  EXPECT_THAT(codes(with(slope), {}), IsEmpty());
+  EXPECT_THAT(codes(with(slope), {.axes = 2}), ElementsAre("FIT-AXES"));
+  EXPECT_THAT(codes(with(straight(2, 5.0)), {.axes = 2}), IsEmpty());
+  // The arc's radius is 10 mm, the feed 6000 mm/min.
+  EXPECT_THAT(codes(with(with_arc(0.0)), {.largest_radius_mm = 10.0}), IsEmpty());
+  EXPECT_THAT(codes(with(with_arc(0.0)), {.largest_radius_mm = 9.9}), ElementsAre("FIT-RADIUS"));
+  EXPECT_THAT(codes(with(with_arc(0.0)), {.largest_feed_mm_min = kFeed}), IsEmpty());
+  const auto fast = suitability(with(straight(3, 5.0)), {.largest_feed_mm_min = 5999.0});
+  ASSERT_EQ(fast.size(), 1u);
+  EXPECT_EQ(fast[0].code, "FIT-FEED");
+  EXPECT_EQ(fast[0].severity, Severity::kError);
+  EXPECT_THAT(fast[0].message, HasSubstr("2 more such moves"));
+}
+
+TEST(Suitability, NamesOffsetsAndToolChangesOfThePlanThatItDoesNotHave) {
+  model::Plan plan = with(straight(3, 5.0));
+  plan.setups = {{.setup = {}, .work_offset = "G54"}, {.setup = {}, .work_offset = "G55"}};
+  plan.steps.push_back(plan.steps.front());
+  EXPECT_THAT(codes(plan, {.work_offsets = 2, .tool_changes = false}), IsEmpty());
+  plan.steps.back().cutter_id = "another";
+  EXPECT_THAT(codes(plan, {.work_offsets = 1, .tool_changes = false}),
+              UnorderedElementsAre("FIT-OFFSETS", "FIT-TOOL-CHANGE"));
+}
+
+TEST(Suitability, TheProfilesBlockTimeGoesBeforeTheMachines) {
+  // 0.1 mm in a block time of the machine, 1 mm in one of the profile.
+  const model::Plan plan = with(straight(5, 0.5));
+  EXPECT_THAT(codes(plan, {}), IsEmpty());
+  EXPECT_THAT(codes(plan, {.block_time_s = 0.01}), ElementsAre("FIT-BLOCK-TIME"));
+}
+
 TEST(Suitability, EachControlStatesHowFarItLooksAhead) {
   for (const Dialect* d : dialects()) EXPECT_GT(d->conformance.look_ahead_moves, 0u) << d->id;
 }

@@ -6,6 +6,10 @@
 
 #include "casebase/casebase.h"
 #include "casebase/retain/join/import.h"
+#include "planner/controls/profile/profile.h"
+#include "planner/door/transport/serve/endpoints.h"
+#include "planner/door/transport/serve/wire/http.h"
+#include "planner/door/transport/serve/wire/json_request.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/making/workholding/place.h"
@@ -72,6 +76,10 @@ void machine_ini(std::string bytes) {
   Job job;
   (void)said(tooling::read_linuxcnc_ini(bytes, "input.ini", job));
 }
+void control_profile(std::string bytes) {
+  Job job;
+  (void)said(controls::read_profile(bytes, "input.yaml", job));
+}
 void materials(std::string bytes) {
   Job job;
   const auto read = tooling::read_materials(bytes, "input.yaml", job);
@@ -120,6 +128,36 @@ void tool_list(std::string bytes) {
 void tool_table(std::string bytes) {
   Job job;
   (void)said(tooling::read_tool_table(bytes, "input.tbl", job));
+}
+
+/// What a socket brings: requests in pieces, each answered as far as no session is needed.
+void http(std::string bytes) {
+  if (!transport::http_is_built()) return;
+  static transport::Metrics metrics;
+  static const transport::Limits kLimits{.header_bytes = 1 << 10, .body_bytes = 1 << 16, .sessions = 0};
+  static transport::Endpoints endpoints(kLimits, {}, {}, 0, metrics,
+                                        [] { return std::vector<transport::Metrics::Gauge>{}; });
+  transport::RequestReader reader(kLimits.header_bytes, kLimits.body_bytes);
+  constexpr std::size_t kPiece = 7;
+  for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
+    auto state = reader.take(std::string_view(bytes).substr(at, kPiece));
+    (void)reader.asks_to_continue();
+    for (; state == transport::RequestReader::State::kWhole; state = reader.take({})) {
+      const auto request = reader.request();
+      (void)said(transport::read_json_request(
+          request.body,
+          {{transport::Member::Kind::kTexts, "options"}, {transport::Member::Kind::kWhole, "deadline_ms"}},
+          kLimits.json_bytes));
+      const auto found = transport::Endpoints::find(request);
+      const auto reply = found.endpoint == nullptr
+                             ? found.refusal
+                             : endpoints.answer(found, request, {0, transport::Clock::now()});
+      must(reply.status >= 200 && !reply.body.empty(), "answered without a word\n");
+    }
+    if (state != transport::RequestReader::State::kWrong) continue;
+    must(reader.fault().status >= 400, "a fault without a status\n");
+    return;
+  }
 }
 
 /// By the format's own reader, and as planning uses it.
@@ -178,6 +216,9 @@ const std::vector<Reader>& readers() {
        {"tooling/data/machines/generic_vmc.yaml", "tooling/data/machines/tormach_1100mx.yaml",
         "examples/reference_pocket_machine.yaml"}},
       {"machine_ini", machine_ini, {}},
+      {"control_profile",
+       control_profile,
+       {"planner/controls/profile/data/grbl.yaml", "planner/controls/profile/data/siemens840d.yaml"}},
       {"materials", materials, {"tooling/data/materials.yaml"}},
       {"workholding",
        workholding,
@@ -195,6 +236,7 @@ const std::vector<Reader>& readers() {
       {"inspection", inspection, {}},
       {"tool_list", tool_list, {"examples/reference_pocket_tools.yaml"}},
       {"tool_table", tool_table, {}},
+      {"http", http, {}},
       {"tools_fusion", tools_fusion, {}},
       {"tools_fusion_zip", tools_fusion_zip, {"corpus/tools/fusion/Makera_Drill_Bits.tools"}},
       {"tools_csv", tools_csv, {}},

@@ -8,6 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "planner/controls/profile/profile.h"
+#include "planner/controls/specification.h"
+#include "planner/controls/suitability.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/formats.h"
@@ -70,11 +73,12 @@ class Check {
  private:
   /// What is said of one file, in this order; the parts in the order of the files.
   struct Part {
-    std::vector<Diagnostic> said;     ///< by reading it
-    std::vector<FileFinding> found;   ///< by reading it, too, which told them as diagnostics
-    std::string file;                 ///< of what is to be checked; empty: nothing is
-    std::optional<std::size_t> plan;  ///< of `plans_`
-    const Input* program = nullptr;   ///< of `inputs_`
+    std::vector<Diagnostic> said;         ///< by reading it
+    std::vector<FileFinding> found;       ///< by reading it, too, which told them as diagnostics
+    std::vector<model::Finding> brought;  ///< of the plan before what is open in it is closed
+    std::string file;                     ///< of what is to be checked; empty: nothing is
+    std::optional<std::size_t> plan;      ///< of `plans_`
+    const Input* program = nullptr;       ///< of `inputs_`
     std::vector<model::Finding> findings;
     bool done = false;  ///< checked, to its end or to a stop
   };
@@ -117,6 +121,10 @@ class Check {
       p.findings = verify::check_plan(plan, job);
       auto more = beside_the_check(plan);
       auto other = other_tool_materials(plan, loaded_);
+      if (control_) {
+        auto unsuited = controls::suitability(plan, *control_);
+        std::move(unsuited.begin(), unsuited.end(), std::back_inserter(more));
+      }
       std::move(other.begin(), other.end(), std::back_inserter(more));
       std::move(more.begin(), more.end(), std::back_inserter(p.findings));
     } else {
@@ -131,6 +139,7 @@ class Check {
     for (Part& p : parts_) {
       for (Diagnostic& d : p.said) job_.report(std::move(d));
       for (FileFinding& f : p.found) out_.findings.push_back(std::move(f));
+      add(p.brought, p.file, false);
       add(p.findings, p.file, p.program != nullptr);
     }
     for (Diagnostic& d : last) job_.report(std::move(d));
@@ -260,6 +269,7 @@ class Check {
       if (request_.schema) out_.schema += job_.diagnostics().size() - before;
       out_.errors += reading_errors(job_.diagnostics(), before);
       const bool values_edited = take_edits(before, in.path);
+      if (const auto d = hold_against_control(*plan)) return d;
       ++out_.checked;
       // Results computed before a value was edited do not describe the plan as it is now.
       if (!has_paths(*plan) || values_edited) {
@@ -281,6 +291,19 @@ class Check {
       plans_.push_back(*std::move(plan));
     }
     if (!parts_.empty()) parts_.back().said = job_.take_diagnostics();
+    return std::nullopt;
+  }
+
+  /// With --profile: what the control must be told that the plan does not say, or says twice. What the
+  /// planner would close is open still.
+  std::optional<Diagnostic> hold_against_control(const model::Plan& plan) {
+    if (!request_.profile) return std::nullopt;
+    if (!control_) {
+      auto read = controls::load_profile(*request_.profile, job_);
+      if (!read) return read.error();
+      control_ = std::move(read->can);
+    }
+    parts_.back().brought = controls::specification(plan, *control_);
     return std::nullopt;
   }
 
@@ -379,6 +402,7 @@ class Check {
   std::vector<Part> parts_;
   Shop shop_;
   std::vector<model::Cutter> loaded_;  ///< what a library or tool table beside a plan says of its tools
+  std::optional<controls::Conformance> control_;  ///< that the request names
   CheckResult out_;
 };
 

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "planner/controls/profile/profile.h"
 #include "planner/door/late/branches.h"
 #include "planner/door/late/changes.h"
 #include "planner/door/service/formats.h"
@@ -140,6 +141,14 @@ const char* allow_help() {
                                    endings_of(Holds::kToolTable) +
                                    ") although the check condemns it: its header and markers say why, and it "
                                    "stops (M0) before each condemned step";
+  return kText.c_str();
+}
+const char* profile_help() {
+  static const std::string kText = [] {
+    std::string out = "hold plans against what this control is able to do: ";
+    for (const std::string& id : controls::profile_ids()) out += id + ", ";
+    return out + "or a profile's file";
+  }();
   return kText.c_str();
 }
 constexpr const char* kStrict = "write nothing when there are findings";
@@ -304,6 +313,11 @@ std::vector<Option> table() {
        0,
        0,
        "strict"},
+      {"profile",
+       Value::kText,
+       {nullptr, nullptr, profile_help()},
+       [](Request& r, Text t) { return r.profile = t, std::string(); },
+       {}},
       {"schema",
        Value::kFlag,
        {nullptr, nullptr, "what does not follow the schema is a finding, too"},

@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "planner/door/service/explain/explain.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
 #include "planner/door/service/reading.h"
@@ -103,6 +104,11 @@ Code Session::take(std::string plan) {
   });
 }
 
+std::vector<std::string> Session::left_open() const {
+  if (last_) return open_texts(*last_);
+  return read_ ? open_texts(read_->plan) : std::vector<std::string>{};
+}
+
 Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> deadline) {
   return guarded([&] {
     last_.reset();
@@ -192,6 +198,12 @@ const std::string* Session::output(std::string_view name) {
     return code_;
   });
   return made;
+}
+
+std::optional<Broadcasts> Session::broadcasts(const std::optional<DefaultContent>& otherwise) const {
+  if (bound_) return Broadcasts(bound_->plan, otherwise);
+  if (read_) return Broadcasts(read_->plan, otherwise);
+  return std::nullopt;
 }
 
 std::size_t Session::steps() const { return bound_ ? given::steps_in_order(bound_->plan).size() : 0; }

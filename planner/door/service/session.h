@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "planner/door/service/broadcast/broadcast.h"
 #include "planner/door/service/planning.h"
 #include "planner/door/service/request.h"
 #include "planner/ground/base/job.h"
@@ -30,6 +32,9 @@ class Session {
   Code open();
   /// Reads a plan, so that the first `bind_next`, without one, need not.
   Code take(std::string plan);
+  /// What the plan at hand (read last, or bound as far as it is) leaves open, each in a few words ("its_tool
+  /// of DRILLING 'x'").
+  [[nodiscard]] std::vector<std::string> left_open() const;
   /// Binds a plan before the deadline (unset: that of the options, or none). After it the code is kLate,
   /// never kDone.
   Code bind(std::string plan, std::optional<std::chrono::milliseconds> deadline);
@@ -50,6 +55,8 @@ class Session {
   const std::string* output(std::string_view format);
   /// What changed against the plan that was brought (Planned::changes); null without a plan.
   [[nodiscard]] const std::string* changes() const { return bound_ ? &bound_->changes : nullptr; }
+  /// The broadcasts of the bound plan, else of the one that was read last; nothing without either.
+  [[nodiscard]] std::optional<Broadcasts> broadcasts(const std::optional<DefaultContent>& otherwise) const;
   /// Of what was bound; 0 if nothing is.
   [[nodiscard]] double machining_s() const;
   /// How many workingsteps the bound plan has, those that are still open among them; 0 without a plan.

@@ -91,6 +91,7 @@ class CommandLine {
     }
     plan();
     bind();
+    serve();
     check();
     show();
     shop();
@@ -171,6 +172,20 @@ class CommandLine {
     file(sub, "plan", "plan with open decisions");
     options(sub, service::Verb::kBind);
     outputs(sub, true);
+  }
+  void serve() {
+    auto* sub = command(app_, "serve", "bind for other programs, over a UNIX socket (HTTP and JSON)",
+                        Command::kServe);
+    ServeOptions& s = out_.serve;
+    sub->add_option("--socket", s.socket, "path of the socket")->required();
+    sub->add_option("--allow-user", s.users, "a user id that may connect beside this user's; may be repeated")
+        ->expected(1)
+        ->take_all();
+    sub->add_option("--workers", s.workers, "requests worked on at once")->check(CLI::Range(1U, 64U));
+    sub->add_option("--queue", s.queue, "requests that may wait; further ones get 503")
+        ->check(CLI::Range(1U, 1000U));
+    sub->add_option("--tcp", s.tcp, "refused: TCP needs TLS on both sides, which no build has");
+    options(sub, service::Verb::kBind);
   }
   void check() {
     auto* sub =
@@ -410,6 +425,7 @@ class CommandLine {
       if (const auto at = raw_.of.find(o.name); at != raw_.of.end()) text = at->second;
       if (text.empty()) continue;
       if (auto ok = service::set(request, o.name, text); !ok) return ok.error().message;
+      if (out_.command == Command::kServe) out_.serve.session.emplace_back(o.name, text);
     }
     if (std::string wrong = service::contradiction(request); !wrong.empty()) return wrong;
     request.backends = optimise::all_backends();

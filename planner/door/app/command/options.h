@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "planner/door/service/request.h"
@@ -42,6 +43,7 @@ enum class Command : std::uint8_t {
   kCasesImport,
   kCasesTrace,
   kCasesReport,
+  kServe,
 };
 
 /// The question of `cases nearest`.
@@ -78,6 +80,15 @@ struct ToolsOptions {
   bool report = false;               ///< every line of the loss report
 };
 
+/// What `serve` is told beside the options of `bind`.
+struct ServeOptions {
+  std::string socket, tcp;
+  std::vector<std::uint32_t> users;  ///< user ids
+  unsigned workers = 1, queue = 16;
+  /// The options of `bind` that were given, by name.
+  std::vector<std::pair<std::string, std::string>> session;
+};
+
 /// A command line, understood.
 struct Options {
   Command command = Command::kPlan;
@@ -95,6 +106,7 @@ struct Options {
   CaseJudgement judgement;
   bool learn = false;  ///< cases metric
   LogImport log;
+  ServeOptions serve;
 };
 
 /// The options, or what to print and the exit code to end with (help, version: 0; wrong usage: 2).

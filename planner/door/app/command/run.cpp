@@ -72,6 +72,8 @@ int dispatch(Session& s) {
       return run_cases_trace(s);
     case Command::kCasesReport:
       return run_cases_report(s);
+    case Command::kServe:
+      return run_serve(s);
   }
   return kUsage;
 }

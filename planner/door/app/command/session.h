@@ -73,5 +73,6 @@ int run_cases_tune(Session& s);
 int run_cases_import(Session& s);
 int run_cases_trace(Session& s);
 int run_cases_report(Session& s);
+int run_serve(Session& s);
 
 }  // namespace capstan::app

@@ -409,6 +409,13 @@ void open_list(const Plan& plan, std::string& out) {
 
 }  // namespace
 
+std::vector<std::string> open_texts(const Plan& plan) {
+  std::vector<std::string> out;
+  for (const DecisionKey& key : open_decisions(plan)) out.push_back(key_text(plan, key));
+  if (views_of(plan).empty()) out.emplace_back("operations of all features: there is no workingstep");
+  return out;
+}
+
 std::string explain(const Plan& plan) {
   std::string out;
   overview_head(plan, out);

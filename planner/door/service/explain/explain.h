@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
@@ -12,6 +13,10 @@ namespace capstan::service {
 /// The plan as a whole: inputs and defaults, set-ups, a line per step, what is unplanned and why, what is
 /// still open. Text for people; same plan, same bytes.
 [[nodiscard]] std::string explain(const model::Plan& plan);
+
+/// What the plan leaves open, each in a few words: "feedrate of MILLING_TECHNOLOGY 'x'"; of a part without a
+/// workingstep: that it has none.
+[[nodiscard]] std::vector<std::string> open_texts(const model::Plan& plan);
 
 /// One workingstep: each value of its operation, tool, technology and strategy, who bound it, why and by
 /// which source, what limited it, what it depends on, and what was rejected.

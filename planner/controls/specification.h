@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/controls/dialect.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::controls {
+
+/// Whether a plan, as its file has it, tells a control what it must know, once and no more.
+///
+/// Under-specified  FIT-OPEN, an error: decisions are open. No control closes them; late binding does.
+/// Missing          FIT-MISSING, an error: a workingstep's cutter, feed, path or work offset.
+/// Contradictory    FIT-CONTRADICTION, an error: two statements of one value that exclude each other.
+/// Over-specified   FIT-OVER, a note: what follows from other values, or what the control does not use
+///                  (B-splines, broadcasts). FIT-COMPENSATION, an error: a path of the contact, which the
+///                  control cannot offset.
+/// One finding for each code and workingstep or technology.
+[[nodiscard]] std::vector<model::Finding> specification(const model::Plan& plan, const Conformance& control);
+
+}  // namespace capstan::controls
