@@ -1,0 +1,79 @@
+#include "planner/controls/gcode/moves/hole_cycles.h"
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::controls::gcode {
+namespace {
+
+using geometry::Vec3;
+using model::MoveKind;
+using model::StepResult;
+
+/// The moves of one step as a control sees them.
+class Moves {
+ public:
+  Moves(const StepResult& step, const model::Control& control) : step_(step), control_(control) {}
+
+  [[nodiscard]] std::size_t size() const { return step_.path->size(); }
+  [[nodiscard]] MoveKind kind(std::size_t i) const { return step_.path->kind[i]; }
+  [[nodiscard]] Vec3 to(std::size_t i) const {
+    const Vec3 p = step_.path->point(i);
+    return {rounded(p.x, control_.decimals), rounded(p.y, control_.decimals),
+            rounded(p.z, control_.decimals)};
+  }
+  [[nodiscard]] double feed(std::size_t i) const {
+    return rounded(step_.schedule ? step_.schedule->feed_mm_min[i] : step_.feed_mm_min,
+                   control_.feed_decimals);
+  }
+  [[nodiscard]] double rpm(std::size_t i) const {
+    return step_.schedule ? step_.schedule->spindle_rpm[i] : step_.spindle_rpm;
+  }
+  [[nodiscard]] double dwell(std::size_t i) const {
+    return step_.schedule ? step_.schedule->dwell_s[i] : 0.0;
+  }
+
+ private:
+  const StepResult& step_;
+  const model::Control& control_;
+};
+
+}  // namespace
+
+std::optional<HoleInPath> hole_at(const StepResult& step, std::size_t move, Vec3 at,
+                                  const model::Control& control) {
+  const Moves m(step, control);
+  std::size_t i = move;
+  const auto straight = [&](std::size_t k) { return k < m.size() && xy(m.to(k)) == xy(at); };
+  if (!straight(i) || m.kind(i) != MoveKind::kRapid || m.to(i).z >= at.z) return std::nullopt;
+  HoleInPath out;
+  HoleCycle& h = out.cycle;
+  h.at = xy(at);
+  h.initial_z = at.z;
+  h.r_z = m.to(i).z;
+  h.rpm = m.rpm(i);
+  h.decimals = control.decimals;
+  h.feed_decimals = control.feed_decimals;
+  double z = h.r_z;
+  const std::size_t first = ++i;
+  for (; straight(i) && m.kind(i) == MoveKind::kLine && m.to(i).z < z; ++i) {
+    if (m.feed(i) != m.feed(first) || step.path->role[i] == model::MoveRole::kTap) return std::nullopt;
+    z = m.to(i).z;
+  }
+  if (i == first) return std::nullopt;
+  h.bottom_z = z;
+  h.feed_mm_min = m.feed(first);
+  for (; i < m.size() && m.kind(i) == MoveKind::kDwell; ++i) h.dwell_s += m.dwell(i);
+  if (!straight(i) || m.to(i).z != at.z) return std::nullopt;
+  h.feeds_out = m.kind(i) == MoveKind::kLine;
+  if (!h.feeds_out && m.kind(i) != MoveKind::kRapid) return std::nullopt;
+  if (h.feeds_out && m.feed(i) != h.feed_mm_min) return std::nullopt;
+  // A peck is no hole of its own.
+  if (i + 1 < m.size() && m.kind(i + 1) != MoveKind::kRapid && straight(i + 1)) return std::nullopt;
+  for (std::size_t k = move; k <= i; ++k) {
+    if (m.rpm(k) != h.rpm) return std::nullopt;
+  }
+  out.last_move = i;
+  return out;
+}
+
+}  // namespace capstan::controls::gcode
