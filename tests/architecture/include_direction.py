@@ -28,6 +28,7 @@ TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
     "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/program/linuxcnc": "linuxcnc_reader",
+    "planner/proof/verify/program/fanuc": "fanuc_reader",
     "planner/model/features/fit": "fit",
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
@@ -78,8 +79,8 @@ ALLOWED = {
     "compared": MODEL + " volumes verify",
     # Heights that moves cut: of the check it knows what a move is.
     "grid": GROUND + " nouns plan verify",
-    "linuxcnc_reader": GROUND + " plan verify",
-    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared grid linuxcnc_reader",
+    "linuxcnc_reader": GROUND + " plan verify", "fanuc_reader": GROUND + " plan verify",
+    "verify": PROVEN + " p21 " + EXCHANGE + " exchange mechanics volumes compared grid linuxcnc_reader fanuc_reader",
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late",

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "planner/controls/controls.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/formats.h"
@@ -335,6 +336,7 @@ class Check {
       if (!o.machine && programs())
         job_.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
+    if (o.control) shop_.machine = controls::with_control(std::move(shop_.machine), *o.control);
     const tooling::LibraryOptions counts{
         .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
     if (o.tools) {

@@ -15,12 +15,13 @@ using model::MoveKind;
 
 namespace {
 
-/// Waits are written to a thousandth of a second, speeds to a tenth of a turn per minute.
+/// Waits are written to a thousandth of a second.
 constexpr int kDwellDecimals = 3;
-constexpr double kSpeedSlack = 0.051;
 constexpr double kDwellSlack = 0.00051;
 /// An arc's ends and its centre are rounded each on its own: the arc drawn may stand off by so many units.
 constexpr double kArcUnits = 4.0;
+/// But no more than this where the control's last decimal is finer.
+constexpr double kArcMostMm = 0.002;
 /// Arcs flatter than half a unit, and those of less than 20 units, have no shape left after rounding.
 constexpr double kFlatUnits = 0.6, kShortUnits = 22.0;
 constexpr double kPitchSlack = 1e-5;
@@ -65,7 +66,9 @@ Following::Following(const ProgramCase& c, std::size_t marker, std::size_t step,
       high_(high),
       out_(out),
       decimals_(c.machine.control.decimals),
-      unit_(std::pow(10.0, -decimals_)) {
+      unit_(std::pow(10.0, -decimals_)),
+      arc_off_(unit_ < kArcMostMm ? std::min(kArcUnits * unit_, kArcMostMm) : kArcUnits * unit_),
+      speed_slack_(0.51 * std::pow(10.0, -c.reader.speed_decimals)) {
   const auto& setups = c.plan->setups;
   security_ = step_.setup < setups.size() ? setups[step_.setup].security_z_mm : path_.z[0];
 }
@@ -171,10 +174,12 @@ bool Following::approach_move(const Block& b) {
     return wrong("a move in machine coordinates other than to the top of Z");
   }
   const bool across = b.words[0] || b.words[1];
-  if (!state_agrees(-1, b)) return false;
+  // At the top of Z a move across needs no length of the tool.
+  const bool at_any_length = across && !b.words[2] && high_ && b.length_offset < 0;
+  if (!at_any_length && !state_agrees(-1, b)) return false;
   if (!across && known_from(b) && b.to.z > b.from.z && same(b.to.z, travel_height_)) return true;
   // Own speed first, so that the spindle is started where the tool is clear.
-  if (std::abs(b.spindle_rpm - speed_of(path_.size() > 1 ? 1 : 0)) > kSpeedSlack)
+  if (std::abs(b.spindle_rpm - speed_of(path_.size() > 1 ? 1 : 0)) > speed_slack_)
     return say(b.line,
                "the tool comes with the spindle at " + plain(b.spindle_rpm) + " rpm; the plan says " +
                    plain(speed_of(path_.size() > 1 ? 1 : 0)),
@@ -252,12 +257,39 @@ bool Following::one(std::size_t i) {
   last_ = goal;
   if (arcs) return arc(i, goal);
   if (path_.kind[i] == MoveKind::kRapid) return rapid(i, begin, goal);
+  if (in_own_hole(i, begin)) return hole_link(i, begin, goal);
   const Block* b = next(i, goal);
   if (b == nullptr || !kind_agrees(i, *b)) return false;
   if (!same(b->to, goal))
     return say(b->line, "the text goes to " + text_of(b->to) + "; the plan to " + text_of(goal),
                static_cast<long>(i));
   return numbers_agree(i, *b);
+}
+
+/// A fed way straight up that does not cut any more, where a cycle may go on by rapid.
+bool Following::in_own_hole(std::size_t i, Vec3 begin) const {
+  return path_.role[i] == model::MoveRole::kRetract && at_ < text_.size() && text_[at_]->from_cycle &&
+         same(path_.x[i], begin.x) && same(path_.y[i], begin.y) && path_.z[i] > begin.z;
+}
+
+/// At feed to where the tool was fed from, R of the cycle, and by rapid above it.
+bool Following::hole_link(std::size_t i, Vec3 begin, Vec3 goal) {
+  std::size_t k = i;
+  while (k > 1 && path_.kind[k] != MoveKind::kRapid) --k;
+  const double r = round(path_.point(k)).z;
+  for (;;) {
+    const Block* b = next(i, goal);
+    if (b == nullptr) return false;
+    const bool above = same(begin.z, r) || begin.z > r;
+    const bool on_way = same(b->to.x, goal.x) && same(b->to.y, goal.y) && b->to.z > begin.z &&
+                        (b->to.z < goal.z || same(b->to.z, goal.z));
+    if (!on_way || !(b->move == MoveKind::kLine || (b->move == MoveKind::kRapid && above)))
+      return say(b->line, "the text goes to " + text_of(b->to) + "; the plan at feed to " + text_of(goal),
+                 static_cast<long>(i));
+    if (!numbers_agree(i, *b)) return false;
+    begin = b->to;
+    if (same(begin, goal)) return true;
+  }
 }
 
 /// One axis after the other, each on its way.
@@ -286,7 +318,7 @@ bool Following::arc(std::size_t i, Vec3 goal) {
   whole.to = path_.point(i);
   whole.centre = {path_.cx[i], path_.cy[i]};
   const double radius = norm(xy(whole.to) - whole.centre);
-  const double slack = kArcUnits * unit_ / std::max(radius, unit_) + 1e-9;
+  const double slack = arc_off_ / std::max(radius, unit_) + 1e-9;
   const double sweep = sweep_of(whole);
   double done = 0.0;
   for (;;) {
@@ -309,7 +341,7 @@ bool Following::arc_piece(std::size_t i, const Block& b, const Move& whole, doub
     const Move m = move_of(b);
     part = sweep_of(m);
     const Vec3 middle = point_of(m, 0.5);
-    if (off(xy(middle)) > kArcUnits * unit_)
+    if (off(xy(middle)) > arc_off_)
       return say(b.line,
                  "the arc passes " + text_of(middle) + ", " + mm(off(xy(middle))) +
                      " from the plan's; its radius is " + mm(b.radius_end) + ", the plan's " + mm(radius),
@@ -329,8 +361,7 @@ bool Following::arc_piece(std::size_t i, const Block& b, const Move& whole, doub
   const double z = whole.from.z + (whole.to.z - whole.from.z) * std::min(1.0, done / sweep);
   const double steep = std::abs(whole.to.z - whole.from.z) / std::max(radius * sweep, unit_);
   const bool along = std::abs(b.to.z - z) <= (1.0 + kArcUnits * (1.0 + steep)) * unit_;
-  if (off(xy(b.to)) <= kArcUnits * unit_ && along && part > -kArcUnits * unit_ / std::max(radius, unit_))
-    return true;
+  if (off(xy(b.to)) <= arc_off_ && along && part > -arc_off_ / std::max(radius, unit_)) return true;
   return say(b.line, "the text goes to " + text_of(b.to) + ", which is not on the plan's arc there",
              static_cast<long>(i));
 }
@@ -365,7 +396,7 @@ bool Following::tap_agrees(std::size_t i, const Block& b) {
   const bool planned = path_.role[i] == model::MoveRole::kTap;
   if (b.synchronised != planned)
     return say(b.line,
-               planned ? "the text feeds without holding step with the spindle (G33.1); the plan taps"
+               planned ? "the text feeds without holding step with the spindle; the plan taps"
                        : "the text taps; the plan feeds",
                static_cast<long>(i), 22, "CHK-TEXT-TAP");
   if (!planned || b.to.z >= b.from.z) return true;
@@ -385,7 +416,10 @@ bool Following::numbers_agree(std::size_t i, const Block& b) {
   if (feeds && !tap_agrees(i, b)) return false;
   const double speed = speed_of(i);
   const bool back = b.synchronised && b.to.z > b.from.z;
-  if (!back && std::abs(b.spindle_rpm - speed) > kSpeedSlack)
+  // A control may have stopped the spindle when the tap was out.
+  tapped_ = tapped_ || b.synchronised;
+  const bool drawn_away = tapped_ && !feeds && b.spindle_rpm == 0.0;
+  if (!back && !drawn_away && std::abs(b.spindle_rpm - speed) > speed_slack_)
     return say(b.line, "the spindle turns at " + plain(b.spindle_rpm) + " rpm; the plan says " + plain(speed),
                move);
   if (!step_.through && (b.flood != step_.flood || b.mist != step_.mist) && !feeds)
