@@ -54,9 +54,10 @@ struct PlanOptions {
   std::function<void(std::string_view stage, double fraction)> progress = {};
   /// Ends the call early: there is a plan only where one was made by then, and no program without its check.
   std::stop_token stop = {};
-  std::string cache = {};  ///< a folder that keeps results of stages from call to call
-  std::string may = {};    ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
-  std::string time = {};   ///< of `bind_...`: when, for the plan's record; any text
+  std::string cache = {};    ///< a folder that keeps results of stages from call to call
+  std::string may = {};      ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
+  std::string time = {};     ///< of `bind_...`: when, for the plan's record; any text
+  std::string control = {};  ///< in place of the machine's own: "fanuc", "haas", "linuxcnc"
 };
 
 /// A thing said about the input or the plan, as the command prints it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "planner/controls/fanuc/fanuc.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 
 namespace capstan::controls {
@@ -10,11 +11,12 @@ namespace {
 
 constexpr std::array kDialects{
     &linuxcnc::kDialect,
+    &fanuc::kFanuc,
+    &fanuc::kHaas,
 };
 
 constexpr std::array kUnwritten{
     Unwritten{"siemens840d", "Siemens 840D", ".mpf"},
-    Unwritten{"fanuc", "Fanuc", ".nc"},
     Unwritten{"heidenhain", "Heidenhain", ".h"},
 };
 
@@ -27,6 +29,15 @@ const Dialect* find_dialect(std::string_view id) {
   const auto* at =
       std::find_if(kDialects.begin(), kDialects.end(), [&](const Dialect* d) { return d->id == id; });
   return at == kDialects.end() ? nullptr : *at;
+}
+
+model::Machine with_control(model::Machine machine, const std::string& dialect) {
+  if (machine.control.dialect == dialect) return machine;
+  const Dialect* control = find_dialect(dialect);
+  machine.control.dialect = dialect;
+  machine.control_options.reset();
+  if (control != nullptr) machine.control.decimals = std::min(machine.control.decimals, control->decimals);
+  return machine;
 }
 
 Result<std::string> write_program(const model::Plan& plan, Job& job,

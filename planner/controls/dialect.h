@@ -49,6 +49,8 @@ struct Dialect {
   FileKind program, tool_table;                    ///< `tool_table` is empty for a control that reads none
   std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
   Conformance conformance;
+  /// Of lengths in mm, as the control usually counts: what a machine gets that is given this control.
+  int decimals = 4;
   /// The plan as one program. `condemned` (model::condemned): why it must not be run; the program says so and
   /// stops before each condemned step.
   Result<std::string> (*write_program)(const model::Plan& plan, Job& job,

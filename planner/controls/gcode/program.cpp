@@ -1,6 +1,7 @@
 #include "planner/controls/gcode/program.h"
 
-#include "planner/controls/gcode/arcs.h"
+#include <algorithm>
+
 #include "planner/controls/gcode/text.h"
 #include "planner/ground/base/number.h"
 
@@ -9,17 +10,40 @@ namespace capstan::controls::gcode {
 using geometry::Vec3;
 
 void Program::line(std::string_view text) {
-  text_ += text;
-  text_ += '\n';
+  constexpr long kStep = 10, kMost = 99990;  // N of five digits, with room to insert blocks
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    // The tape's ends and the program's number have none.
+    const bool numbered = end > at && text[at] != '%' && text[at] != 'O';
+    if (words_.block_numbers == BlockNumbers::kAll && numbered) {
+      block_ = block_ >= kMost ? kStep : block_ + kStep;
+      text_ += "N" + std::to_string(block_) + " ";
+    } else if (!step_number_.empty()) {
+      text_ += step_number_;
+      step_number_.clear();
+    }
+    text_ += text.substr(at, end - at);
+    text_ += '\n';
+    at = end + 1;
+  }
+}
+
+void Program::number_step(std::size_t n) {
+  if (words_.block_numbers == BlockNumbers::kSteps) step_number_ = "N" + std::to_string(n) + " ";
 }
 
 void Program::comment(std::string_view text) { marker(comment_text(text, words_.longest_line)); }
 
 void Program::marker(std::string_view text) {
   text_ += words_.comment_begin;
-  text_ += text;
+  text_ += words_.comment ? words_.comment(text) : std::string(text);
   text_ += words_.comment_end;
   text_ += '\n';
+}
+
+ArcForm Program::arc_form() const {
+  return {control_.decimals, words_.more_centre_decimals, words_.closure_mm, words_.quadrants,
+          words_.largest_radius_mm};
 }
 
 void Program::forget() {
@@ -83,12 +107,13 @@ void Program::rapid_xy(Vec3 to) {
 }
 
 void Program::rapid_z(double z) {
-  line("G0 Z" + number(z));
+  line("G0" + with_height_ + " Z" + number(z));
+  with_height_.clear();
   z_ = z;
 }
 
 void Program::arc(Vec3 to, double i, double j, bool clockwise, double feed_mm_min) {
-  const int decimals = centre_decimals(control_.decimals);
+  const int decimals = arc_form().centre_decimals();
   std::string text = (clockwise ? "G2 X" : "G3 X") + number(to.x) + " Y" + number(to.y);
   if (z_ != to.z) text += " Z" + number(to.z);
   text += " I" + words_.number(i, decimals) + " J" + words_.number(j, decimals);

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "planner/controls/gcode/moves/arcs.h"
 #include "planner/controls/gcode/words.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/resources/machine.h"
@@ -16,12 +17,17 @@ class Program {
  public:
   Program(const model::Control& control, const Words& words) : control_(control), words_(words) {}
 
+  /// A block, or some with line ends between; with its number where each block has one.
   void line(std::string_view text);
+  /// The number N of the step at hand, before what is written next.
+  void number_step(std::size_t n);
   void comment(std::string_view text);
   /// A comment that is never cut off; the caller keeps it short (marker_text).
   void marker(std::string_view text);
   void blank() { text_ += '\n'; }
 
+  /// A cycle had a feed of its own: the next one is written.
+  void forget_feed() { feed_.clear(); }
   /// Forgets position and feed, so that the next words are all written.
   void forget();
   [[nodiscard]] geometry::Vec3 round(geometry::Vec3 p) const;
@@ -31,10 +37,13 @@ class Program {
   /// `G0` or `G1 ... F`, with the words that change; nothing when none does.
   void rapid(geometry::Vec3 to);
   void cut(geometry::Vec3 to, double feed_mm_min);
+  /// Stands in the block of the next move of Z, which is then written whole.
+  void with_next_height(std::string words) { with_height_ = std::move(words); }
   /// Words are always written, changed or not.
   void rapid_xy(geometry::Vec3 to);
   void rapid_z(double z);
   void arc(geometry::Vec3 to, double i, double j, bool clockwise, double feed_mm_min);
+  [[nodiscard]] ArcForm arc_form() const;
   /// A word by word line whose motion ends at `to`.
   void moved(std::string_view text, geometry::Vec3 to);
 
@@ -52,7 +61,8 @@ class Program {
   const Words& words_;
   std::string text_;
   std::optional<double> x_, y_, z_;
-  std::string feed_;
+  std::string feed_, with_height_, step_number_;
+  long block_ = 0;
 };
 
 }  // namespace capstan::controls::gcode

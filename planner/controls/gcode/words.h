@@ -1,14 +1,33 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "planner/ground/geometry/vec.h"
 
 namespace capstan::controls::gcode {
 
 /// Decimals of a number in a program at most: a double of six digits before the point has no more to say.
 inline constexpr int kMostDecimals = 7;
+
+/// One hole as a canned cycle makes it. Units  mm, mm/min, s; heights of the work offset, rounded.
+struct HoleCycle {
+  geometry::Vec2 at;
+  double initial_z = 0.0;  ///< where the tool is before and behind
+  double r_z = 0.0;        ///< from where it is fed
+  double bottom_z = 0.0;
+  bool feeds_out = false;                   ///< back to `r_z` at the same feed
+  double feed_mm_min = 0.0, dwell_s = 0.0;  ///< the dwell is at the bottom
+  double rpm = 0.0, pitch_mm = 0.0;         ///< of a tap; rpm below 0 for a left-hand one
+  int decimals = 0, feed_decimals = 0;      ///< of the control
+};
+
+/// The blocks that number themselves with N.
+enum class BlockNumbers : unsigned char { kNone, kSteps, kAll };
 
 /// What one control says in its own way; `write` (writer.h) says the rest as all RS-274 controls do. A member
 /// with a default says what NIST RS274/NGC 3.5 says; a control that agrees leaves it out.
@@ -16,32 +35,59 @@ inline constexpr int kMostDecimals = 7;
 struct Words {
   std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
   std::size_t longest_line = 0;                    ///< characters, without the line's end
-  int speed_decimals = 0, dwell_decimals = 0, pitch_decimals = 0;
-  std::string_view first, last;  ///< lines that begin and end a program; `first` may be empty
+  int speed_decimals = 0, dwell_decimals = 0;
+  std::string first = {}, last = {};  ///< lines that begin and end a program; `first` may be empty
   std::string_view comment_begin = "(", comment_end = ")";
   /// The modal state before the first tool: millimetres, plane XY, absolute, feed per minute, no compensation
   /// of radius or length, no cycle.
-  std::string_view first_state = "G21 G17 G90 G94 G40 G49 G80";
+  std::string first_state = "G21 G17 G90 G94 G40 G49 G80";
   /// The modal state at the head of each step: the same, but the length offset of the tool stays.
-  std::string_view step_state = "G21 G17 G90 G94 G40 G80";
+  std::string step_state = "G21 G17 G90 G94 G40 G80";
+  /// The text of a comment or marker as this control may read it; the same where it is empty.
+  std::function<std::string(std::string_view)> comment = {};
+  BlockNumbers block_numbers = BlockNumbers::kNone;
   /// Changes the tool; one or more lines.
-  std::string (*change_tool)(const std::string& tool) = [](const std::string& tool) {
+  std::function<std::string(const std::string& tool)> change_tool = [](const std::string& tool) {
     return "T" + tool + " M6";
   };
+  /// Makes the tool of the next change ready, right after a change; nothing where it is empty.
+  std::function<std::string(const std::string& next)> stage_tool = {};
+  /// Behind the last step of each tool, when it is away and all is off; nothing where it is empty.
+  std::string tool_end = {};
   /// Applies the length offset of the tool in the spindle.
-  std::string (*length_offset)(const std::string& tool) = [](const std::string& tool) {
+  std::function<std::string(const std::string& tool)> length_offset = [](const std::string& tool) {
     return "G43 H" + tool;
   };
-  std::string (*number)(double value, int decimals) = nullptr;
-  /// The path mode for a tolerance in mm; exact stop where the text is empty.
-  std::string (*path_mode)(const std::string& tolerance) = nullptr;
+  /// The length offset stands in the block of the step's first move of Z, which ends where it says, for alone
+  /// it would itself move Z.
+  bool offset_moves_z = false;
+  std::function<std::string(double value, int decimals)> number = {};
+  /// A speed in 1/min, with `speed_decimals`; as `number` where it is empty.
+  std::function<std::string(double rpm)> speed = {};
+  /// The path mode for a tolerance in mm; exact stop where the text is empty. `finishes`: a finishing step.
+  std::function<std::string(const std::string& tolerance, bool finishes)> path_mode = {};
   /// To that height in machine coordinates, by rapid.
-  std::string (*retract)(const std::string& z) = nullptr;
+  std::function<std::string(const std::string& z)> retract = {};
   /// A line that shows a text to the operator; the program stops with an M0 behind it.
-  std::string (*message)(const std::string& text) = nullptr;
-  std::string (*dwell)(const std::string& seconds) = nullptr;
-  /// Rigid tapping from `top` to `bottom` and back to `top`, where the tool is then; one or more lines.
-  std::string (*tap)(const std::string& top, const std::string& bottom, const std::string& pitch) = nullptr;
+  std::function<std::string(const std::string& text)> message = {};
+  std::function<std::string(const std::string& seconds)> dwell = {};
+  /// Rigid tapping at `at`, where the tool is; it ends at `initial_z`. One or more lines.
+  std::function<std::string(const HoleCycle& hole)> tap = {};
+  /// The control has stopped the spindle when a tap is out.
+  bool tap_stops_spindle = false;
+  /// A hole as a canned cycle, cancelled behind it; nothing where this control has none that makes these
+  /// moves. Null: explicit moves always.
+  std::function<std::optional<std::string>(const HoleCycle& hole)> cycle = {};
+  /// Around the moves of a milling step; nothing where they are empty.
+  std::string smooth_on = {}, smooth_off = {};
+  /// Arcs: decimals of I and J beyond those of ends; how far the radii at both ends may differ (0: by a unit
+  /// of the last decimal); whether they end at quadrants; the largest radius (0: any); helices.
+  int more_centre_decimals = 2;
+  double closure_mm = 0.0;
+  bool quadrants = false;
+  double largest_radius_mm = 0.0;
+  bool helices = true;
+  std::string codes = {};  ///< those that the machine has, "G0 G1 M3", with blanks between; empty: all
 };
 
 }  // namespace capstan::controls::gcode

@@ -5,14 +5,18 @@
 #include <map>
 #include <optional>
 
-#include "planner/controls/gcode/arcs.h"
+#include "planner/controls/gcode/able.h"
 #include "planner/controls/gcode/header.h"
+#include "planner/controls/gcode/moves/arcs.h"
+#include "planner/controls/gcode/moves/hole_cycles.h"
 #include "planner/controls/gcode/probing.h"
 #include "planner/controls/gcode/program.h"
 #include "planner/controls/gcode/setups.h"
 #include "planner/controls/gcode/text.h"
 #include "planner/controls/gcode/writable.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
+#include "planner/model/nouns/executable.h"
 #include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::controls::gcode {
@@ -46,7 +50,7 @@ class Writer {
     write_setup(plan_, plan_.steps.front().setup, std::nullopt, program_);
     program_.blank();
     program_.line(words_.first_state);
-    tolerance(0.0);
+    tolerance(0.0, true);
     retract();
     stop();
     const std::vector<std::string> ids = model::step_ids(plan_);
@@ -55,7 +59,10 @@ class Writer {
       const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
       const bool measured = probe(step.step);
       enter(step, cutter, ids[n], n, measured);
+      const bool smooth = !words_.smooth_on.empty() && mills(*step.path);
+      if (smooth) program_.line(words_.smooth_on);
       if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
+      if (smooth) program_.line(words_.smooth_off);
     }
     program_.blank();
     (void)probe({});
@@ -125,11 +132,11 @@ class Writer {
   }
 
   // The step's own tolerance, where the control blends at all.
-  void tolerance(double of_step_mm) {
+  void tolerance(double of_step_mm, bool finishes) {
     const double own = plan_.machine.control.path_tolerance_mm;
     const double p = own > 0.0 && of_step_mm > 0.0 ? of_step_mm : own;
     const bool exact = p < 0.0 || rounded(p, plan_.machine.control.decimals) == 0.0;
-    program_.line(words_.path_mode(exact ? std::string() : program_.number(p)));
+    program_.line(words_.path_mode(exact ? std::string() : program_.number(p), finishes));
   }
 
   void retract() {
@@ -157,6 +164,7 @@ class Writer {
     if ((new_tool || new_setup || !why.empty()) && !first) {
       retract();
       stop();
+      if (new_tool && !words_.tool_end.empty()) program_.line(words_.tool_end);
     }
     program_.marker("CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) +
                     " tool=" + std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) +
@@ -166,15 +174,24 @@ class Writer {
       tell(plain_text(clamping_text(plan_, step.setup, setup_, room(kFreeOfClamping))));
     }
     if (!why.empty()) stop_for(why, n);
+    program_.number_step(n + 1);
     program_.line(words_.step_state);
-    tolerance(step.contour_tolerance_mm);
+    tolerance(step.contour_tolerance_mm, !roughs(step));
     program_.line(setup.work_offset);
     const std::string t = std::to_string(cutter.pocket);
     if (new_tool && cutter.cutter_class == model::CutterClass::kBoringTool)
       program_.comment("T" + t + ": the boring tool is set to diameter " +
                        program_.number(cutter.cutting_diameter_mm) + " mm");
-    if (new_tool) program_.line(words_.change_tool(t));
-    program_.line(words_.length_offset(t));
+    if (new_tool) {
+      program_.line(words_.change_tool(t));
+      if (const int next = next_tool(n); next > 0 && words_.stage_tool)
+        program_.line(words_.stage_tool(std::to_string(next)));
+    }
+    if (words_.offset_moves_z) {
+      program_.with_next_height(" " + words_.length_offset(t));
+    } else {
+      program_.line(words_.length_offset(t));
+    }
     tool_ = cutter.pocket;
     setup_ = step.setup;
     approach(step, setup, new_tool || new_setup || measured || !why.empty());
@@ -196,6 +213,31 @@ class Writer {
     program_.rapid_z(start.z);
   }
 
+  /// The tool of the next step that has another one; 0: none has.
+  [[nodiscard]] int next_tool(std::size_t n) const {
+    const int now = model::find_cutter(plan_, plan_.steps[n].cutter_id)->pocket;
+    for (std::size_t i = n + 1; i < plan_.steps.size(); ++i) {
+      const int then = model::find_cutter(plan_, plan_.steps[i].cutter_id)->pocket;
+      if (then != now) return then;
+    }
+    return 0;
+  }
+
+  [[nodiscard]] bool roughs(const StepResult& step) const {
+    const auto* w = plan_.model.get<model::MachiningWorkingstep>(step.step);
+    return w != nullptr && model::has(w->its_operation.type, model::OperationTrait::kRoughs);
+  }
+
+  /// Whether the path has a cut across.
+  static bool mills(const CutterPath& path) {
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      if (path.kind[i] == MoveKind::kRapid || path.kind[i] == MoveKind::kDwell) continue;
+      if (path.x[i] != path.x[i - 1] || path.y[i] != path.y[i - 1] || model::is_arc(path.kind[i]))
+        return true;
+    }
+    return false;
+  }
+
   static double speed(const StepResult& step, std::size_t move) {
     return step.schedule ? step.schedule->spindle_rpm[move] : step.spindle_rpm;
   }
@@ -211,7 +253,9 @@ class Writer {
     }
     const bool turns = speed_ != 0.0 && (speed_ > 0.0) == (wanted > 0.0);
     if (!turns && speed_ != 0.0) program_.line("M5");
-    program_.line("S" + words_.number(std::abs(wanted), words_.speed_decimals) +
+    const double turns_at = std::abs(wanted);
+    program_.line("S" +
+                  (words_.speed ? words_.speed(turns_at) : words_.number(turns_at, words_.speed_decimals)) +
                   (wanted > 0.0 ? " M3" : " M4"));
     if (!turns) dwell(plan_.machine.spindle.spin_up_s);
     speed_ = wanted;
@@ -227,13 +271,23 @@ class Writer {
 
   Status moves(const StepResult& step, const Cutter& cutter, const std::string& id) {
     const CutterPath& path = *step.path;
+    bool tapped = false;
     for (std::size_t i = 1; i < path.size(); ++i) {
-      spindle(speed(step, i), false);
+      // A spindle that tapping has stopped is not started to draw the tap away.
+      if (!tapped || path.kind[i] != MoveKind::kRapid) spindle(speed(step, i), false);
       const double feed = step.schedule ? step.schedule->feed_mm_min[i] : step.feed_mm_min;
       const Vec3 to = program_.round(path.point(i));
       if (path.role[i] == MoveRole::kTap && path.kind[i] != MoveKind::kRapid) {
         const auto last = tap(step, cutter, i);
         if (!last) return located(last.error(), id, i);
+        i = *last;
+        if (words_.tap_stops_spindle) {
+          tapped = true;
+          speed_ = 0.0;
+        }
+        continue;
+      }
+      if (const auto last = cycle(step, i)) {
         i = *last;
         continue;
       }
@@ -267,7 +321,7 @@ class Writer {
   }
 
   Status arc(const CutterPath& path, std::size_t i, double feed) {
-    const auto pieces = arc_pieces(path, i, *program_.at(), plan_.machine.control.decimals);
+    const auto pieces = arc_pieces(path, i, *program_.at(), program_.arc_form());
     if (!pieces) return tl::unexpected(pieces.error());
     for (const ArcPiece& p : *pieces) {
       if (p.line) {
@@ -277,6 +331,19 @@ class Writer {
       }
     }
     return {};
+  }
+
+  // From move `i` on a hole as a canned cycle, where the control has one that makes the same moves. Gives its
+  // last move.
+  std::optional<std::size_t> cycle(const StepResult& step, std::size_t i) {
+    if (!words_.cycle || !program_.at()) return std::nullopt;
+    auto hole = hole_at(step, i, *program_.at(), plan_.machine.control);
+    if (!hole) return std::nullopt;
+    const auto text = words_.cycle(hole->cycle);
+    if (!text) return std::nullopt;
+    program_.moved(*text, *program_.at());
+    program_.forget_feed();
+    return hole->last_move;
   }
 
   // The control goes down in step with the spindle, reverses it, and comes back to where it began: the move
@@ -300,9 +367,16 @@ class Writer {
       return fail("OUT-TAP", "feed and speed make a pitch of " + trimmed(by_feed, 4) + " mm, the tap has " +
                                  trimmed(pitch, 4) + " mm");
     }
-    program_.moved(words_.tap(program_.number(top.z), program_.number(bottom.z),
-                              words_.number(pitch, words_.pitch_decimals)),
-                   top);
+    HoleCycle hole;
+    hole.at = xy(top);
+    hole.initial_z = hole.r_z = top.z;
+    hole.bottom_z = bottom.z;
+    hole.pitch_mm = pitch;
+    hole.rpm = speed_;
+    hole.decimals = plan_.machine.control.decimals;
+    hole.feed_decimals = plan_.machine.control.feed_decimals;
+    program_.moved(words_.tap(hole), top);
+    program_.forget_feed();
     return up;
   }
 
@@ -322,7 +396,11 @@ class Writer {
 Result<std::string> write(const Plan& plan, const Words& words,
                           const std::vector<model::Condemnation>& condemned, Job& job) {
   if (auto ok = writable(plan, words.work_offsets, job); !ok) return tl::unexpected(ok.error());
-  return Writer(plan, words, condemned).run();
+  if (auto ok = able(plan, words); !ok) return tl::unexpected(ok.error());
+  auto text = Writer(plan, words, condemned).run();
+  if (!text) return text;
+  if (auto ok = codes_known(*text, words.codes); !ok) return tl::unexpected(ok.error());
+  return text;
 }
 
 }  // namespace capstan::controls::gcode

@@ -13,26 +13,32 @@ namespace {
 constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",   "G57",  "G58",
                                                           "G59", "G59.1", "G59.2", "G59.3"};
 
-constexpr gcode::Words kWords{
-    .work_offsets = kWorkOffsets,
-    .longest_line = 252,  // LINELEN is 255; longer ones are refused ("Command too long")
-    .speed_decimals = 1,
-    .dwell_decimals = 3,
-    .pitch_decimals = 6,
-    .first = "",
-    .last = "M2",
-    .number = &trimmed,
-    .path_mode = [](const std::string& p) { return p.empty() ? std::string("G61") : "G64 P" + p; },
-    .retract = [](const std::string& z) { return "G53 G0 Z" + z; },
-    .message = [](const std::string& text) { return "(MSG, " + text + ")"; },
-    .dwell = [](const std::string& seconds) { return "G4 P" + seconds; },
-    .tap = [](const std::string& /*top*/, const std::string& bottom,
-              const std::string& pitch) { return "G33.1 Z" + bottom + " K" + pitch; },
-};
+constexpr int kPitchDecimals = 6;
+
+gcode::Words words() {
+  return {
+      .work_offsets = kWorkOffsets,
+      .longest_line = 252,  // LINELEN is 255; longer ones are refused ("Command too long")
+      .speed_decimals = 1,
+      .dwell_decimals = 3,
+      .first = "",
+      .last = "M2",
+      .number = &trimmed,
+      .path_mode = [](const std::string& p,
+                      bool /*finishes*/) { return p.empty() ? std::string("G61") : "G64 P" + p; },
+      .retract = [](const std::string& z) { return "G53 G0 Z" + z; },
+      .message = [](const std::string& text) { return "(MSG, " + text + ")"; },
+      .dwell = [](const std::string& seconds) { return "G4 P" + seconds; },
+      .tap =
+          [](const gcode::HoleCycle& h) {
+            return "G33.1 Z" + trimmed(h.bottom_z, h.decimals) + " K" + trimmed(h.pitch_mm, kPitchDecimals);
+          },
+  };
+}
 
 Result<std::string> write_program(const model::Plan& plan, Job& job,
                                   const std::vector<model::Condemnation>& condemned) {
-  return gcode::write(plan, kWords, condemned, job);
+  return gcode::write(plan, words(), condemned, job);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ std::string flag(bool v) { return v ? "yes" : ""; }
 
 constexpr std::array kFields = {
     Field{"machine", [](const PlanOptions& o) { return o.machine; }},
+    Field{"control", [](const PlanOptions& o) { return o.control; }},
     Field{"tools", [](const PlanOptions& o) { return o.tools; }},
     Field{"material", [](const PlanOptions& o) { return o.material; }},
     Field{"stock",

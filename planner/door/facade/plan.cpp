@@ -57,7 +57,7 @@ std::vector<service::Output> forms_of(const service::Planned& planned, Job& job)
   for (const service::Format& f : service::formats()) {
     if (f.write == nullptr) continue;
     // Only the machine's own control runs a program of the plan.
-    if (f.of_program() && (!runs || f.control->id != plan.machine.control.dialect)) continue;
+    if (f.of_program() && (!runs || !f.is_read_by(plan.machine.control.dialect))) continue;
     if (without.count(f.control) != 0) continue;
     auto written = service::write(plan, f, job);
     if (written) {

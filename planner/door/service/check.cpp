@@ -11,6 +11,7 @@
 #include "planner/controls/profile/profile.h"
 #include "planner/controls/specification.h"
 #include "planner/controls/suitability.h"
+#include "planner/controls/controls.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/formats.h"
@@ -358,6 +359,7 @@ class Check {
       if (!o.machine && programs())
         job_.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
+    if (o.control) shop_.machine = controls::with_control(std::move(shop_.machine), *o.control);
     const tooling::LibraryOptions counts{
         .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
     if (o.tools) {

@@ -26,8 +26,18 @@ Result<Written> plan_json(const Format& /*f*/, const model::Plan& plan, Job& /*j
                           const Condemned& /*c*/) {
   return Written{json::write_json(plan), 0};
 }
+/// By the machine's control, which must be one of those whose programs have this ending.
 Result<Written> program(const Format& f, const model::Plan& plan, Job& job, const Condemned& condemned) {
-  auto text = f.control->write_program(plan, job, condemned);
+  const controls::Dialect* own = controls::find_dialect(plan.machine.control.dialect);
+  if (own != nullptr && !f.is_read_by(own->id))
+    return fail({.code = "OUT-CONTROL",
+                 .message = "a " + std::string(f.control->program.ending) + " program is for " +
+                            std::string(f.control->name) + "; the control of machine '" + plan.machine.id +
+                            "' is " + std::string(own->name) + ", whose programs are " +
+                            std::string(own->program.ending),
+                 .hint = "write the program with that ending, or plan with control " +
+                         std::string(f.control->id) + " (--control " + std::string(f.control->id) + ")"});
+  auto text = controls::write_program(plan, job, condemned);
   if (!text) return tl::unexpected(text.error());
   return Written{*std::move(text), 0};
 }
@@ -50,6 +60,9 @@ std::vector<Format> table() {
   };
   for (const controls::Dialect* d : controls::dialects()) {
     const auto& [program_name, program_ending, program_media] = d->program;
+    const bool shared =
+        std::any_of(out.begin(), out.end(), [&](const Format& f) { return f.name == d->program.name; });
+    if (shared) continue;  // controls that read files of one kind share its row
     out.push_back(
         {program_name, "program", {program_ending}, program_media, Holds::kProgram, false, d, &program});
     if (d->write_tool_table == nullptr) continue;

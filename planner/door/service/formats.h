@@ -30,12 +30,18 @@ struct Format {
   std::vector<std::string_view> endings;  ///< of files, lower case; the usual one first
   std::string_view media;                 ///< media type (RFC 6838); empty: none
   Holds holds = Holds::kPlan;
-  bool reads = false;                          ///< read_plan reads it
-  const controls::Dialect* control = nullptr;  ///< of programs and tool tables
+  bool reads = false;  ///< read_plan reads it
+  /// Of programs and tool tables; the first where several read files of this kind.
+  const controls::Dialect* control = nullptr;
   /// Null: it is not written. `condemned` is for programs only (controls/controls.h).
   Result<Written> (*write)(const Format& format, const model::Plan& plan, Job& job,
                            const std::vector<model::Condemnation>& condemned) = nullptr;
 
+  /// Whether a machine with this control reads such files.
+  [[nodiscard]] bool is_read_by(std::string_view dialect) const {
+    const controls::Dialect* other = controls::find_dialect(dialect);
+    return control != nullptr && other != nullptr && other->program.name == control->program.name;
+  }
   [[nodiscard]] bool of_program() const { return holds == Holds::kProgram || holds == Holds::kToolTable; }
 };
 

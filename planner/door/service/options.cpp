@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "planner/controls/controls.h"
 #include "planner/controls/profile/profile.h"
 #include "planner/door/late/branches.h"
 #include "planner/door/late/changes.h"
@@ -106,6 +107,12 @@ std::string set_edges(Request& r, Text text) {
   r.edge_break_mm = *v;
   return {};
 }
+std::vector<std::string> control_words() {
+  std::vector<std::string> words;
+  for (const controls::Dialect* d : controls::dialects()) words.emplace_back(d->id);
+  std::sort(words.begin(), words.end());
+  return words;
+}
 /// The words of `--assume`; each is a value of one name.
 const std::vector<std::string>& assume_words() {
   static const std::vector<std::string> kWords = [] {
@@ -164,6 +171,13 @@ std::vector<Option> table() {
         "machine that programs run on"},
        [](Request& r, Text t) { return r.machine = t, std::string(); },
        {}},
+      {"control",
+       Value::kWord,
+       {"the machine's control, instead of the one that its file names; its options are at their defaults",
+        "the machine's control, instead of the one that its file names",
+        "the control that the programs are for, instead of the machine's"},
+       [](Request& r, Text t) { return r.control = t, std::string(); },
+       control_words()},
       {"tools",
        Value::kText,
        {"tool library: a file, or `generic` (the default)",

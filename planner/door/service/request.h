@@ -15,7 +15,7 @@ namespace capstan::service {
 /// The caller's choices beside the part: every option of `plan`, `bind` and `check` (options.h has the
 /// table). Unset or empty means the built-in default.
 struct Request {
-  std::optional<std::string> machine, tools, material, rules, cases, cache;
+  std::optional<std::string> machine, control, tools, material, rules, cases, cache;
   std::optional<geometry::Box3> stock;
   std::optional<double> stock_allowance_mm;
   std::string stock_text;  ///< as given

@@ -8,6 +8,7 @@
 
 #include "casebase/casebase.h"
 
+#include "planner/controls/controls.h"
 #include "planner/door/service/options.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
@@ -174,6 +175,13 @@ Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& i
   return {};
 }
 
+/// The control that the caller names in place of the machine's.
+void take_control(const Request& o, pipeline::Inputs& in) {
+  if (!o.control || *o.control == in.machine.control.dialect) return;
+  in.machine = controls::with_control(std::move(in.machine), *o.control);
+  in.provenance.push_back({"control", *o.control, option(o, "control")});
+}
+
 /// Warns of gaps and contradictions in a shop's own tables; planning continues, for the deciding rows are
 /// sound.
 void judge_rules(const rules::RuleBase& base, Job& job) {
@@ -253,6 +261,7 @@ Status name_material(pipeline::Inputs& in, const std::string& given, Job& job) {
 Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Job& job) {
   pipeline::Inputs in;
   if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
+  take_control(o, in);
 
   poll();
   auto library = tooling::load_library(

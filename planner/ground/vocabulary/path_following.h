@@ -21,6 +21,12 @@ struct PathFollowing {
 inline constexpr std::array kPathFollowing{
     // Source: LinuxCNC 2.9, blendmath.h, BLEND_ACC_RATIO_NORMAL and BLEND_ACC_RATIO_TANGENTIAL.
     PathFollowing{"linuxcnc", 0.86602540378443864676, 0.5, true},
+    // Acceleration before interpolation is a parameter of each axis, whole on arcs as on lines; a lower F is
+    // looked ahead for. Source: FANUC 0i operator's manual B-63844EN/02, "AI advanced preview control";
+    // shares
+    // of the axes' limits: default, unsourced.
+    PathFollowing{"fanuc", 0.86602540378443864676, 0.5, false},
+    PathFollowing{"haas", 0.86602540378443864676, 0.5, false},
 };
 
 /// The control's row; that of LinuxCNC, after which motion is modelled, for a dialect without one (such a

@@ -24,12 +24,11 @@ using ::testing::StartsWith;
 
 constexpr std::array<std::string_view, 2> kOffsets = {"G54", "G54.1"};
 
-constexpr Words kWords{
+const Words kWords{
     .work_offsets = kOffsets,
     .longest_line = 80,
     .speed_decimals = 0,
     .dwell_decimals = 1,
-    .pitch_decimals = 2,
     .first = "%",
     .last = "M30",
     .number =
@@ -37,12 +36,16 @@ constexpr Words kWords{
           const std::string text = trimmed(value, decimals);
           return text.find('.') == std::string::npos ? text + "." : text;
         },
-    .path_mode = [](const std::string& p) { return p.empty() ? std::string("G9") : "G5.1 R" + p; },
+    .path_mode = [](const std::string& p,
+                    bool /*finishes*/) { return p.empty() ? std::string("G9") : "G5.1 R" + p; },
     .retract = [](const std::string& z) { return "G28 Z" + z; },
     .message = [](const std::string& text) { return "(SHOW " + text + ")"; },
     .dwell = [](const std::string& seconds) { return "G4 X" + seconds; },
-    .tap = [](const std::string& top, const std::string& bottom,
-              const std::string& pitch) { return "M29\nG84 Z" + bottom + " R" + top + " F" + pitch; },
+    .tap =
+        [](const HoleCycle& h) {
+          return "M29\nG84 Z" + kWords.number(h.bottom_z, 1) + " R" + kWords.number(h.r_z, 1) + " F" +
+                 kWords.number(h.pitch_mm, 2);
+        },
 };
 
 std::string program_of(const Plan& plan, const std::vector<model::Condemnation>& condemned = {}) {
@@ -74,12 +77,12 @@ TEST(GcodeWriter, SaysInTheControlsWordsWhatControlsSayDifferently) {
 }
 
 TEST(GcodeWriter, TakesCommentsStatesAndToolChangesFromAControlThatHasItsOwn) {
-  constexpr std::string_view kBegin = "; ", kFirst = "G71 D0", kStep = "G71";
+  constexpr std::string_view kBegin = "; ";
   Words words = kWords;
   words.comment_begin = kBegin;
   words.comment_end = "";
-  words.first_state = kFirst;
-  words.step_state = kStep;
+  words.first_state = "G71 D0";
+  words.step_state = "G71";
   words.change_tool = [](const std::string& tool) { return "T=" + tool + "\nM6"; };
   words.length_offset = [](const std::string& tool) { return "D" + tool; };
   Plan plan = testing::empty_plan();

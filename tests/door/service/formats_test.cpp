@@ -21,14 +21,26 @@ TEST(Formats, NamesAndEndingsAreUnique) {
   }
 }
 
-TEST(Formats, EachControlHasAProgramAndAToolTable) {
+TEST(Formats, EachControlHasAProgramAndThoseThatReadOneAToolTable) {
   for (const controls::Dialect* d : controls::dialects()) {
     for (const controls::FileKind& file : {d->program, d->tool_table}) {
+      if (file.name.empty()) continue;
       ASSERT_NE(find_format(file.name), nullptr);
-      EXPECT_EQ(find_format(file.name)->control, d);
+      EXPECT_TRUE(find_format(file.name)->is_read_by(d->id)) << d->id;
       EXPECT_EQ(format_of_ending(file.ending), find_format(file.name));
     }
+    EXPECT_EQ(d->tool_table.name.empty(), d->write_tool_table == nullptr) << d->id;
   }
+}
+
+TEST(Formats, AProgramOfAnotherControlThanTheMachinesIsRefused) {
+  model::Plan plan;
+  plan.machine.id = "mill";
+  Job job;
+  const auto written = write(plan, *find_format("fanuc"), job);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, "OUT-CONTROL");
+  EXPECT_NE(written.error().hint.find("--control fanuc"), std::string::npos) << written.error().hint;
 }
 
 TEST(Formats, AnOutputsEndingTellsItsFormat) {
@@ -46,11 +58,11 @@ TEST(Formats, AnOutputsEndingTellsItsFormat) {
 }
 
 TEST(Formats, TextsForPeopleAreMadeOfTheTable) {
-  EXPECT_EQ(written_endings(), ".p21, .stp, .stpnc, .238, .json, .ngc, .tbl or .html");
-  EXPECT_EQ(
-      written_text(),
-      "ISO 14649 .p21 .stp, AP238 .stpnc .238, plan .json, program .ngc, tool table .tbl, report .html");
-  EXPECT_EQ(endings_of(Holds::kProgram), ".ngc");
+  EXPECT_EQ(written_endings(), ".p21, .stp, .stpnc, .238, .json, .ngc, .tbl, .nc or .html");
+  EXPECT_EQ(written_text(),
+            "ISO 14649 .p21 .stp, AP238 .stpnc .238, plan .json, program .ngc, tool table .tbl, program .nc, "
+            "report .html");
+  EXPECT_EQ(endings_of(Holds::kProgram), ".ngc, .nc");
   EXPECT_EQ(read_text(), "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, or STL mesh");
 }
 

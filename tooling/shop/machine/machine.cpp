@@ -9,7 +9,9 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/control_options.h"
 #include "planner/model/plan/range/ranges.h"
+#include "planner/model/plan/resources/control_options.h"
 #include "tooling/shop/data/data.h"
 #include "tooling/shop/data/tree.h"
 
@@ -341,6 +343,19 @@ void read_coolant(Fields& top, Machine& m) {
   keep_sources(f, m);
 }
 
+/// What this machine's control does in its own way: the options that controls of its kind have.
+void read_control_options(Fields& f, Machine& m) {
+  for (const model::ControlOptionRow& row : model::kControlOptions) {
+    if (model::default_of(row, m.control.dialect) == "-" || !f.has(row.name)) continue;
+    model::ControlOption option{std::string(row.name), f.text(row.name)};
+    if (std::string wrong = model::control_option_fault(m.control.dialect, option); !wrong.empty())
+      f.fault("MACHINE-CONTROL", std::string(row.name) + ": " + wrong, row.name, f.line_of(row.name),
+              std::string(row.meaning));
+    if (!m.control_options) m.control_options.emplace();
+    m.control_options->chosen.push_back(std::move(option));
+  }
+}
+
 void read_control(Fields& top, Machine& m) {
   const Node* node = top.child("control", true);
   if (node == nullptr) return;
@@ -362,6 +377,7 @@ void read_control(Fields& top, Machine& m) {
   }
   within(f, "path_tolerance_mm", m.control.path_tolerance_mm, range::kPathToleranceMm);
   within(f, "block_time_s", m.control.block_time_s, range::kBlockTimeS);
+  read_control_options(f, m);
   keep_sources(f, m);
 }
 

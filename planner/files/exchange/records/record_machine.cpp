@@ -23,8 +23,11 @@ static void describe_value(RecordFields& f, const std::string& name, model::Unit
 void describe(RecordFields& f, model::Machine& m) { describe_part(f, m, model::kMachineNames); }
 
 void describe(RecordFields& f, MachineData data) {
-  for (std::size_t part = model::kMachineNames + 1; part < model::kMachineParts; ++part)
+  for (std::size_t part = model::kMachineNames + 1; part < model::kMachineParts; ++part) {
+    // Files of earlier versions end before the control's options.
+    if (model::kRecordParts<model::Machine>[part].since > 1 && !f.more()) return;
     describe_part(f, data.machine, part);
+  }
 }
 
 }  // namespace capstan::exchange

@@ -57,6 +57,17 @@ struct Control {
   friend bool operator==(const Control&, const Control&) = default;
 };
 
+/// One thing that controls of a kind do differently from machine to machine: a row of
+/// ground/vocabulary/control_options.h by its name, and its value as that row takes it.
+struct ControlOption {
+  std::string name, value;
+  friend bool operator==(const ControlOption&, const ControlOption&) = default;
+};
+struct ControlOptions {
+  std::vector<ControlOption> chosen;  ///< in file order; what is not among them is the row's default
+  friend bool operator==(const ControlOptions&, const ControlOptions&) = default;
+};
+
 /// A mode of vibration of a tool point, as a tap test gives it.
 struct ToolPointMode {
   std::string cutter_id;  ///< empty: any
@@ -93,7 +104,8 @@ struct Machine {
   Control control;
   MachineAbilities abilities;
   std::vector<ToolPointMode> modes;  ///< empty: stability is judged by slenderness alone
-  std::vector<std::pair<std::string, std::string>> sources;  ///< (value's path, source), in file order
+  std::vector<std::pair<std::string, std::string>> sources;      ///< (value's path, source), in file order
+  std::optional<ControlOptions> control_options = std::nullopt;  ///< none: all at their defaults
   friend bool operator==(const Machine&, const Machine&) = default;
 };
 

@@ -59,6 +59,15 @@ inline constexpr auto kFields<Control> = std::tuple{
     field("offsets_against_reference", &Control::offsets_against_reference).record("offsets against"),
 };
 template <>
+inline constexpr auto kFields<ControlOption> = std::tuple{
+    field("name", &ControlOption::name).record("name"),
+    field("value", &ControlOption::value).record("value"),
+};
+template <>
+inline constexpr auto kFields<ControlOptions> = std::tuple{
+    field("chosen", &ControlOptions::chosen).record("chosen"),
+};
+template <>
 inline constexpr auto kFields<ToolPointMode> = std::tuple{
     field("cutter_id", &ToolPointMode::cutter_id).record("cutter"),
     field("direction", &ToolPointMode::direction).record("direction"),
@@ -87,12 +96,13 @@ inline constexpr auto kFields<MachineAbilities> = std::tuple{
 /// The pieces of a machine's record, in order. The first, its names, is the record before.
 enum MachinePart : std::size_t {
   kMachineNames, kMachineAxes, kMachineSpindle, kMachineSizes, kMachineControl, kMachineAbilities,
-  kMachineModes, kMachineSources, kMachineParts
+  kMachineModes, kMachineSources, kMachineOptions, kMachineParts
 };
 template <>
 inline constexpr auto kRecordParts<Machine> = [] {
   std::array<RecordPart, kMachineParts> out{};
   out[kMachineSizes] = {.opens = true, .closes = true};
+  out[kMachineOptions] = {.since = 2};
   return out;
 }();
 template <>
@@ -114,12 +124,14 @@ inline constexpr auto kFields<Machine> = std::tuple{
     field("sources", &Machine::sources).record("source", kMachineSources),
     field("abilities", &Machine::abilities).record("abilities", kMachineAbilities),
     field("modes", &Machine::modes).record("mode", kMachineModes),
+    field("control_options", &Machine::control_options).record("control option", kMachineOptions),
 };
 // clang-format on
 
 static_assert(has_row_per_member<LinearAxis>() && has_row_per_member<SpindlePoint>() &&
                   has_row_per_member<SpindleGear>() && has_row_per_member<Spindle>() &&
-                  has_row_per_member<Control>() && has_row_per_member<ToolPointMode>() &&
+                  has_row_per_member<Control>() && has_row_per_member<ControlOption>() &&
+                  has_row_per_member<ControlOptions>() && has_row_per_member<ToolPointMode>() &&
                   has_row_per_member<MachineAbilities>() && has_row_per_member<Machine>(),
               "a field of the machine has no row in machine_fields.h, or two");
 

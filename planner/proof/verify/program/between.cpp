@@ -1,6 +1,7 @@
 #include <set>
 
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/resources/control_options.h"
 #include "planner/proof/verify/program/program_checks.h"
 
 // What the text does between two steps, against the plan: tools are changed where the next step has another
@@ -130,6 +131,8 @@ class Between {
     step_ = b.marker;
     if (s == nullptr) return;
     int wanted = 0;
+    if (!first && proves_out_ && pocket(s) != proved_) ++wanted;
+    proved_ = pocket(s);
     if (!first && setup_ != s->setup) ++wanted;
     if (measured_.before.contains(s->step)) ++wanted;
     if (c_.program.markers[static_cast<std::size_t>(b.marker)].condemned) ++wanted;
@@ -155,6 +158,9 @@ class Between {
   const ProgramCase& c_;
   Findings& out_;
   Measured measured_;
+  /// The machine stops behind the last step of each tool.
+  const bool proves_out_ = model::control_option(c_.machine, "prove_out") == "m0";
+  int proved_ = 0;
   int step_ = -1, changed_ = -2, loaded_ = 0, stops_ = 0;
   long last_stop_ = -1;
   std::size_t setup_ = 0;

@@ -82,7 +82,7 @@ std::vector<model::Finding> check_program_text(const ProgramText& text, const mo
   Findings findings;
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
-  const Program program = reader->program(text.text);
+  const Program program = reader->program(text.text, machine);
   const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
   (void)judge_text(*reader, program, text, plan, machine, none ? tools_of_header(program) : cutters,
                    findings);
@@ -97,7 +97,7 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
   check_to_its_end(job, findings, [&] {
-    const Program program = reader->program(text.text);
+    const Program program = reader->program(text.text, machine);
     // Moves refer to the cutters.
     const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
     const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;

@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "planner/proof/verify/program/program.h"
 
@@ -44,6 +46,11 @@ std::optional<double> number(const std::string& text) {
   return v;
 }
 
+/// Numbered offsets beyond G59: FANUC's and Haas's.
+constexpr std::array<std::pair<int, std::string_view>, 2> kExtended = {
+    {{541000, "G54.1P"}, {1540000, "G154P"}}};
+constexpr int kMostExtended = 1000;
+
 /// Whether a comment begins with these words, one or two blanks before them allowed.
 bool begins(const std::string& text, const char* words) {
   const std::size_t at = text.find(words);
@@ -53,6 +60,11 @@ bool begins(const std::string& text, const char* words) {
 }  // namespace
 
 int offset_code(std::string_view name) {
+  for (const auto& [code, prefix] : kExtended) {
+    if (!name.starts_with(prefix)) continue;
+    const auto n = number(std::string(name.substr(prefix.size())));
+    return n && *n >= 1.0 && *n < kMostExtended && *n == std::floor(*n) ? code + static_cast<int>(*n) : 0;
+  }
   static constexpr std::string_view kDigits = "0123456789";
   if (!name.starts_with("G5") || name.size() < 3 || name[2] < '4' || name[2] > '9') return 0;
   const int whole = 500 + 10 * (name[2] - '0');
@@ -63,6 +75,10 @@ int offset_code(std::string_view name) {
 
 std::string offset_name(int code) {
   if (code == 0) return "no work offset";
+  for (const auto& [first, prefix] : kExtended) {
+    if (code > first && code < first + kMostExtended)
+      return std::string(prefix) + std::to_string(code - first);
+  }
   return "G" + std::to_string(code / 10) + (code % 10 != 0 ? "." + std::to_string(code % 10) : "");
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/control_options.h"
 #include "planner/proof/verify/program/following.h"
 #include "planner/proof/verify/program/program_checks.h"
 
@@ -14,7 +15,9 @@ void check_tolerance(const ProgramCase& c, const model::StepResult& step,
   const model::Control& control = c.machine.control;
   const double unit = std::pow(10.0, -control.decimals);
   const double own = control.path_tolerance_mm;
-  const double exact = own > 0.0 && step.contour_tolerance_mm > 0.0 ? step.contour_tolerance_mm : own;
+  const bool of_step = own > 0.0 && step.contour_tolerance_mm > 0.0 && c.reader.states_tolerance &&
+                       model::control_option(c.machine, "smoothness") != "no";
+  const double exact = of_step ? step.contour_tolerance_mm : own;
   const double wanted = std::max(0.0, rounded(exact, control.decimals));
   for (const Block* b : text) {
     if (b->kind != Block::Kind::kMove || b->in_machine) continue;

@@ -15,12 +15,13 @@ using model::MoveKind;
 
 namespace {
 
-/// Waits are written to a thousandth of a second, speeds to a tenth of a turn per minute.
+/// Waits are written to a thousandth of a second.
 constexpr int kDwellDecimals = 3;
-constexpr double kSpeedSlack = 0.051;
 constexpr double kDwellSlack = 0.00051;
 /// An arc's ends and its centre are rounded each on its own: the arc drawn may stand off by so many units.
 constexpr double kArcUnits = 4.0;
+/// But no more than this where the control's last decimal is finer.
+constexpr double kArcMostMm = 0.002;
 /// Arcs flatter than half a unit, and those of less than 20 units, have no shape left after rounding.
 constexpr double kFlatUnits = 0.6, kShortUnits = 22.0;
 constexpr double kPitchSlack = 1e-5;
@@ -65,7 +66,9 @@ Following::Following(const ProgramCase& c, std::size_t marker, std::size_t step,
       high_(high),
       out_(out),
       decimals_(c.machine.control.decimals),
-      unit_(std::pow(10.0, -decimals_)) {
+      unit_(std::pow(10.0, -decimals_)),
+      arc_off_(unit_ < kArcMostMm ? std::min(kArcUnits * unit_, kArcMostMm) : kArcUnits * unit_),
+      speed_slack_(0.51 * std::pow(10.0, -c.reader.speed_decimals)) {
   const auto& setups = c.plan->setups;
   security_ = step_.setup < setups.size() ? setups[step_.setup].security_z_mm : path_.z[0];
 }
@@ -171,10 +174,12 @@ bool Following::approach_move(const Block& b) {
     return wrong("a move in machine coordinates other than to the top of Z");
   }
   const bool across = b.words[0] || b.words[1];
-  if (!state_agrees(-1, b)) return false;
+  // At the top of Z a move across needs no length of the tool.
+  const bool at_any_length = across && !b.words[2] && high_ && b.length_offset < 0;
+  if (!at_any_length && !state_agrees(-1, b)) return false;
   if (!across && known_from(b) && b.to.z > b.from.z && same(b.to.z, travel_height_)) return true;
   // Own speed first, so that the spindle is started where the tool is clear.
-  if (std::abs(b.spindle_rpm - speed_of(path_.size() > 1 ? 1 : 0)) > kSpeedSlack)
+  if (std::abs(b.spindle_rpm - speed_of(path_.size() > 1 ? 1 : 0)) > speed_slack_)
     return say(b.line,
                "the tool comes with the spindle at " + plain(b.spindle_rpm) + " rpm; the plan says " +
                    plain(speed_of(path_.size() > 1 ? 1 : 0)),
@@ -242,7 +247,9 @@ bool Following::dwell(std::size_t i) {
 }
 
 bool Following::one(std::size_t i) {
+  if (i <= done_to_) return true;
   if (path_.kind[i] == MoveKind::kDwell) return dwell(i);
+  if (const auto made = hole_way(i)) return *made;
   const Vec3 goal = round(path_.point(i));
   const bool arcs = is_arc(path_.kind[i]);
   const bool full =
@@ -258,6 +265,53 @@ bool Following::one(std::size_t i) {
     return say(b->line, "the text goes to " + text_of(b->to) + "; the plan to " + text_of(goal),
                static_cast<long>(i));
   return numbers_agree(i, *b);
+}
+
+/// Straight down to where the tool is fed into the hole, or straight up out of it: a canned cycle makes such
+/// a way in pieces of its own. By rapid where the plan goes through air at feed to R, and above R on the way
+/// out. Handled only where the text is a cycle's; `done_to_` is then the last move of the way.
+std::optional<bool> Following::hole_way(std::size_t i) {
+  if (at_ >= text_.size() || !text_[at_]->from_cycle) return std::nullopt;
+  const auto straight = [&](std::size_t k, Vec3 from) {
+    return path_.kind[k] != MoveKind::kDwell && !is_arc(path_.kind[k]) && same(path_.x[k], from.x) &&
+           same(path_.y[k], from.y);
+  };
+  const auto in_air = [&](std::size_t k) {
+    return path_.kind[k] == MoveKind::kRapid || path_.role[k] == model::MoveRole::kApproach;
+  };
+  const bool up = path_.z[i] > last_.z;
+  const bool fed = path_.kind[i] == MoveKind::kLine;
+  if (up ? path_.role[i] != model::MoveRole::kRetract : !in_air(i)) return std::nullopt;
+  Vec3 goal = last_;
+  std::size_t end = i;
+  for (; end < path_.size() && straight(end, last_); ++end) {
+    const Vec3 to = round(path_.point(end));
+    if (up ? to.z <= goal.z : !in_air(end) || to.z >= goal.z) break;
+    goal = to;
+  }
+  if (end == i) return std::nullopt;
+  std::size_t begun = i - 1;
+  while (begun > 1 && !in_air(begun)) --begun;
+  const double r = round(path_.point(begun)).z;
+  while (!same(last_, goal)) {
+    const Block* b = next(i, goal);
+    if (b == nullptr) return false;
+    const double sign = up ? 1.0 : -1.0;
+    const bool on_way = same(b->to.x, goal.x) && same(b->to.y, goal.y) && sign * (b->to.z - last_.z) > 0.0 &&
+                        (sign * (goal.z - b->to.z) > 0.0 || same(b->to.z, goal.z));
+    const bool above = last_.z > r || same(last_.z, r);
+    const bool kind =
+        b->move == MoveKind::kRapid ? !up || !fed || above : up && fed && b->move == MoveKind::kLine;
+    if (!on_way || !kind)
+      return say(b->line,
+                 std::string("the text has ") + name(b->move) + " to " + text_of(b->to) + "; the plan has " +
+                     name(path_.kind[i]) + " on its way to " + text_of(goal),
+                 static_cast<long>(i));
+    if (!numbers_agree(b->move == MoveKind::kRapid ? end - 1 : i, *b)) return false;
+    last_ = b->to;
+  }
+  done_to_ = end - 1;
+  return true;
 }
 
 /// One axis after the other, each on its way.
@@ -286,7 +340,7 @@ bool Following::arc(std::size_t i, Vec3 goal) {
   whole.to = path_.point(i);
   whole.centre = {path_.cx[i], path_.cy[i]};
   const double radius = norm(xy(whole.to) - whole.centre);
-  const double slack = kArcUnits * unit_ / std::max(radius, unit_) + 1e-9;
+  const double slack = arc_off_ / std::max(radius, unit_) + 1e-9;
   const double sweep = sweep_of(whole);
   double done = 0.0;
   for (;;) {
@@ -309,7 +363,7 @@ bool Following::arc_piece(std::size_t i, const Block& b, const Move& whole, doub
     const Move m = move_of(b);
     part = sweep_of(m);
     const Vec3 middle = point_of(m, 0.5);
-    if (off(xy(middle)) > kArcUnits * unit_)
+    if (off(xy(middle)) > arc_off_)
       return say(b.line,
                  "the arc passes " + text_of(middle) + ", " + mm(off(xy(middle))) +
                      " from the plan's; its radius is " + mm(b.radius_end) + ", the plan's " + mm(radius),
@@ -329,8 +383,7 @@ bool Following::arc_piece(std::size_t i, const Block& b, const Move& whole, doub
   const double z = whole.from.z + (whole.to.z - whole.from.z) * std::min(1.0, done / sweep);
   const double steep = std::abs(whole.to.z - whole.from.z) / std::max(radius * sweep, unit_);
   const bool along = std::abs(b.to.z - z) <= (1.0 + kArcUnits * (1.0 + steep)) * unit_;
-  if (off(xy(b.to)) <= kArcUnits * unit_ && along && part > -kArcUnits * unit_ / std::max(radius, unit_))
-    return true;
+  if (off(xy(b.to)) <= arc_off_ && along && part > -arc_off_ / std::max(radius, unit_)) return true;
   return say(b.line, "the text goes to " + text_of(b.to) + ", which is not on the plan's arc there",
              static_cast<long>(i));
 }
@@ -365,7 +418,7 @@ bool Following::tap_agrees(std::size_t i, const Block& b) {
   const bool planned = path_.role[i] == model::MoveRole::kTap;
   if (b.synchronised != planned)
     return say(b.line,
-               planned ? "the text feeds without holding step with the spindle (G33.1); the plan taps"
+               planned ? "the text feeds without holding step with the spindle; the plan taps"
                        : "the text taps; the plan feeds",
                static_cast<long>(i), 22, "CHK-TEXT-TAP");
   if (!planned || b.to.z >= b.from.z) return true;
@@ -385,7 +438,10 @@ bool Following::numbers_agree(std::size_t i, const Block& b) {
   if (feeds && !tap_agrees(i, b)) return false;
   const double speed = speed_of(i);
   const bool back = b.synchronised && b.to.z > b.from.z;
-  if (!back && std::abs(b.spindle_rpm - speed) > kSpeedSlack)
+  // A control may have stopped the spindle when the tap was out.
+  tapped_ = tapped_ || b.synchronised;
+  const bool drawn_away = tapped_ && !feeds && b.spindle_rpm == 0.0;
+  if (!back && !drawn_away && std::abs(b.spindle_rpm - speed) > speed_slack_)
     return say(b.line, "the spindle turns at " + plain(b.spindle_rpm) + " rpm; the plan says " + plain(speed),
                move);
   if (!step_.through && (b.flood != step_.flood || b.mist != step_.mist) && !feeds)

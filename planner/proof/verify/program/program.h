@@ -26,7 +26,7 @@ struct StepMarker {
 /// What a program's own header says of a set-up: `(CAPSTAN SETUP n=1 offset=G54 security=20)`.
 struct HeaderSetup {
   long n = 0;
-  int offset = 0;  ///< 540 .. 593; 0: none that there is
+  int offset = 0;  ///< by offset_code; 0: none that there is
   std::optional<double> security_mm;
   long line = 0;
 };
@@ -65,7 +65,7 @@ struct Block {
   int length_offset = -1;    ///< H; -1 none; 0 for G43.1
   int radius_offset = -1;    ///< D while G41, G42
   bool radius_left = false;  ///< G41
-  int work_offset = 0;       ///< 540 .. 590, 591, 592, 593; 0: never stated
+  int work_offset = 0;       ///< by offset_code; 0: never stated
   /// Z in machine coordinates after the block, where a G53 said it and nothing else moved Z since.
   std::optional<double> machine_z;
   bool unmoved = false;      ///< nothing moved so far
@@ -118,7 +118,7 @@ struct Program {
   long lines = 0;
 };
 
-/// "G54" .. "G59.9" as a code times ten; 0 for anything else.
+/// "G54" .. "G59.9" as a code times ten; "G54.1P7" is 541007, "G154P7" 1540007; 0 for anything else.
 [[nodiscard]] int offset_code(std::string_view name);
 /// 551 is "G55.1".
 [[nodiscard]] std::string offset_name(int code);

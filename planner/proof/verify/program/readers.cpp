@@ -2,15 +2,22 @@
 
 #include <array>
 
+#include "planner/proof/verify/program/fanuc/reader.h"
 #include "planner/proof/verify/program/linuxcnc/reader.h"
 
 namespace capstan::verify {
 namespace {
 
+/// Its programs say all that its reader must know.
+Program read_linuxcnc(std::string_view text, const model::Machine& /*machine*/) {
+  return linuxcnc::read_program(text);
+}
+
 // A new control is a folder beside linuxcnc/ and a row.
 constexpr std::array kReaders{
-    DialectReader{"linuxcnc", "LinuxCNC", linuxcnc::kWorkOffsets, &linuxcnc::read_program,
-                  &linuxcnc::read_tool_table},
+    DialectReader{"linuxcnc", "LinuxCNC", linuxcnc::kWorkOffsets, &read_linuxcnc, &linuxcnc::read_tool_table},
+    DialectReader{"fanuc", "Fanuc", fanuc::kFanucOffsets, &fanuc::read_program, nullptr, 0, false},
+    DialectReader{"haas", "Haas", fanuc::kHaasOffsets, &fanuc::read_program, nullptr, 0, true},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "planner/model/plan/resources/machine.h"
 #include "planner/proof/verify/program/program.h"
 #include "planner/proof/verify/program/tool_table.h"
 
@@ -15,8 +16,11 @@ struct DialectReader {
   std::string_view dialect;                        ///< as model::Control has it
   std::string_view name;                           ///< for people
   std::span<const std::string_view> work_offsets;  ///< in the order of their numbers
-  Program (*program)(std::string_view text);
+  /// By what the machine's file says of its control.
+  Program (*program)(std::string_view text, const model::Machine& machine);
   ToolTable (*tool_table)(std::string_view text);  ///< null for a control that reads no tool table
+  int speed_decimals = 1;                          ///< of S, 1/min
+  bool states_tolerance = true;                    ///< its programs say how far corners are rounded
 };
 
 /// The reader for programs of that control; null when there is none.

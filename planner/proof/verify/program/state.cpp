@@ -246,8 +246,8 @@ class StateChecks {
     if (!b.synchronised || t == nullptr || !(t->thread_pitch_mm > 0.0) || b.from_cycle) return;
     if (std::abs(b.pitch_mm - t->thread_pitch_mm) > 1e-3)
       out_.error(18, "CHK-TAP-FEED", c_.where(b),
-                 "G33.1 with a pitch of " + mm(b.pitch_mm) + ", the tap's is " + mm(t->thread_pitch_mm) +
-                     "; state K as a pitch of " + mm(t->thread_pitch_mm) + ", or load another tap");
+                 "tapping with a pitch of " + mm(b.pitch_mm) + ", the tap's is " + mm(t->thread_pitch_mm) +
+                     "; state a pitch of " + mm(t->thread_pitch_mm) + " (G33.1: K), or load another tap");
   }
 
   void restart(const Block& b) {

@@ -121,7 +121,7 @@ bool cycle_code(int g) { return g == 730 || (g >= 810 && g <= 890); }
 
 }  // namespace
 
-void Interpreter::block_rules(const Line& l, const Said& s) {
+void Interpreter::block_rules(const Line& l, const BlockSaid& s) {
   for (std::size_t i = 1; i < l.words.size(); ++i) {
     if (l.words[i].letter == 'N')
       fault(33, "CHK-WORD", "N stands behind other words; LinuxCNC reads it at the start of a block only");
@@ -130,7 +130,7 @@ void Interpreter::block_rules(const Line& l, const Said& s) {
   code_rules(s);
 }
 
-void Interpreter::word_rules(const Said& s) {
+void Interpreter::word_rules(const BlockSaid& s) {
   bool groups[13] = {};
   int motion = motion_;
   bool dwells = false, offset = false, blend = false, length = false, radius = false, new_unit = false;
@@ -195,7 +195,7 @@ void Interpreter::word_rules(const Said& s) {
         "next block");
 }
 
-void Interpreter::code_rules(const Said& s) {
+void Interpreter::code_rules(const BlockSaid& s) {
   const bool axes = s.is('X') || s.is('Y') || s.is('Z');
   bool g53 = false, dwells = false, motion_said = false, absolute = absolute_;
   int motion = motion_, feed_mode = feed_mode_;

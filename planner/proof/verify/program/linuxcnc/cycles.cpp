@@ -17,23 +17,6 @@ constexpr double kPeckClearanceMm = 0.254;
 constexpr int kMostPecks = 100000;
 }  // namespace
 
-void Interpreter::to(geometry::Vec3 p, MoveKind kind, bool synchronised) {
-  if (p == at_ || cycle_blocks_ > kCycleBlockCap) return;
-  if (++cycle_blocks_ > kCycleBlockCap) {
-    fault(26, "CHK-TOO-LARGE",
-          "the cycles up to here are more than " + std::to_string(kCycleBlockCap) +
-              " moves; what follows of them is not read: write fewer repeats (L) or larger pecks (Q)");
-    return;
-  }
-  Block b = block();
-  b.from_cycle = true;
-  b.synchronised = synchronised;
-  b.move = kind;
-  b.to = p;
-  for (int i = 0; i < 3; ++i) b.words[i] = b.known_to[i] = true;
-  put(b);
-}
-
 void Interpreter::one_hole(int mode, double x, double y, double z, double r, double q, double p,
                            double clear) {
   const double back = return_to_r_ ? r : std::max(clear, r);
@@ -66,7 +49,7 @@ void Interpreter::one_hole(int mode, double x, double y, double z, double r, dou
   to({x, y, back}, MoveKind::kRapid);
 }
 
-void Interpreter::cycle(const Said& s) {
+void Interpreter::cycle(const BlockSaid& s) {
   const int mode = motion_;
   if (mode == 870 || mode == 880) {
     fault(26, "CHK-CYCLE", "G87 and G88 are not followed", true);

@@ -36,12 +36,7 @@ std::string code_text(char letter, int tenths) {
 
 }  // namespace
 
-void Interpreter::fault(int property, std::string code, std::string message, bool undecided) {
-  if (out_.faults.size() < kFaultCap)
-    out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});
-}
-
-bool Interpreter::gather(const Line& l, Said& s) {
+bool Interpreter::gather(const Line& l, BlockSaid& s) {
   for (const Word& w : l.words) {
     if (w.letter == 'G' || w.letter == 'M') {
       const double tenths = std::round(w.value * 10.0);
@@ -64,49 +59,7 @@ bool Interpreter::gather(const Line& l, Said& s) {
   return true;
 }
 
-double Interpreter::speed() const { return spindle_ * speed_; }
-
-Block Interpreter::block() const {
-  Block b;
-  b.line = line_;
-  b.marker = marker_;
-  b.from = b.to = at_;
-  for (int i = 0; i < 3; ++i) b.known_from[i] = b.known_to[i] = known_[i];
-  b.feed_mm_min = feed_mode_ == 95 ? feed_ * std::abs(speed()) : feed_;
-  b.spindle_rpm = speed();
-  b.tool = tool_;
-  b.length_offset = length_;
-  b.radius_offset = radius_;
-  b.radius_left = left_;
-  b.work_offset = offset_;
-  b.machine_z = machine_z_;
-  b.unmoved = !moved_;
-  b.spindle_starts = starts_;
-  b.started_s = started_s_;
-  b.moved_since = moved_since_;
-  b.cycle_active = is_cycle(motion_);
-  b.mist = mist_;
-  b.flood = flood_;
-  b.stated = stated_;
-  b.tolerance_mm = tolerance_;
-  b.naive_mm = naive_;
-  b.exact_stop = exact_stop_;
-  return b;
-}
-
-void Interpreter::put(Block b) {
-  moved_ = moved_since_ = true;
-  at_ = b.to;
-  for (int i = 0; i < 3; ++i) known_[i] = b.known_to[i];
-  if (b.words[2] || b.from.z != b.to.z) {
-    machine_z_.reset();
-    if (b.in_machine) machine_z_ = b.to.z;
-  }
-  b.machine_z = machine_z_;
-  out_.blocks.push_back(std::move(b));
-}
-
-void Interpreter::length_code(int g, const Said& s) {
+void Interpreter::length_code(int g, const BlockSaid& s) {
   const int before = length_;
   if (g == 490) {
     length_ = -1;
@@ -122,16 +75,12 @@ void Interpreter::length_code(int g, const Said& s) {
   if (length_ != before || length_ == 0) known_[2] = false;  // the tip's height is another one now
 }
 
-void Interpreter::state_code(int g, const Said& s) {
+void Interpreter::state_code(int g, const BlockSaid& s) {
   switch (g) {
     case 170:
-      plane_xy_ = true;
-      stated_ |= kStatedPlane;
-      break;
     case 180:
     case 190:
-      plane_xy_ = false;
-      fault(33, "CHK-UNVERIFIABLE", code_text('G', g) + ": only the XY plane is followed", true);
+      plane(g / 10);
       break;
     case 200:
     case 210: {
@@ -223,7 +172,7 @@ void Interpreter::state_code(int g, const Said& s) {
   }
 }
 
-void Interpreter::state_codes(const Said& s) {
+void Interpreter::state_codes(const BlockSaid& s) {
   for (int i = 0; i < s.g_count; ++i) {
     // The unit comes first: it tells what the other words mean.
     if (s.g[i] == 200 || s.g[i] == 210 || (s.g[i] >= 930 && s.g[i] <= 950)) state_code(s.g[i], s);
@@ -239,7 +188,7 @@ void Interpreter::state_codes(const Said& s) {
   if (s.is('T')) next_tool_ = whole(s.of('T'));
 }
 
-void Interpreter::machine_codes(const Said& s) {
+void Interpreter::machine_codes(const BlockSaid& s) {
   for (int i = 0; i < s.m_count; ++i) {
     switch (s.m[i]) {
       case 60: {
@@ -286,26 +235,7 @@ void Interpreter::machine_codes(const Said& s) {
   }
 }
 
-void Interpreter::start(int way) {
-  if (spindle_ != way) {
-    ++starts_;
-    started_s_ = 0.0;
-    moved_since_ = false;
-  }
-  spindle_ = way;
-  stated_ |= kStatedSpindle;
-}
-
-void Interpreter::dwell(double seconds) {
-  Block b = block();
-  b.kind = Block::Kind::kDwell;
-  b.move = MoveKind::kDwell;
-  b.dwell_s = seconds;
-  out_.blocks.push_back(b);
-  started_s_ += seconds;
-}
-
-void Interpreter::motion(const Said& s, bool machine_coordinates) {
+void Interpreter::motion(const BlockSaid& s, bool machine_coordinates) {
   const bool axes = s.is('X') || s.is('Y') || s.is('Z');
   for (int i = 0; i < s.g_count; ++i) {
     if (!is_motion(s.g[i])) continue;
@@ -315,6 +245,7 @@ void Interpreter::motion(const Said& s, bool machine_coordinates) {
       cycle_clear_ = known_[2] ? at_.z : 1e300;
     }
     motion_ = s.g[i] == 800 ? -1 : s.g[i];
+    cycle_active_ = is_cycle(motion_);
   }
   const bool centre = s.is('I') || s.is('J');
   if (!axes && !(centre && (motion_ == 20 || motion_ == 30))) return;
@@ -384,7 +315,7 @@ void Interpreter::line(const Line& l, long number) {
     if (out_.ended && !l.words.empty()) fault(32, "CHK-END", "text goes on after the end of the program");
     return;
   }
-  Said s;
+  BlockSaid s;
   if (!gather(l, s)) return;
   block_rules(l, s);
   state_codes(s);

@@ -1,0 +1,132 @@
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "planner/controls/fanuc/fanuc.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/control_options.h"
+
+// What the machine's options make of the words of its programs.
+
+namespace capstan::controls::fanuc {
+namespace {
+
+using gcode::HoleCycle;
+using model::control_number;
+using model::control_option;
+
+constexpr int kPitchDecimals = 4;  // FANUC B-63833EN-1/02, 9: F in G95 counts 0.0001 mm/rev
+constexpr double kClosureMm =
+    0.002;  // of arcs; the least that B-63844EN/02, 4.4, is met with (parameter 3410)
+
+std::string with_point(double value, int decimals) {
+  const std::string text = trimmed(value, decimals);
+  return text.find('.') == std::string::npos ? text + "." : text;
+}
+
+/// P of G4 and of cycles.
+std::string dwell_word(double seconds, bool in_seconds) {
+  return in_seconds ? "P" + with_point(seconds, 3) : "P" + trimmed(1000.0 * seconds, 0);
+}
+
+std::string place_words(const HoleCycle& h) {
+  return " X" + with_point(h.at.x, h.decimals) + " Y" + with_point(h.at.y, h.decimals) + " Z" +
+         with_point(h.bottom_z, h.decimals) + " R" + with_point(h.r_z, h.decimals);
+}
+
+std::string hole_text(const HoleCycle& h, bool in_seconds) {
+  const bool waits = rounded(h.dwell_s, 3) > 0.0;
+  const char* code = h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
+  return "G98 " + std::string(code) + place_words(h) +
+         (waits ? " " + dwell_word(h.dwell_s, in_seconds) : "") + " F" +
+         with_point(h.feed_mm_min, h.feed_decimals) + "\nG80";
+}
+
+struct Tapping {
+  bool m29, per_revolution;
+  double retract;  ///< J; 0: none
+};
+
+std::string tap_text(const HoleCycle& h, const Tapping& t) {
+  const double rpm = rounded(std::abs(h.rpm), 0);
+  std::string out;
+  if (t.per_revolution) out += "G95\n";
+  if (t.m29) out += "M29 S" + trimmed(rpm, 0) + "\n";
+  out += std::string("G98 ") + (h.rpm < 0.0 ? "G74" : "G84") + place_words(h) + " F" +
+         with_point(t.per_revolution ? h.pitch_mm : h.pitch_mm * rpm, kPitchDecimals);
+  if (t.retract > 0.0) out += " J" + trimmed(t.retract, 0);
+  return out + (t.per_revolution ? "\nG80\nG94" : "\nG80");
+}
+
+std::string prove_out(std::string_view option) {
+  if (option == "m1") return "M1";
+  if (option == "m0") return "M0";
+  return option == "skip_m0" ? "/M0" : "";
+}
+
+gcode::BlockNumbers block_numbers(std::string_view option) {
+  if (option == "all") return gcode::BlockNumbers::kAll;
+  return option == "steps" ? gcode::BlockNumbers::kSteps : gcode::BlockNumbers::kNone;
+}
+
+std::string program_number(const model::Machine& machine) {
+  const std::string digits = trimmed(control_number(machine, "program_number", 1.0), 0);
+  return "O" + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
+}
+
+}  // namespace
+
+gcode::Words words_of(const model::Machine& machine) {
+  const auto is = [&](std::string_view name, std::string_view value) {
+    return control_option(machine, name) == value;
+  };
+  const bool capitals = is("comments", "upper"), in_seconds = is("dwell", "seconds");
+  const bool smooth = is("smoothness", "yes"), by_reference = is("retract", "g28");
+  const Tapping tapping{is("tap", "m29"), is("tap_feed", "per_revolution"),
+                        control_number(machine, "tap_retract", 0.0)};
+  gcode::Words w;
+  w.longest_line = static_cast<std::size_t>(control_number(machine, "line_length", 200.0));
+  w.speed_decimals = 0;
+  w.dwell_decimals = 3;
+  w.first = "%\n" + program_number(machine);
+  w.last = "M30\n%";
+  // The unit stands in a block of its own (B-63844EN/02, 8.3). A length offset that is on moves Z where G49
+  // stands alone (14.1): the retract takes it away.
+  w.first_state = w.step_state = "G21\nG17 G40 G80 G90 G94";
+  w.comment = [capitals](std::string_view text) { return comment_text(text, capitals); };
+  w.block_numbers = block_numbers(control_option(machine, "block_numbers"));
+  if (is("next_tool", "staged")) w.stage_tool = [](const std::string& next) { return "T" + next; };
+  w.tool_end = prove_out(control_option(machine, "prove_out"));
+  w.offset_moves_z = true;
+  w.number = &with_point;
+  w.speed = [](double rpm) { return trimmed(rpm, 0); };
+  w.path_mode = [smooth](const std::string& tolerance, bool finishes) {
+    if (tolerance.empty()) return std::string("G61");
+    return smooth ? std::string("G64\nG187 P") + (finishes ? "3" : "2") + " E" + tolerance
+                  : std::string("G64");
+  };
+  w.retract = [by_reference](const std::string& z) {
+    return by_reference ? std::string("G91 G28 Z0.\nG90 G49") : "G0 G49 G53 Z" + z;
+  };
+  w.message = [capitals](const std::string& text) { return "(" + comment_text(text, capitals) + ")"; };
+  w.dwell = [in_seconds](const std::string& seconds) {
+    return "G4 " + dwell_word(parse_double(seconds).value_or(0.0), in_seconds);
+  };
+  w.tap = [tapping](const HoleCycle& h) { return tap_text(h, tapping); };
+  w.tap_stops_spindle = true;
+  if (is("cycles", "feature"))
+    w.cycle = [in_seconds](const HoleCycle& h) { return std::optional(hole_text(h, in_seconds)); };
+  if (is("ai_contour", "yes")) {
+    w.smooth_on = "G5.1 Q1";
+    w.smooth_off = "G5.1 Q0";
+  }
+  w.more_centre_decimals = 0;
+  w.closure_mm = kClosureMm;
+  w.quadrants = is("arcs", "quadrant");
+  w.largest_radius_mm = control_number(machine, "largest_radius_mm", 0.0);
+  w.helices = is("helices", "yes");
+  w.codes = std::string(control_option(machine, "codes"));
+  return w;
+}
+
+}  // namespace capstan::controls::fanuc

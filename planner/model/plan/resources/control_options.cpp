@@ -1,0 +1,36 @@
+#include "planner/model/plan/resources/control_options.h"
+
+#include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/control_options.h"
+
+namespace capstan::model {
+
+std::string_view control_option(const Machine& machine, std::string_view name) {
+  const ControlOptionRow* row = find_control_option(machine.control.dialect, name);
+  if (row == nullptr) return {};
+  if (machine.control_options) {
+    for (const ControlOption& o : machine.control_options->chosen) {
+      if (o.name == name) return o.value;
+    }
+  }
+  return default_of(*row, machine.control.dialect);
+}
+
+double control_number(const Machine& machine, std::string_view name, double other) {
+  return parse_double(control_option(machine, name)).value_or(other);
+}
+
+std::string control_option_fault(std::string_view dialect, const ControlOption& option) {
+  const ControlOptionRow* row = find_control_option(dialect, option.name);
+  if (row == nullptr) return "the control '" + std::string(dialect) + "' has no option '" + option.name + "'";
+  if (!row->words.empty())
+    return has_word(row->words, option.value)
+               ? std::string()
+               : "'" + option.value + "' is none of: " + std::string(row->words);
+  if (row->least == 0.0 && row->most == 0.0) return {};
+  const auto v = parse_double(option.value);
+  if (v && *v >= row->least && *v <= row->most) return {};
+  return "'" + option.value + "' is no number from " + shortest(row->least) + " to " + shortest(row->most);
+}
+
+}  // namespace capstan::model

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "planner/model/plan/resources/machine.h"
+
+namespace capstan::model {
+
+/// The machine's value of an option of its control (ground/vocabulary/control_options.h), else the row's
+/// default; empty where the control has no such option.
+[[nodiscard]] std::string_view control_option(const Machine& machine, std::string_view name);
+/// The same as a number; `other` where it is not stated.
+[[nodiscard]] double control_number(const Machine& machine, std::string_view name, double other);
+
+/// What is wrong with a value for that option: "'g54' is none of g53 g28"; empty: nothing.
+[[nodiscard]] std::string control_option_fault(std::string_view dialect, const ControlOption& option);
+
+}  // namespace capstan::model

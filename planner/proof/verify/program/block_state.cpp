@@ -1,0 +1,178 @@
+#include "planner/proof/verify/program/block_state.h"
+
+#include <cmath>
+
+#include "planner/proof/verify/findings.h"
+
+namespace capstan::verify {
+
+using model::MoveKind;
+
+void BlockState::fault(int property, std::string code, std::string message, bool undecided) {
+  if (out_.faults.size() < kFaultCap)
+    out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});
+}
+
+double BlockState::speed() const { return spindle_ * speed_; }
+
+Block BlockState::block() const {
+  Block b;
+  b.line = line_;
+  b.marker = marker_;
+  b.from = b.to = at_;
+  for (int i = 0; i < 3; ++i) b.known_from[i] = b.known_to[i] = known_[i];
+  b.feed_mm_min = feed_mode_ == 95 ? feed_ * std::abs(speed()) : feed_;
+  b.spindle_rpm = speed();
+  b.tool = tool_;
+  b.length_offset = length_;
+  b.radius_offset = radius_;
+  b.radius_left = left_;
+  b.work_offset = offset_;
+  b.machine_z = machine_z_;
+  b.unmoved = !moved_;
+  b.spindle_starts = starts_;
+  b.started_s = started_s_;
+  b.moved_since = moved_since_;
+  b.cycle_active = cycle_active_;
+  b.mist = mist_;
+  b.flood = flood_;
+  b.stated = stated_;
+  b.tolerance_mm = tolerance_;
+  b.naive_mm = naive_;
+  b.exact_stop = exact_stop_;
+  return b;
+}
+
+void BlockState::put(Block b) {
+  moved_ = moved_since_ = true;
+  at_ = b.to;
+  for (int i = 0; i < 3; ++i) known_[i] = b.known_to[i];
+  if (b.words[2] || b.from.z != b.to.z) {
+    machine_z_.reset();
+    if (b.in_machine) machine_z_ = b.to.z;
+  }
+  b.machine_z = machine_z_;
+  out_.blocks.push_back(std::move(b));
+}
+
+void BlockState::start(int way) {
+  if (spindle_ != way) {
+    ++starts_;
+    started_s_ = 0.0;
+    moved_since_ = false;
+  }
+  spindle_ = way;
+  stated_ |= kStatedSpindle;
+}
+
+void BlockState::plane(int code) {
+  plane_xy_ = code == 17;
+  if (plane_xy_) {
+    stated_ |= kStatedPlane;
+  } else {
+    fault(33, "CHK-UNVERIFIABLE", "G" + std::to_string(code) + ": only the XY plane is followed", true);
+  }
+}
+
+void BlockState::dwell(double seconds) {
+  Block b = block();
+  b.kind = Block::Kind::kDwell;
+  b.move = MoveKind::kDwell;
+  b.dwell_s = seconds;
+  out_.blocks.push_back(b);
+  started_s_ += seconds;
+}
+
+void BlockState::target(const BlockSaid& s, Block& b, bool machine_coordinates) {
+  b.in_machine = machine_coordinates;
+  double* to[3] = {&b.to.x, &b.to.y, &b.to.z};
+  for (int i = 0; i < 3; ++i) {
+    const char c = static_cast<char>('X' + i);
+    b.words[i] = s.is(c);
+    if (!s.is(c)) continue;
+    const double v = s.of(c) * units();
+    if (machine_coordinates) {
+      *to[i] = v;
+      b.known_to[i] = false;
+    } else if (absolute_) {
+      *to[i] = v;
+      b.known_to[i] = true;
+    } else {
+      *to[i] += v;
+    }
+  }
+}
+
+void BlockState::straight(const BlockSaid& s, int mode, bool machine_coordinates) {
+  Block b = block();
+  target(s, b, machine_coordinates);
+  if (!b.words[0] && !b.words[1] && !b.words[2]) return;
+  b.move = mode == 0 ? MoveKind::kRapid : MoveKind::kLine;
+  if (mode != 0 && feed_mode_ == 93 && feed_ > 0.0) b.feed_mm_min = feed_ * norm(b.to - b.from);
+  put(b);
+  if (machine_coordinates) {
+    // Where that is in the work's coordinates is not known: the height is taken as clear of everything.
+    double* at[3] = {&at_.x, &at_.y, &at_.z};
+    const double before[3] = {b.from.x, b.from.y, b.from.z};
+    for (int i = 0; i < 3; ++i) {
+      if (b.words[i]) *at[i] = before[i];
+    }
+  }
+}
+
+void BlockState::arc(const BlockSaid& s, bool clockwise) {
+  Block b = block();
+  target(s, b, false);
+  b.move = clockwise ? MoveKind::kArcCw : MoveKind::kArcCcw;
+  if (!plane_xy_) return;
+  if (!known_[0] || !known_[1]) {
+    fault(23, "CHK-ARC", "an arc starts where the position is not known");
+    return;
+  }
+  if (s.is('R')) {
+    const double r = s.of('R') * units();
+    const geometry::Vec2 chord = xy(b.to) - xy(b.from);
+    const double half = 0.5 * norm(chord);
+    if (half < 1e-9) {
+      fault(24, "CHK-ARC-ZERO", "an arc by radius ends where it starts");
+      return;
+    }
+    if (std::abs(r) < half - 1e-3 * units()) {
+      fault(23, "CHK-ARC",
+            "the radius of " + mm(std::abs(r)) + " does not span its chord of " + mm(2.0 * half));
+      return;
+    }
+    const double height = std::sqrt(std::max(0.0, r * r - half * half));
+    const double side = (r > 0.0) == clockwise ? -1.0 : 1.0;
+    const geometry::Vec2 left = (0.5 / half) * geometry::Vec2{-chord.y, chord.x};
+    b.centre = xy(b.from) + 0.5 * chord + (side * height) * left;
+  } else {
+    if (!s.is('I') && !s.is('J'))
+      return fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (R)");
+    const double i = s.of('I') * units();
+    const double j = s.of('J') * units();
+    b.centre = absolute_arcs_ ? geometry::Vec2{i, j} : xy(b.from) + geometry::Vec2{i, j};
+  }
+  b.radius_start = norm(xy(b.from) - b.centre);
+  b.radius_end = norm(xy(b.to) - b.centre);
+  put(b);
+}
+
+void BlockState::to(geometry::Vec3 p, MoveKind kind, bool synchronised) {
+  if (p == at_ || cycle_blocks_ > kCycleBlockCap) return;
+  if (++cycle_blocks_ > kCycleBlockCap) {
+    fault(26, "CHK-TOO-LARGE",
+          "the cycles up to here are more than " + std::to_string(kCycleBlockCap) +
+              " moves; what follows of them is not read: write fewer repeats (L) or larger pecks (Q)");
+    return;
+  }
+  Block b = block();
+  b.from_cycle = true;
+  b.synchronised = synchronised;
+  b.move = kind;
+  b.to = p;
+  for (int i = 0; i < 3; ++i) b.words[i] = b.known_to[i] = true;
+  put(b);
+}
+
+}  // namespace capstan::verify

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/proof/verify/program/program.h"
+
+namespace capstan::verify {
+
+/// What one block says, gathered before it is carried out in its control's order.
+struct BlockSaid {
+  double value[26] = {};
+  bool has[26] = {};
+  int g[32] = {};  ///< codes times ten
+  int g_count = 0;
+  int m[16] = {};
+  int m_count = 0;
+  [[nodiscard]] bool is(char c) const { return has[c - 'A']; }
+  [[nodiscard]] double of(char c) const { return value[c - 'A']; }
+};
+
+/// The state of a control that the readers of RS-274 dialects share, and the moves that blocks make of it:
+/// straight ones, arcs in the XY plane, dwells. What codes and words mean is each reader's own.
+class BlockState {
+ protected:
+  void fault(int property, std::string code, std::string message, bool undecided = false);
+  /// The spindle is told to turn: 1 as M3, -1 as M4.
+  void start(int way);
+  /// G17, G18 or G19.
+  void plane(int code);
+  void target(const BlockSaid& s, Block& b, bool machine_coordinates);
+  /// `mode`: 0 rapid, 1 feed.
+  void straight(const BlockSaid& s, int mode, bool machine_coordinates);
+  /// By R, or by I and J; both ways of giving an arc mean the same to all these controls.
+  void arc(const BlockSaid& s, bool clockwise);
+  void put(Block b);
+  /// A move of a canned cycle.
+  void to(geometry::Vec3 p, model::MoveKind kind, bool synchronised = false);
+  void dwell(double seconds);
+  [[nodiscard]] Block block() const;
+  [[nodiscard]] double units() const { return inch_ ? 25.4 : 1.0; }
+  [[nodiscard]] double speed() const;
+
+  Program out_;
+  long line_ = 0;
+  int marker_ = -1;
+  geometry::Vec3 at_;
+  bool known_[3] = {false, false, false};
+  bool inch_ = false, units_stated_ = false, moved_ = false;
+  bool absolute_ = true, absolute_arcs_ = false, plane_xy_ = true;
+  int feed_mode_ = 94;
+  double feed_ = 0.0, speed_ = 0.0;
+  int spindle_ = 0;  ///< 1 M3, -1 M4
+  bool cycle_active_ = false;
+  int tool_ = 0, length_ = -1, radius_ = -1, offset_ = 0;
+  std::optional<double> machine_z_;
+  int starts_ = 0;
+  double started_s_ = 0.0;
+  bool moved_since_ = false;
+  std::size_t cycle_blocks_ = 0;
+  bool mist_ = false, flood_ = false, left_ = false;
+  double tolerance_ = kNoTolerance, naive_ = kNoTolerance;
+  bool exact_stop_ = false;
+  unsigned stated_ = 0;
+};
+
+}  // namespace capstan::verify

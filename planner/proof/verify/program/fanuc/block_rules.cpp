@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/program/fanuc/interpreter.h"
+
+// What a control refuses in one block, and what one FANUC or Haas reads otherwise than the next: a word that
+// no code of the block uses, two codes of one group (the last holds, and nobody means that), numbers without
+// their decimal points.
+
+namespace capstan::verify::fanuc {
+namespace {
+
+/// Groups of FANUC B-63844EN/02, 3, "G code list"; 0: of its block only.
+int group_of_g(int g) {
+  if (is_offset(g)) return 14;
+  switch (g) {
+    case 0:
+    case 10:
+    case 20:
+    case 30:
+      return 1;
+    case 170:
+    case 180:
+    case 190:
+      return 2;
+    case 900:
+    case 910:
+      return 3;
+    case 940:
+    case 950:
+      return 5;
+    case 200:
+    case 210:
+      return 6;
+    case 400:
+    case 410:
+    case 420:
+      return 7;
+    case 430:
+    case 490:
+      return 8;
+    case 980:
+    case 990:
+      return 10;
+    case 610:
+    case 640:
+      return 15;
+    default:
+      return (g >= 730 && g <= 760) || (g >= 800 && g <= 890) ? 9 : 0;
+  }
+}
+
+int group_of_m(int m) {
+  if (m == 0 || m == 1 || m == 2 || m == 30) return 1;
+  if (m >= 3 && m <= 5) return 2;
+  return m >= 7 && m <= 9 ? 3 : 0;
+}
+
+}  // namespace
+
+void Interpreter::word_rules(const BlockWords& s) {
+  int motion = motion_;
+  bool cycles = false;
+  for (int i = 0; i < s.g_count; ++i) {
+    if (group_of_g(s.g[i]) == 1 || group_of_g(s.g[i]) == 9) motion = s.g[i] == 800 ? -1 : s.g[i];
+  }
+  cycles = group_of_g(motion) == 9;
+  const bool arcs = motion == 20 || motion == 30;
+  const bool dwells = s.code(40), offset = s.code(541) || s.code(1540), accuracy = s.code(1870);
+  const bool pecks = motion == 730 || motion == 830, taps = motion == 740 || motion == 840;
+  const auto unused = [&](char c, bool used) {
+    if (s.is(c) && !used)
+      fault(33, "CHK-WORD",
+            std::string("no code of this block uses its word ") + c + "; what it does is not known");
+  };
+  for (const char c : {'A', 'B', 'C', 'U', 'V', 'W'}) {
+    if (s.is(c))
+      fault(33, "CHK-WORD",
+            std::string("the word ") + c +
+                " moves an axis that this machine's three are not; it is not followed");
+  }
+  unused('D', s.code(410) || s.code(420));
+  unused('E', accuracy);
+  unused('H', s.code(430));
+  unused('I', arcs);
+  unused('J', arcs || (taps && ways_.haas));
+  unused('K', cycles && !ways_.haas);
+  unused('L', cycles && ways_.haas);
+  unused('P', dwells || offset || accuracy || motion == 820 || motion == 890 || taps);
+  unused('Q', pecks || s.code(51));
+  unused('R', arcs || cycles);
+  if (arcs && s.is('R') && (s.is('I') || s.is('J')))
+    fault(23, "CHK-ARC", "an arc with both R and a centre: R is taken, and the centre passed over");
+  if (arcs && s.axes() && !s.is('R') && !s.is('I') && !s.is('J'))
+    fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (R)");
+  for (const char c : {'F', 'S', 'T', 'H', 'D', 'L', 'K', 'P'}) {
+    if (s.is(c) && s.of(c) < 0.0)
+      fault(33, "CHK-WORD", std::string("the word ") + c + " is " + plain(s.of(c)) + ", below zero");
+  }
+  for (const char c : {'S', 'T', 'H', 'D', 'L', 'K', 'N', 'O'}) {
+    if (s.is(c) && s.point[c - 'A'])
+      fault(33, "CHK-WORD",
+            std::string("the word ") + c + " has a decimal point; it takes whole numbers only");
+  }
+  if (s.is('O') && named_) fault(32, "CHK-END", "another program (O) begins here");
+  named_ = named_ || s.is('O');
+}
+
+void Interpreter::code_rules(const BlockWords& s) {
+  std::array<bool, 16> groups{};
+  for (int i = 0; i < s.g_count; ++i) {
+    const auto group = static_cast<std::size_t>(group_of_g(s.g[i]));
+    if (group != 0 && groups[group])
+      fault(33, "CHK-WORD", "two G codes of one group in one block: the last holds; state one");
+    groups[group] = group != 0;
+  }
+  if (groups[1] && groups[9]) fault(33, "CHK-WORD", "a motion (G0 to G3) and a cycle in one block");
+  std::array<bool, 4> ms{};
+  for (int i = 0; i < s.m_count; ++i) {
+    const auto group = static_cast<std::size_t>(group_of_m(s.m[i]));
+    if (group != 0 && ms[group])
+      fault(33, "CHK-WORD", "two M codes of one kind (stop, spindle, coolant) in one block");
+    ms[group] = group != 0;
+  }
+  const bool moves = s.axes() || groups[1] || groups[9];
+  if (s.code(40)) {
+    if (!s.is('P') && !s.is('X')) fault(33, "CHK-WORD", "G4 has neither P nor X, the time that it waits");
+    if (s.is('Y') || s.is('Z') || groups[1] || groups[9] || (s.is('X') && s.is('P')))
+      fault(33, "CHK-WORD",
+            "G4 stands with a motion or words of axes in one block; its motion is not followed");
+  }
+  if (s.code(530) && !absolute_ && !s.code(900))
+    fault(33, "CHK-WORD", "G53 in incremental mode (G91) is passed over; state G90 before it");
+  if ((motion_ == 20 || motion_ == 30) && s.code(530) && !s.code(0) && !s.code(10))
+    fault(33, "CHK-WORD", "G53 behind an arc; state G0 with it");
+  if (s.m_code(6) && moves) fault(7, "CHK-TOOL-CHANGE", "M6 in a block that moves: state it alone");
+  if (rigid_ && s.axes() && !groups[9] && motion_ != 840 && motion_ != 740)
+    fault(22, "CHK-TAP-FEED", "a move between M29 and its tapping cycle");
+}
+
+/// Without its point a length counts least increments, or millimetres, by a parameter of the machine.
+void Interpreter::point_rules(const BlockWords& s) {
+  const bool per_turn = feed_mode_ == 95 || s.code(950);
+  for (const char c : std::string_view("XYZIJRQFE")) {
+    if (!s.is(c) || s.point[c - 'A'] || s.of(c) == 0.0) continue;
+    if (c == 'F' && !per_turn && !ways_.haas) continue;  // mm/min either way
+    if (c == 'J' && (motion_ == 840 || motion_ == 740 || s.code(840) || s.code(740)))
+      continue;  // Haas: a factor
+    if (c == 'Q' && s.code(51)) continue;
+    fault(2, "CHK-POINT",
+          std::string(1, c) + plain(s.of(c)) +
+              " has no decimal point: it counts thousandths on one machine and " +
+              "whole units on another (FANUC parameter 3401, Haas settings 77 and 162); write " + c +
+              plain(s.of(c)) + ".");
+  }
+  const bool waits = s.is('P') && !s.code(541) && !s.code(1540) && !s.code(1870);
+  if (waits && s.point['P' - 'A'] && !ways_.seconds)
+    fault(33, "CHK-WORD", "P has a decimal point; this machine's P counts whole milliseconds");
+}
+
+}  // namespace capstan::verify::fanuc

@@ -1,0 +1,283 @@
+#include "planner/controls/fanuc/fanuc.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/controls/controls.h"
+#include "tests/support/canon.h"
+#include "tests/support/corpus.h"
+#include "tests/support/empty_plan.h"
+#include "tests/support/rs274.h"
+
+namespace capstan::controls::fanuc {
+namespace {
+
+using model::CutterPath;
+using model::MoveRole;
+using model::Plan;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Plan plan_for(const char* dialect) {
+  Plan plan = testing::empty_plan();
+  plan.machine.axes[2].travel_min_mm = -400.0;
+  plan.machine = with_control(plan.machine, dialect);
+  return plan;
+}
+
+void choose(Plan& plan, const char* name, const char* value) {
+  if (!plan.machine.control_options) plan.machine.control_options.emplace();
+  plan.machine.control_options->chosen.push_back({name, value});
+}
+
+Result<std::string> written(const Plan& plan) {
+  Job job;
+  return write_program(plan, job);
+}
+std::string program_of(const Plan& plan) {
+  const auto text = written(plan);
+  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
+  return text.value_or("");
+}
+std::string golden(const char* name) {
+  return testing::slurp(testing::source_dir() + "/tests/controls/fanuc/golden/" + name);
+}
+
+/// A pocket 30 x 20, corners of 5 mm, entered on a helix.
+CutterPath pocket() {
+  CutterPath p;
+  p.start({0, 0, 10});
+  p.rapid({0, 0, 2});
+  p.line({0, 0, 0.5}, MoveRole::kApproach);
+  p.arc({6, 0, -1}, {3, 0}, true, MoveRole::kRamp);
+  p.arc({0, 0, -2.5}, {3, 0}, true, MoveRole::kRamp);
+  p.line({0, -5.5, -2.5}, MoveRole::kCut);
+  p.line({10.123, -5.5, -2.5}, MoveRole::kCut);
+  p.arc({15.123, -0.5, -2.5}, {10.123, -0.5}, false, MoveRole::kCut);
+  p.line({15.123, 0, -2.5}, MoveRole::kCut);
+  p.arc({-15.123, 0, -2.5}, {0, 0}, false, MoveRole::kCut);
+  p.rapid({-15.123, 0, 10}, MoveRole::kRetract);
+  return p;
+}
+
+Plan pocket_plan(const char* dialect) {
+  Plan plan = plan_for(dialect);
+  testing::add_step(plan, "rough pocket", "em18", pocket(), 3000.4).contour_tolerance_mm = 0.05;
+  return plan;
+}
+
+CutterPath hole(double x, double y, bool feeds_out, bool dwells) {
+  CutterPath p;
+  p.start({x, y, 10});
+  p.rapid({x, y, 2});
+  p.line({x, y, -18.2}, MoveRole::kDrill);
+  if (dwells) p.dwell();
+  if (feeds_out) {
+    p.line({x, y, 10}, MoveRole::kRetract);
+  } else {
+    p.rapid({x, y, 10}, MoveRole::kRetract);
+  }
+  return p;
+}
+
+void add_hole(Plan& plan, const char* id, const char* cutter, double x, double y, bool feeds_out,
+              double dwell_s) {
+  auto& step = testing::add_step(plan, id, cutter, hole(x, y, feeds_out, dwell_s > 0.0), 1200, 180);
+  model::FeedSchedule s = *step.schedule;
+  if (dwell_s > 0.0) s.dwell_s[3] = dwell_s;
+  step.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+}
+
+void add_tap(Plan& plan, const char* id, double x, double y) {
+  CutterPath p;
+  p.start({x, y, 10});
+  p.rapid({x, y, 5});
+  p.line({x, y, -12}, MoveRole::kTap);
+  p.line({x, y, 5}, MoveRole::kTap);
+  p.rapid({x, y, 10}, MoveRole::kRetract);
+  testing::add_step(plan, id, "tap_m6", std::move(p), 400.2, 400.2);
+}
+
+/// Four holes: two drilled, one of them with a dwell, one reamed out at feed, one tapped.
+Plan holes_plan(const char* dialect) {
+  Plan plan = plan_for(dialect);
+  model::Cutter drill = plan.cutters[0], reamer = plan.cutters[0];
+  drill.id = "d8";
+  drill.cutter_class = model::CutterClass::kTwistDrill;
+  drill.cutting_diameter_mm = 8;
+  drill.pocket = 3;
+  reamer.id = "r8";
+  reamer.cutter_class = model::CutterClass::kReamer;
+  reamer.pocket = 4;
+  plan.cutters.push_back(drill);
+  plan.cutters.push_back(reamer);
+  add_hole(plan, "H1 drill", "d8", 20, 20, false, 0.0);
+  add_hole(plan, "H2 drill", "d8", 40, 20, false, 0.35);
+  add_hole(plan, "H3 ream", "r8", 20, 20, true, 0.0);
+  add_tap(plan, "H4 tap", 60, 20);
+  return plan;
+}
+
+TEST(FanucGolden, APocketIsWrittenAsReviewed) {
+  EXPECT_EQ(program_of(pocket_plan("fanuc")), golden("pocket.nc"));
+  EXPECT_EQ(program_of(pocket_plan("haas")), golden("pocket_haas.nc"));
+}
+
+TEST(FanucGolden, HolesAreWrittenAsReviewedWithCyclesAndWithExplicitMoves) {
+  EXPECT_EQ(program_of(holes_plan("fanuc")), golden("holes_cycles.nc"));
+  EXPECT_EQ(program_of(holes_plan("haas")), golden("holes_haas.nc"));
+  Plan plan = holes_plan("fanuc");
+  choose(plan, "cycles", "explicit");
+  EXPECT_EQ(program_of(plan), golden("holes_explicit.nc"));
+}
+
+TEST(FanucProgram, EachOptionOfTheMachineChangesWhatItSays) {
+  const auto with = [](const char* name, const char* value) {
+    Plan plan = holes_plan("fanuc");
+    choose(plan, name, value);
+    return program_of(plan);
+  };
+  EXPECT_THAT(with("retract", "g28"), HasSubstr("\nG91 G28 Z0.\nG90 G49\n"));
+  EXPECT_THAT(with("tap", "g84"), Not(HasSubstr("M29")));
+  EXPECT_THAT(with("tap_feed", "per_minute"),
+              HasSubstr("\nM29 S400\nG98 G84 X60. Y20. Z-12. R5. F400.\nG80\n"));
+  EXPECT_THAT(with("dwell", "seconds"), HasSubstr("\nG4 P1.5\n"));
+  EXPECT_THAT(with("next_tool", "called"), Not(HasSubstr("\nT4\n")));
+  EXPECT_THAT(with("block_numbers", "all"), HasSubstr("%\nO0001\n"));
+  EXPECT_THAT(with("block_numbers", "all"), HasSubstr("\nN20 G17 G40 G80 G90 G94\n"));
+  EXPECT_THAT(with("block_numbers", "none"), Not(HasSubstr("\nN")));
+  EXPECT_THAT(with("program_number", "1234"), HasSubstr("%\nO1234\n"));
+  EXPECT_THAT(with("prove_out", "none"), Not(HasSubstr("\nM1\n")));
+  EXPECT_THAT(with("prove_out", "m0"), HasSubstr("\nM5\nM9\nM0\n"));
+  EXPECT_THAT(with("prove_out", "skip_m0"), HasSubstr("\nM5\nM9\n/M0\n"));
+  EXPECT_THAT(with("comments", "mixed"), HasSubstr("(CAPSTAN STEP id=\"H1$20drill\" n=1 tool=3 setup=1)"));
+}
+
+TEST(FanucProgram, SmoothsMillingStepsOnlyWhereTheMachineSaysThatItCan) {
+  Plan plan = pocket_plan("fanuc");
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("G5.1")));
+  choose(plan, "ai_contour", "yes");
+  const std::string text = program_of(plan);
+  EXPECT_THAT(text, HasSubstr("\nM8\nG0 G43 H1 Z10.\nG5.1 Q1\nG0 Z2.\n"));
+  EXPECT_THAT(text, HasSubstr("\nG0 Z10.\nG5.1 Q0\n"));
+}
+
+TEST(FanucProgram, ArcsEndAtQuadrantsWhereTheMachineSaysSo) {
+  Plan plan = pocket_plan("fanuc");
+  choose(plan, "arcs", "quadrant");
+  // The half turn about (0, 0) ends at the top first.
+  EXPECT_THAT(program_of(plan), HasSubstr("\nG3 X0. Y15.123 I-15.123 J0.\nG3 X-15.123 Y0. I0. J-15.123\n"));
+}
+
+TEST(FanucProgram, WhatTheControlDoesNotTakeIsNamedByWorkingstep) {
+  Plan plan = pocket_plan("fanuc");
+  testing::add_step(plan, "second pocket", "em18", pocket());
+  choose(plan, "helices", "no");
+  const auto text = written(plan);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "OUT-CONTROL");
+  EXPECT_THAT(text.error().message, HasSubstr("step 'rough pocket', move 3: an arc that goes up or down"));
+  EXPECT_THAT(text.error().message, HasSubstr("step 'second pocket', move 3"));
+}
+
+TEST(FanucProgram, AnArcLargerThanTheControlTakesIsNamedByWorkingstep) {
+  Plan plan = pocket_plan("fanuc");
+  choose(plan, "largest_radius_mm", "10");
+  const auto text = written(plan);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "OUT-CONTROL");
+  EXPECT_THAT(text.error().message, HasSubstr("step 'rough pocket', move 9: an arc of radius 15.123 mm"));
+}
+
+TEST(FanucProgram, ACodeThatTheMachineLacksIsNamedByWorkingstep) {
+  Plan plan = holes_plan("fanuc");
+  choose(plan, "codes",
+         "G0 G1 G4 G17 G21 G40 G43 G49 G53 G54 G64 G80 G81 G82 G85 G90 G94 G95 G98 M0 M1 M3 M5 M6 M8 M9 M30");
+  const auto text = written(plan);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "OUT-CODE");
+  EXPECT_THAT(text.error().message, HasSubstr("M29 in step ID=\"H4$20<TAP>\""));
+  EXPECT_THAT(text.error().message, HasSubstr("G84 in step"));
+  EXPECT_THAT(text.error().message, Not(HasSubstr("G81")));
+}
+
+TEST(FanucProgram, WorkOffsetsBeyondG59AreWrittenWhereTheMachineHasThem) {
+  Plan plan = pocket_plan("fanuc");
+  plan.setups[0].work_offset = "G54.1P2";
+  EXPECT_EQ(written(plan).error().code, "OUT-SETUP");
+  choose(plan, "extended_offsets", "48");
+  EXPECT_THAT(program_of(plan), HasSubstr("\nG54.1P2\n"));
+  Plan haas = pocket_plan("haas");
+  haas.setups[0].work_offset = "G154P7";
+  EXPECT_THAT(program_of(haas), HasSubstr("\nG154P7\n"));
+}
+
+TEST(FanucProgram, AnOptionThatTheControlDoesNotHaveIsRefused) {
+  Plan plan = pocket_plan("fanuc");
+  choose(plan, "smoothness", "yes");
+  const auto text = written(plan);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "OUT-OPTION");
+}
+
+TEST(FanucProgram, ADrillThatPecksIsWrittenWithItsOwnMoves) {
+  Plan plan = holes_plan("fanuc");
+  CutterPath p;
+  p.start({20, 20, 10});
+  p.rapid({20, 20, 2});
+  p.line({20, 20, -5}, MoveRole::kDrill);
+  p.rapid({20, 20, 10}, MoveRole::kRetract);
+  p.line({20, 20, -4.5}, MoveRole::kLink);
+  p.line({20, 20, -10}, MoveRole::kDrill);
+  p.rapid({20, 20, 10}, MoveRole::kRetract);
+  testing::add_step(plan, "H5 peck", "d8", std::move(p), 1200, 180);
+  const std::string text = program_of(plan);
+  EXPECT_THAT(text, Not(HasSubstr("G83")));
+  EXPECT_THAT(text, HasSubstr("\nG0 Z10.\nG1 Z-4.5\nG1 Z-10.\nG0 Z10.\n"));
+}
+
+/// Without the program's number, which is a subroutine's name to LinuxCNC.
+std::string for_linuxcnc(std::string text) {
+  const std::size_t at = text.find("\nO");
+  return text.erase(at, text.find('\n', at + 1) - at);
+}
+
+/// Feeds and arcs: rapids to the top come out at other heights, for G49 takes the length away before.
+std::vector<testing::CanonMove> fed(const std::string& output) {
+  auto moves = testing::motion_below(testing::read_canon(output).moves, 9.9);
+  std::erase_if(moves, [](const auto& m) { return m.kind == testing::CanonMove::Kind::kTraverse; });
+  return moves;
+}
+
+TEST(FanucInterpreter, LinuxCncMakesTheSameFeedsAndArcsOfItAsOfItsOwnProgramInWhatBothShare) {
+  CAPSTAN_NEEDS_RS274();
+  for (Plan plan : {pocket_plan("fanuc"), holes_plan("fanuc")}) {
+    // G85 feeds to R only, and M29 is FANUC's.
+    while (plan.steps.size() > 2) plan.steps.pop_back();
+    Plan own = plan;
+    own.machine.control.dialect = "linuxcnc";
+    const std::string table = tool_table_of(own);
+    const auto a = testing::run_rs274(table, for_linuxcnc(program_of(plan)));
+    const auto b = testing::run_rs274(table, program_of(own));
+    ASSERT_EQ(a.status, 0) << a.output;
+    const auto fanuc = fed(a.output), linuxcnc = fed(b.output);
+    ASSERT_EQ(fanuc.size(), linuxcnc.size()) << a.output;
+    EXPECT_GE(fanuc.size(), 2u);
+    for (std::size_t i = 0; i < fanuc.size(); ++i) {
+      EXPECT_EQ(fanuc[i].kind, linuxcnc[i].kind) << i;
+      for (const auto& [x, y] : {std::pair(fanuc[i].x, linuxcnc[i].x), std::pair(fanuc[i].y, linuxcnc[i].y),
+                                 std::pair(fanuc[i].z, linuxcnc[i].z), std::pair(fanuc[i].cx, linuxcnc[i].cx),
+                                 std::pair(fanuc[i].cy, linuxcnc[i].cy)})
+        EXPECT_NEAR(x, y, 0.002) << i;
+      EXPECT_EQ(fanuc[i].feed_mm_min, linuxcnc[i].feed_mm_min) << i;
+    }
+  }
+}
+
+TEST(FanucComments, HaveNoCharacterThatEndsTheTapeOrTheBlock) {
+  EXPECT_EQ(comment_text("5 % wide; id=\"a%20B$<\"", true), "5 PERCENT WIDE, ID=\"<A$20>B$24$3C\"");
+  EXPECT_EQ(comment_text("5 % wide; id=\"a%20B\"", false), "5 percent wide, id=\"a$20B\"");
+}
+
+}  // namespace
+}  // namespace capstan::controls::fanuc
