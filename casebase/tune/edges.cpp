@@ -50,7 +50,7 @@ std::map<Kind, Factor> factors_of(std::span<const Case> cases) {
   std::map<std::string, std::size_t> edges;
   for (const Case& c : cases) {
     std::vector<Row>& of = rows[kind_of(c)];
-    const auto life = life_of(readings_of(c.observed), kAllowedWearMm);
+    const auto life = life_of(readings_of(c.observed), kWornMm);
     if (!life || !positive(c.predicted.tool_life_min)) continue;
     std::string edge = edge_of(c.from);
     if (edge.empty()) edge = "?" + c.id;
@@ -70,7 +70,7 @@ std::map<Kind, Factor> factors_of(std::span<const Case> cases) {
 
 /// What a reading says of ln(used), and its std dev: VB = VB_end used^b, b and the reading not sure.
 Factor by_reading(double wear_mm) {
-  const double ln = std::log(wear_mm / kAllowedWearMm);
+  const double ln = std::log(wear_mm / kWornMm);
   return {ln / kWearByTime,
           std::hypot(kReadingNoise / kWearByTime, ln * kWearByTimeSpread / (kWearByTime * kWearByTime))};
 }

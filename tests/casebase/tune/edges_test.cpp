@@ -70,7 +70,7 @@ TEST(EdgeUse, AReadingOfTheVeryEdgeGoesBeforeTheLaw) {
   auto cases = cuts("E1", 5);
   const double before = only(cases).used;
   // As worn as after twice the time.
-  cases.back().observed.wear_mm = Figure{kAllowedWearMm * std::pow(2.0 * before, kWearByTime)};
+  cases.back().observed.wear_mm = Figure{kWornMm * std::pow(2.0 * before, kWearByTime)};
   const EdgeUse e = only(cases);
   EXPECT_GT(e.used, 1.8 * before);
   EXPECT_LT(e.used, 2.0 * before);
@@ -84,7 +84,7 @@ TEST(EdgeUse, LivesOfEdgesThatWereFollowedToTheirEndCorrectTheLaw) {
     Case c = cut("followed " + std::to_string(other), 0);
     for (double t = 5.0; t <= 30.0; t += 5.0)  // worn out in half an hour
       c.observed.wear_series_mm.samples.push_back(
-          {60.0 * t, kAllowedWearMm * std::pow(t / 30.0, kWearByTime)});
+          {60.0 * t, kWornMm * std::pow(t / 30.0, kWearByTime)});
     c.predicted.tool_life_min = kLifeMin;
     c.id = id_of(c);
     cases.push_back(c);

@@ -216,7 +216,7 @@ HttpReply Endpoints::put_state(const HttpRequest& request, const Words& words, c
 
 HttpReply Endpoints::put_plan(const HttpRequest& request, const Words& words, const Caller& caller) {
   return in_session(words, caller, [&](ServedSession& s) {
-    const Code code = s.session.bring(request.body);
+    const Code code = s.session.take(request.body);
     s.plan = code == Code::kDone ? request.body : std::string();
     s.broadcasts.plan_changed(false);
     keep_ending(s);
