@@ -212,6 +212,19 @@ TEST(PredictedSpeed, OfABallIsThatOfTheWidestCircleThatCuts) {
   EXPECT_FALSE(of(k, "CHK-SPEED-MATERIAL").empty() && of(k, "CHK-EDGE-LIFE").empty());
 }
 
+// A face mill of 10 mm at its tip, its edges leaning by 45 degrees, is 18 mm wide 4 mm above it: 170 m/min.
+TEST(PredictedSpeed, OfALeaningFaceMillIsThatOfTheCircleWhereItsEdgesLeaveTheMaterial) {
+  auto k =
+      along_the_side(kSpeed / 1.2, 10.0);  // which the tip alone would bear: less than a quarter above it
+  k.plan.cutters[0].cutter_class = model::CutterClass::kFacemill;
+  k.plan.steps[0].axial_depth_mm = 4.0;
+  EXPECT_FALSE(speed_told(k));
+  k.plan.cutters[0].lead_angle_rad = 0.25 * std::numbers::pi;
+  EXPECT_TRUE(speed_told(k));
+  k.plan.steps[0].axial_depth_mm = 0.1;
+  EXPECT_FALSE(speed_told(k));
+}
+
 /// A spot of 2 mm with a cone of 90 degrees and 8 mm, which cuts on a circle of 4 mm.
 PlanMaker spot(double card, double rpm) {
   PlanMaker k = plan_in(25, card, model::Substrate::kCarbide);
@@ -240,7 +253,8 @@ bool told_of_spot(const PlanMaker& k) {
   return std::any_of(all.begin(), all.end(), [](const auto& f) { return f.step == "spot"; });
 }
 
-// The card's speed on the small circle is twice that of the tool's diameter; three times as fast is not borne.
+// The card's speed on the small circle is twice that of the tool's diameter; three times as fast is not
+// borne.
 TEST(PredictedSpeed, OfASpotIsThatOfTheCircleThatIsIn) {
   const double rpm = 1000.0 * kSpeed / (std::numbers::pi * 4.0);
   EXPECT_FALSE(told_of_spot(spot(kSpeed, rpm)));
