@@ -245,6 +245,7 @@ Summary run_shops(std::uint64_t first_seed, int shops, int parts) {
       (sound ? arm.over : arm.unsound_over) += bad;
       if (!sound) continue;
       arm.shops_over += bad > 0 ? 1 : 0;
+      arm.over_share.push_back(static_cast<double>(bad) / parts);
       arm.time_ratio.push_back(runs[a].time_of_last(10) / runs[0].time_of_last(10));
       std::vector<double>& by_part = arm.ratio_by_part.emplace_back();
       for (std::size_t k = 0; k < runs[a].parts.size(); ++k) {

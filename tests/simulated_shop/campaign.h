@@ -56,6 +56,7 @@ struct Campaign {
 /// What an arm came to over many shops.
 struct ArmSummary {
   std::vector<double> time_ratio;  ///< of each sound shop: mean of its last ten parts over the handbook's
+  std::vector<double> over_share;  ///< of each sound shop: parts that exceeded a hidden limit
   std::vector<std::vector<double>> ratio_by_part;  ///< of each sound shop, part by part
   int parts = 0, over = 0;                  ///< in sound shops: parts, and those that exceeded a hidden limit
   int shops_over = 0;                       ///< sound shops with any such part

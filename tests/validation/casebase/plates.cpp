@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "casebase/retain/join/import.h"
+#include "casebase/tune/corrections.h"
 #include "casebase/tune/regression.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
