@@ -3,6 +3,7 @@
 #include <string>
 
 #include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/model.h"
 #include "planner/model/plan/decision/reopen_all.h"
 
 namespace capstan::model {
