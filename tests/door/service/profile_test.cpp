@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/door/service/check.h"
+#include "planner/door/service/options.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::service {
@@ -16,7 +17,7 @@ using namespace ::testing;
 
 Outcome<CheckResult> plate_for(const std::string& profile) {
   Request request;
-  request.profile = profile;
+  EXPECT_TRUE(set(request, "profile", profile));
   Job job;
   return check(request, {{.name = testing::source_dir() + "/examples/plate_bound.p21"}}, {}, job);
 }
