@@ -1,6 +1,8 @@
 #include "tests/mutation/classes.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 namespace capstan::mutation {
 
@@ -24,6 +26,21 @@ const std::vector<Class>& classes() {
     return all;
   }();
   return kAll;
+}
+
+std::vector<Class> classes_of(const std::string& dialect) {
+  if (dialect == "linuxcnc") return classes();
+  // What their programs have not: tool tables, G33.1, a tolerance of G64; what is theirs alone: an F that a
+  // mode forgets, small letters.
+  static const std::set<std::string> kOthers = {"wider path tolerance", "tap without step", "another pitch",
+                                                "feed mode stated anew", "small letters"};
+  std::vector<Class> out;
+  for (const Class& c : classes()) {
+    const std::string name = c.name;
+    if (c.kind != Kind::kUnknown && !name.starts_with("table: ") && !kOthers.contains(name)) out.push_back(c);
+  }
+  for (const Class& c : dangerous_in_fanuc()) out.push_back(c);
+  return out;
 }
 
 }  // namespace capstan::mutation

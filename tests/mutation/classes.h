@@ -44,7 +44,11 @@ struct Class {
 [[nodiscard]] std::vector<Class> dangerous_in_any();
 [[nodiscard]] std::vector<Class> dangerous_by_plan();
 [[nodiscard]] std::vector<Class> not_dangerous();
-/// All of them.
+/// All of them, as programs of LinuxCNC are edited.
 [[nodiscard]] const std::vector<Class>& classes();
+/// Ways to spoil what only FANUC's and Haas's programs have: cycles, M29, decimal points, G43 with Z, G187.
+[[nodiscard]] std::vector<Class> dangerous_in_fanuc();
+/// Those of that control's programs.
+[[nodiscard]] std::vector<Class> classes_of(const std::string& dialect);
 
 }  // namespace capstan::mutation

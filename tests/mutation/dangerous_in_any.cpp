@@ -9,7 +9,7 @@ namespace {
 std::vector<std::pair<std::size_t, std::size_t>> steps(const Lines& lines) {
   std::vector<std::pair<std::size_t, std::size_t>> out;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!is_marker(lines[i]) && lines[i] != "(end)") continue;
+    if (!is_marker(lines[i]) && lines[i] != "(end)" && lines[i] != "(END)") continue;
     if (!out.empty()) out.back().second = i;
     if (is_marker(lines[i])) out.emplace_back(i, lines.size());
   }
@@ -29,7 +29,8 @@ Made other_tool(const Emitted& e, Random& r) {
   const std::string t = std::to_string(pockets[r.below(pockets.size())]);
   lines[*i] = "T" + t + " M6";
   for (std::size_t k = *i + 1; k < lines.size() && !is_change(lines[k]); ++k) {
-    if (lines[k] == "G43 H" + now) lines[k] = "G43 H" + t;
+    const std::size_t at = (lines[k] + " ").find("G43 H" + now + " ");
+    if (at != std::string::npos) lines[k].replace(at, 5 + now.size(), "G43 H" + t);
   }
   return Edit{joined(lines), e.table};
 }
@@ -75,7 +76,7 @@ std::vector<Class> dangerous_in_any() {
        }},
       {"retract in the work's coordinates", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
-         return changed(e, r, is_retract, [](const std::string& l) { return l.substr(4); });
+         return changed(e, r, is_retract, [](std::string l) { return l.erase(l.find("G53 "), 4); });
        }},
       {"spindle reversed", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
@@ -84,7 +85,7 @@ std::vector<Class> dangerous_in_any() {
          const auto i = pick(lines, r, [&](std::size_t k) {
            if (!is_start(lines[k])) return false;
            for (std::size_t m = k; m < lines.size() && !is_marker(lines[m]); ++m) {
-             if (starts(lines[m], "G33.1")) return false;
+             if (is_tapping(lines[m])) return false;
            }
            return true;
          });
@@ -114,15 +115,13 @@ std::vector<Class> dangerous_in_any() {
        }},
       {"length offset of another tool", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
-         return word_changed(
-             e, r, [](const std::string& l) { return starts(l, "G43"); }, 'H',
-             [&](double v) { return v + 1.0 + static_cast<double>(r.below(5)); });
+         return word_changed(e, r, sets_length, 'H',
+                             [&](double v) { return v + 1.0 + static_cast<double>(r.below(5)); });
        }},
       {"no length offset", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
-         return changed(
-             e, r, [](const std::string& l) { return starts(l, "G43"); },
-             [&](const std::string&) { return r.below(2) == 0 ? "G49" : "G43 H0"; });
+         return changed(e, r, sets_length,
+                        [&](const std::string&) { return r.below(2) == 0 ? "G49" : "G43 H0"; });
        }},
       {"unit switched", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {

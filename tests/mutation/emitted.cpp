@@ -23,9 +23,10 @@ Emitted written(std::string name, model::Plan plan, std::set<std::string> found 
   }
   Job job;
   auto text = controls::write_program(plan, job);
+  const std::string dialect = plan.machine.control.dialect;
   if (!text) throw std::runtime_error(name + ": " + to_text(text.error()));
   std::string table = controls::tool_table_of(plan);
-  return {std::move(name), std::move(plan), *std::move(text), std::move(table), std::move(found)};
+  return {std::move(name), std::move(plan), *std::move(text), std::move(table), dialect, std::move(found)};
 }
 
 void extend(model::Plan& plan, std::size_t step, std::size_t moves, double feed, double rpm, double dwell_s) {
@@ -109,6 +110,18 @@ const std::vector<Emitted>& emitted() {
     return out;
   }();
   return kAll;
+}
+
+std::vector<Emitted> emitted_for(const std::string& dialect) {
+  const auto on = [&](model::Plan plan) {
+    plan.machine = controls::with_control(std::move(plan.machine), dialect);
+    return plan;
+  };
+  std::vector<Emitted> out;
+  out.push_back(written("pocket and reamed hole", on(pocket_and_hole())));
+  out.push_back(written("two set-ups", on(two_setups())));
+  out.push_back(written("tapped hole", on(tapped()), {"CHK-GOUGE", "CHK-GOUGE-WALL"}));
+  return out;
 }
 
 const std::vector<Emitted>& emitted_and_planned() {

@@ -13,6 +13,7 @@ struct Emitted {
   std::string name;
   model::Plan plan;
   std::string text, table;
+  std::string dialect = "linuxcnc";
   /// Codes of what the check finds against the program of the plan, for the plan lacks what would allow it.
   std::set<std::string> found = {};
 };
@@ -20,6 +21,8 @@ struct Emitted {
 /// Of plans made by hand: a pocket, a drilled and reamed hole, arcs, a helix, waits; two set-ups; a tapped
 /// hole.
 [[nodiscard]] const std::vector<Emitted>& emitted();
+/// The same plans as programs of another control.
+[[nodiscard]] std::vector<Emitted> emitted_for(const std::string& dialect);
 /// These, and the plate of examples/plate_bound.p21 as the pipeline plans it.
 [[nodiscard]] const std::vector<Emitted>& emitted_and_planned();
 

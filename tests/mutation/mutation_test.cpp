@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 #include <set>
 
 #include "planner/proof/verify/verify.h"
@@ -42,16 +43,44 @@ TEST(MutationSeed, EveryDangerousEditIsFoundAndNoBenignOneBlamed) {
     EXPECT_EQ(row.dangerous_missed, 0) << told(row);
     EXPECT_EQ(row.different_missed, 0) << told(row);
     EXPECT_EQ(row.benign_blamed, 0) << told(row);
-    if (row.of->kind == Kind::kBenign) {
+    if (row.of.kind == Kind::kBenign) {
       EXPECT_EQ(row.same, row.edits) << told(row);
     }
-    EXPECT_GT(row.edits, 0) << row.of->name << " edits none of the programs";
+    EXPECT_GT(row.edits, 0) << row.of.name << " edits none of the programs";
   }
   RecordProperty("edits", edits);
 }
 
+TEST(MutationSeed, EveryDangerousEditOfAFanucAndAHaasProgramIsFoundAndNoBenignOneBlamed) {
+  std::map<std::string, int> edits;  // by class, of both controls
+  for (const char* dialect : {"fanuc", "haas"}) {
+    Options o;
+    o.edits = 4;
+    o.first_seed = next_seed();
+    o.dialect = dialect;
+    for (const Row& row : study(o)) {
+      edits[row.of.name] += row.edits;
+      EXPECT_EQ(row.dangerous_missed, 0) << dialect << "\n" << told(row);
+      EXPECT_EQ(row.different_missed, 0) << dialect << "\n" << told(row);
+      EXPECT_EQ(row.benign_blamed, 0) << dialect << "\n" << told(row);
+    }
+  }
+  for (const auto& [name, count] : edits) EXPECT_GT(count, 0) << name << " edits none of the programs";
+}
+
+std::vector<Emitted> all_emitted() {
+  std::vector<Emitted> out = emitted_and_planned();
+  for (const char* dialect : {"fanuc", "haas"}) {
+    for (Emitted& e : emitted_for(dialect)) {
+      e.name += std::string(", ") + dialect;
+      out.push_back(std::move(e));
+    }
+  }
+  return out;
+}
+
 TEST(MutationSeed, AnEmittedProgramIsBlamedForNothingButWhatItsPlanLacks) {
-  for (const Emitted& e : emitted_and_planned()) {
+  for (const Emitted& e : all_emitted()) {
     Job job;
     const auto findings =
         verify::check_program({e.name, e.text, e.table}, &e.plan, e.plan.machine, e.plan.cutters, job);
@@ -63,7 +92,8 @@ TEST(MutationSeed, AnEmittedProgramIsBlamedForNothingButWhatItsPlanLacks) {
     }
     EXPECT_EQ(found, e.found) << e.name;
     // With its table alone, which says what the tools are.
-    const auto tools = tooling::read_tool_table(e.table, "table", job);
+    auto tools = e.table.empty() ? Result<std::vector<model::Cutter>>(std::vector<model::Cutter>{})
+                                 : tooling::read_tool_table(e.table, "table", job);
     ASSERT_TRUE(tools) << to_text(tools.error());
     for (const auto& f :
          verify::check_program({e.name, e.text, e.table}, nullptr, e.plan.machine, *tools, job))

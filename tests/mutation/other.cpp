@@ -30,7 +30,8 @@ Made a_character(const Emitted& e, Random& r) {
   return Edit{text, e.table};
 }
 
-std::string written_otherwise(const std::string& l, Random& r) {
+/// `wholes`: letters whose numbers have no decimal point.
+std::string written_otherwise(const std::string& l, const std::string& wholes, Random& r) {
   std::string out;
   for (std::size_t i = 0; i < l.size(); ++i) {
     out += l[i];
@@ -40,7 +41,7 @@ std::string written_otherwise(const std::string& l, Random& r) {
     std::size_t end = i + 1;
     while (end < l.size() && l[end] != ' ') ++end;
     std::string digits = l.substr(i + 1, end - i - 1);
-    const bool number = l[i] != 'G' && l[i] != 'M' && l[i] != 'T' && l[i] != 'H';
+    const bool number = wholes.find(l[i]) == std::string::npos;
     if (number && !holds(digits, ".")) digits += r.below(2) == 0 ? "." : ".00";
     if (digits.front() != '-' && r.below(2) == 0) digits = (number && r.below(2) == 0 ? "+0" : "0") + digits;
     if (starts(digits, "0.") && digits.size() > 2) digits.erase(0, 1);
@@ -153,13 +154,15 @@ std::vector<Class> not_dangerous() {
          Lines lines = split(e.text);
          std::size_t number = r.below(1000);
          for (std::string& l : lines) {
-           if (is_code(l)) l = "N" + std::to_string(number += 10) + " " + l;
+           if (is_code(l) && l.front() != 'N' && l.front() != '/')
+             l = "N" + std::to_string(number += 10) + " " + l;
          }
          return Made{Edit{joined(lines), e.table}};
        }},
       {"comments", Kind::kBenign, false,
        [](const Emitted& e, Random& r) {
          return changed(e, r, is_code, [&](const std::string& l) {
+           if (e.dialect != "linuxcnc") return r.below(2) == 0 ? l + " (AS PLANNED)" : "(NOW) " + l;
            return r.below(2) == 0   ? l + " (as planned)"
                   : r.below(2) == 0 ? "(now) " + l
                                     : l + " ; as planned";
@@ -190,7 +193,8 @@ std::vector<Class> not_dangerous() {
          const auto i = pick(lines, r, is_motion);
          if (!i) return Made{};
          static const char* const kModal[] = {"G90", "G21", "G17", "G90 G40", "G40", "G91.1"};
-         lines.insert(lines.begin() + static_cast<long>(*i), kModal[r.below(6)]);
+         const std::size_t kinds = e.dialect == "linuxcnc" ? 6 : 5;  // G91.1 is LinuxCNC's
+         lines.insert(lines.begin() + static_cast<long>(*i), kModal[r.below(kinds)]);
          return Made{Edit{joined(lines), e.table}};
        }},
       {"modal word left out", Kind::kBenign, false,
@@ -205,7 +209,9 @@ std::vector<Class> not_dangerous() {
        }},
       {"equal numbers", Kind::kBenign, false,
        [](const Emitted& e, Random& r) {
-         return changed(e, r, is_code, [&](const std::string& l) { return written_otherwise(l, r); });
+         return changed(e, r, is_code, [&](const std::string& l) {
+           return written_otherwise(l, e.dialect == "linuxcnc" ? "GMTH" : "GMTHSNPLK", r);
+         });
        }},
       {"table: comments, blanks and order", Kind::kBenign, false,
        [](const Emitted& e, Random& r) {

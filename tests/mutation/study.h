@@ -10,7 +10,7 @@ namespace capstan::mutation {
 
 /// What became of the edits of one class.
 struct Row {
-  const Class* of = nullptr;
+  Class of = {};
   int edits = 0;
   int same = 0;         ///< the machine does the same: by LinuxCNC's interpreter, or by what the class is
   int found = 0;        ///< with plan, program and table at hand
@@ -22,9 +22,10 @@ struct Row {
 struct Options {
   int edits = 4;  ///< of each class and program
   std::uint64_t first_seed = 1;
-  bool whole = false;          ///< what is not found goes through the removal of stock, too
-  bool planned = false;        ///< the planned plate, too: its program changes with the planner
-  bool by_interpreter = true;  ///< ask LinuxCNC's interpreter what it makes of benign and unknown edits
+  bool whole = false;                ///< what is not found goes through the removal of stock, too
+  bool planned = false;              ///< the planned plate, too: its program changes with the planner
+  std::string dialect = "linuxcnc";  ///< of the programs; only LinuxCNC has an interpreter to ask
+  bool by_interpreter = true;        ///< ask LinuxCNC's interpreter what it makes of benign and unknown edits
 };
 
 /// Edits every program by every class. Deterministic: the same options, the same rows.

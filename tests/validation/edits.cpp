@@ -45,7 +45,7 @@ Comparison edits() {
               {}};
   Row sum;
   for (const Row& r : mutation::study(options)) {
-    table.rows.push_back({r.of->name, kind_of(*r.of), whole(r.edits), whole(r.same), whole(r.found),
+    table.rows.push_back({r.of.name, kind_of(r.of), whole(r.edits), whole(r.same), whole(r.found),
                           whole(r.found_alone), whole(r.dangerous_missed), whole(r.different_missed),
                           whole(r.benign_blamed)});
     sum.edits += r.edits;
