@@ -99,9 +99,9 @@ std::vector<Class> dangerous_in_fanuc() {
        }},
       {"wider path tolerance of G187", Kind::kDangerous, false,
        [](const Emitted& e, Random& r) {
-         return word_changed(
-             e, r, [](const std::string& l) { return starts(l, "G187"); }, 'E',
-             [&](double v) { return v + r.between(0.02, 2.0); });
+         return changed(
+             e, r, [](const std::string& l) { return starts(l, "G187"); },
+             [&](const std::string& l) { return with(l, 'E', word(l, 'E').value + r.between(0.02, 2.0)); });
        }},
       {"contour control left on", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {

@@ -7,6 +7,7 @@ namespace capstan::controls::fanuc {
 namespace {
 
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
+bool is_capital(char c) { return c >= 'A' && c <= 'Z'; }
 char capital(char c) { return is_small(c) ? static_cast<char>(c - 'a' + 'A') : c; }
 
 /// What stands between quotes, where `%20` and the like stand for one character.
@@ -16,7 +17,9 @@ std::string quoted(std::string_view text, bool capitals) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     const bool escapes = c == '%' && i + 2 < text.size();
-    const bool is = capitals && !escapes && is_small(c);
+    // What is no letter is the same in both.
+    const bool letter = !escapes && (is_small(c) || is_capital(c));
+    const bool is = letter ? capitals && is_small(c) : small;
     if (is != small) out += is ? '<' : '>';
     small = is;
     if (escapes) {

@@ -27,7 +27,7 @@ extern const Dialect kHaas;
 
 /// A comment's text as the control may read it: no `%`, which ends the tape; no `;`, which ends a block;
 /// where it has `capitals` only, in these. Inside quotes nothing is lost: small letters stand between < and
-/// >, other characters as $ and two hexadecimal digits: `id="finish%20A"` is `ID="<FINISH>$20A"`.
+/// >, other characters as $ and two hexadecimal digits: `id="finish%20A"` is `ID="<FINISH$20>A"`.
 [[nodiscard]] std::string comment_text(std::string_view text, bool capitals);
 
 }  // namespace capstan::controls::fanuc

@@ -43,18 +43,25 @@ std::optional<HoleInPath> hole_at(const StepResult& step, std::size_t move, Vec3
                                   const model::Control& control) {
   const Moves m(step, control);
   std::size_t i = move;
-  const auto straight = [&](std::size_t k) { return k < m.size() && xy(m.to(k)) == xy(at); };
-  if (!straight(i) || m.kind(i) != MoveKind::kRapid || m.to(i).z >= at.z) return std::nullopt;
+  const auto straight = [&](std::size_t k) {
+    return k < m.size() && m.kind(k) != MoveKind::kDwell && !model::is_arc(m.kind(k)) &&
+           xy(m.to(k)) == xy(at);
+  };
+  double z = at.z;
+  const auto in_air = [&](std::size_t k) {
+    return m.kind(k) == MoveKind::kRapid || step.path->role[k] == model::MoveRole::kApproach;
+  };
+  for (; straight(i) && in_air(i) && m.to(i).z < z; ++i) z = m.to(i).z;
+  if (i == move || m.kind(move) != MoveKind::kRapid) return std::nullopt;
   HoleInPath out;
   HoleCycle& h = out.cycle;
   h.at = xy(at);
   h.initial_z = at.z;
-  h.r_z = m.to(i).z;
-  h.rpm = m.rpm(i);
+  h.r_z = z;
+  h.rpm = m.rpm(move);
   h.decimals = control.decimals;
   h.feed_decimals = control.feed_decimals;
-  double z = h.r_z;
-  const std::size_t first = ++i;
+  const std::size_t first = i;
   for (; straight(i) && m.kind(i) == MoveKind::kLine && m.to(i).z < z; ++i) {
     if (m.feed(i) != m.feed(first) || step.path->role[i] == model::MoveRole::kTap) return std::nullopt;
     z = m.to(i).z;
@@ -63,16 +70,20 @@ std::optional<HoleInPath> hole_at(const StepResult& step, std::size_t move, Vec3
   h.bottom_z = z;
   h.feed_mm_min = m.feed(first);
   for (; i < m.size() && m.kind(i) == MoveKind::kDwell; ++i) h.dwell_s += m.dwell(i);
-  if (!straight(i) || m.to(i).z != at.z) return std::nullopt;
+  // Out: at the same feed to R or above, or by rapid; to where the tool came from.
+  if (!straight(i) || step.path->role[i] != model::MoveRole::kRetract) return std::nullopt;
   h.feeds_out = m.kind(i) == MoveKind::kLine;
-  if (!h.feeds_out && m.kind(i) != MoveKind::kRapid) return std::nullopt;
-  if (h.feeds_out && m.feed(i) != h.feed_mm_min) return std::nullopt;
+  if (h.feeds_out && (m.feed(i) != h.feed_mm_min || m.to(i).z < h.r_z)) return std::nullopt;
+  const std::size_t out_begins = i;
+  for (; straight(i) && m.to(i).z > z && (i == out_begins || m.kind(i) == MoveKind::kRapid); ++i)
+    z = m.to(i).z;
+  if (z != at.z) return std::nullopt;
   // A peck is no hole of its own.
-  if (i + 1 < m.size() && m.kind(i + 1) != MoveKind::kRapid && straight(i + 1)) return std::nullopt;
-  for (std::size_t k = move; k <= i; ++k) {
+  if (straight(i) && m.kind(i) != MoveKind::kRapid) return std::nullopt;
+  for (std::size_t k = move; k < i; ++k) {
     if (m.rpm(k) != h.rpm) return std::nullopt;
   }
-  out.last_move = i;
+  out.last_move = i - 1;
   return out;
 }
 

@@ -247,7 +247,9 @@ bool Following::dwell(std::size_t i) {
 }
 
 bool Following::one(std::size_t i) {
+  if (i <= done_to_) return true;
   if (path_.kind[i] == MoveKind::kDwell) return dwell(i);
+  if (const auto made = hole_way(i)) return *made;
   const Vec3 goal = round(path_.point(i));
   const bool arcs = is_arc(path_.kind[i]);
   const bool full =
@@ -257,7 +259,6 @@ bool Following::one(std::size_t i) {
   last_ = goal;
   if (arcs) return arc(i, goal);
   if (path_.kind[i] == MoveKind::kRapid) return rapid(i, begin, goal);
-  if (in_own_hole(i, begin)) return hole_link(i, begin, goal);
   const Block* b = next(i, goal);
   if (b == nullptr || !kind_agrees(i, *b)) return false;
   if (!same(b->to, goal))
@@ -266,30 +267,51 @@ bool Following::one(std::size_t i) {
   return numbers_agree(i, *b);
 }
 
-/// A fed way straight up that does not cut any more, where a cycle may go on by rapid.
-bool Following::in_own_hole(std::size_t i, Vec3 begin) const {
-  return path_.role[i] == model::MoveRole::kRetract && at_ < text_.size() && text_[at_]->from_cycle &&
-         same(path_.x[i], begin.x) && same(path_.y[i], begin.y) && path_.z[i] > begin.z;
-}
-
-/// At feed to where the tool was fed from, R of the cycle, and by rapid above it.
-bool Following::hole_link(std::size_t i, Vec3 begin, Vec3 goal) {
-  std::size_t k = i;
-  while (k > 1 && path_.kind[k] != MoveKind::kRapid) --k;
-  const double r = round(path_.point(k)).z;
-  for (;;) {
+/// Straight down to where the tool is fed into the hole, or straight up out of it: a canned cycle makes such
+/// a way in pieces of its own. By rapid where the plan goes through air at feed to R, and above R on the way
+/// out. Handled only where the text is a cycle's; `done_to_` is then the last move of the way.
+std::optional<bool> Following::hole_way(std::size_t i) {
+  if (at_ >= text_.size() || !text_[at_]->from_cycle) return std::nullopt;
+  const auto straight = [&](std::size_t k, Vec3 from) {
+    return path_.kind[k] != MoveKind::kDwell && !is_arc(path_.kind[k]) && same(path_.x[k], from.x) &&
+           same(path_.y[k], from.y);
+  };
+  const auto in_air = [&](std::size_t k) {
+    return path_.kind[k] == MoveKind::kRapid || path_.role[k] == model::MoveRole::kApproach;
+  };
+  const bool up = path_.z[i] > last_.z;
+  const bool fed = path_.kind[i] == MoveKind::kLine;
+  if (up ? path_.role[i] != model::MoveRole::kRetract : !in_air(i)) return std::nullopt;
+  Vec3 goal = last_;
+  std::size_t end = i;
+  for (; end < path_.size() && straight(end, last_); ++end) {
+    const Vec3 to = round(path_.point(end));
+    if (up ? to.z <= goal.z : !in_air(end) || to.z >= goal.z) break;
+    goal = to;
+  }
+  if (end == i) return std::nullopt;
+  std::size_t begun = i - 1;
+  while (begun > 1 && !in_air(begun)) --begun;
+  const double r = round(path_.point(begun)).z;
+  while (!same(last_, goal)) {
     const Block* b = next(i, goal);
     if (b == nullptr) return false;
-    const bool above = same(begin.z, r) || begin.z > r;
-    const bool on_way = same(b->to.x, goal.x) && same(b->to.y, goal.y) && b->to.z > begin.z &&
-                        (b->to.z < goal.z || same(b->to.z, goal.z));
-    if (!on_way || !(b->move == MoveKind::kLine || (b->move == MoveKind::kRapid && above)))
-      return say(b->line, "the text goes to " + text_of(b->to) + "; the plan at feed to " + text_of(goal),
+    const double sign = up ? 1.0 : -1.0;
+    const bool on_way = same(b->to.x, goal.x) && same(b->to.y, goal.y) && sign * (b->to.z - last_.z) > 0.0 &&
+                        (sign * (goal.z - b->to.z) > 0.0 || same(b->to.z, goal.z));
+    const bool above = last_.z > r || same(last_.z, r);
+    const bool kind =
+        b->move == MoveKind::kRapid ? !up || !fed || above : up && fed && b->move == MoveKind::kLine;
+    if (!on_way || !kind)
+      return say(b->line,
+                 std::string("the text has ") + name(b->move) + " to " + text_of(b->to) + "; the plan has " +
+                     name(path_.kind[i]) + " on its way to " + text_of(goal),
                  static_cast<long>(i));
-    if (!numbers_agree(i, *b)) return false;
-    begin = b->to;
-    if (same(begin, goal)) return true;
+    if (!numbers_agree(b->move == MoveKind::kRapid ? end - 1 : i, *b)) return false;
+    last_ = b->to;
   }
+  done_to_ = end - 1;
+  return true;
 }
 
 /// One axis after the other, each on its way.

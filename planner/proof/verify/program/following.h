@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,7 @@ class Following {
   bool dwell(std::size_t i);
   bool arc(std::size_t i, geometry::Vec3 goal);
   bool rapid(std::size_t i, geometry::Vec3 begin, geometry::Vec3 goal);
-  [[nodiscard]] bool in_own_hole(std::size_t i, geometry::Vec3 begin) const;
-  bool hole_link(std::size_t i, geometry::Vec3 begin, geometry::Vec3 goal);
+  std::optional<bool> hole_way(std::size_t i);
   bool arc_piece(std::size_t i, const Block& b, const Move& whole, double& done);
   bool nothing_behind();
   /// The next block that does something; null when there is none, or it waits when it should not.
@@ -64,6 +64,7 @@ class Following {
   double arc_off_;      ///< how far an arc may stand off the plan's, mm
   double speed_slack_;  ///< of the written speed, 1/min
   bool tapped_ = false;
+  std::size_t done_to_ = 0;  ///< moves of the path up to this one are followed
   double security_;
   double travel_height_ = 0.0;
   std::size_t at_ = 0;
