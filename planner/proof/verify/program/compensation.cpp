@@ -131,9 +131,7 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
                      std::string("the program cuts with ") +
                          (b.flood && !s.flood ? "flood coolant (M8)" : "mist (M7)") +
                          " on, the step is planned without; state M9" +
-                         (s.flood  ? ", then M8"
-                          : s.mist ? ", then M7"
-                                   : ""));
+                         (s.flood ? ", then M8" : s.mist ? ", then M7" : ""));
     }
   }
 }

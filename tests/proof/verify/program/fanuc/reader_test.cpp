@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "tests/proof/verify/plans.h"
 
@@ -229,6 +230,24 @@ TEST(FanucReader, ContourControlEndsBeforeCyclesToolsAndTheEnd) {
   EXPECT_TRUE(finds(read("G5.1 Q1\nG98 G81 X5. Y6. Z-8. R2. F100.\nG80\nG5.1 Q0\n"), "CHK-CYCLE"));
   EXPECT_TRUE(finds(read("G5.1 Q1\nT2 M6\n"), "CHK-SMOOTH"));
   EXPECT_TRUE(finds(read("G5.1 Q1\n"), "CHK-END"));
+}
+
+TEST(FanucReader, ReadsAnyBytesToTheirEnd) {
+  const std::string whole =
+      std::string(kStart) +
+      "G98 G83 X5. Y6. Z-6. R2. Q4. K2 F100.\nG80\nM29 S400\nG84 X5. Y6. Z-8. R5. F500.\nG80\n"
+      "G2 X7. Y6. I1. J0.\nG91 G28 Z0.\nG90 G49\nG4 P100\n(CAPSTAN STEP ID=\"<A>$20\" N=1)\nM30\n%\n";
+  std::mt19937 random(3);
+  for (int i = 0; i < 4000; ++i) {
+    std::string text = whole;
+    for (int k = 0; k < 6; ++k) {
+      const std::size_t at = random() % text.size();
+      if (random() % 3 == 0) text.erase(at, 1 + random() % 3);
+      text.insert(std::min(at, text.size()), 1, static_cast<char>(random() % 256));
+    }
+    const auto lines = std::count(text.begin(), text.end(), '\n') + (text.back() == '\n' ? 0 : 1);
+    EXPECT_EQ(read_program(text, machine(i % 2 == 0 ? "fanuc" : "haas")).lines, lines) << text;
+  }
 }
 
 TEST(FanucComments, InCapitalsSayWhatTheySaidInSmallLetters) {
