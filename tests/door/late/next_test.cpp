@@ -183,15 +183,17 @@ TEST(LateNext, AToolThatIsNotLoadedIsNotCalled) {
 }
 
 TEST(LateNext, WhereNoLoadedToolFitsTheFirstStepTheOperationsAreChosenAnewForTheWholePart) {
-  const std::string narrower = "T1 P1 Z+80 D+8 ;8 mm carbide end mill, 3 flutes\n",
-                    wider = "T3 P3 Z+90 D+10 ;10 mm carbide end mill, 3 flutes\n";
+  const std::string narrower = "T1 P1 Z+110 D+8 ;8 mm carbide end mill, 3 flutes\n",
+                    wider = "T3 P3 Z+110 D+10 ;10 mm carbide end mill, 3 flutes\n";
   Job job;
   auto read = pipeline::read_plan(testing::slurp(kPocket), kPocket, job);
   const auto early = pipeline::bind(*std::move(read), shop_of(narrower), {}, job);
   ASSERT_TRUE(early) << to_text(early.error());
+  ASSERT_TRUE(early->unplanned.empty());
   const auto bound = bind(*early, shop_of(wider), next(), job);
   ASSERT_TRUE(bound) << to_text(bound.error());
   EXPECT_EQ(bound->part->cutters.front().pocket, 3);
+  ASSERT_FALSE(bound->reopened.empty());
   EXPECT_THAT(bound->reopened.back(), ::testing::HasSubstr("chosen anew"));
   Job second;
   const auto then = bind(bound->plan, shop_of(wider), next(), second);
