@@ -2,13 +2,14 @@
 """Stands between LinuxCNC and Capstan: binds each workingstep for the machine as it is when its turn comes.
 
 A program calls M101 P<n>; ask.py hands the question on to this process, which reads the live tool table and work offset,
-has the planner (binder.py) bind the plan before a deadline, checks what comes back, writes the subroutine of that workingstep
+has the planner (binder.py) bind that workingstep before a deadline, checks what comes back, writes its subroutine
 to a temporary file, syncs it, renames it, and remembers its hash and the machine's state. M102 P<n> fails unless file and
 state are still those. Any doubt is a refusal with its reason on the screen: the program ends, and the machine stands as it
 stood while it waited, retracted and with its spindle stopped.
 
 Watchdog: a planner that does not answer within its deadline and `--grace` is killed. ask.py watches this process.
-Restart: `journal.jsonl` has what was cut, line by line; M101 P0 says which workingstep is the next one.
+Restart: `journal.jsonl` has what was cut, line by line, and `so_far.json` the plan as far as it was cut; M101 P0 says which
+workingstep is the next one.
 """
 import argparse
 import datetime
@@ -32,6 +33,7 @@ from program import Refused
 
 SOCKET = 'capstan.socket'
 LOADED = 'loaded.tbl'
+SO_FAR = 'so_far.json'  # the plan with the paths that were cut
 SCREEN = 220  # characters of a message that LinuxCNC's screen takes (256 with its own words)
 
 
@@ -174,9 +176,14 @@ class Adapter:
         self.planner = Planner(options.planner)
         self.journal = Journal(options.journal)
         self.measured, self.material = {}, options.material
-        self.bound = {}  # n -> (program, step, state, hash)
+        self.bound = {}  # n -> (program, state, hash, plan)
 
-    def plan(self, state):
+    def next(self):
+        """The first workingstep that was not cut."""
+        return 1 + len(self.journal.cut)
+
+    def plan(self, n, state):
+        """Workingstep n bound for the machine as it is, how many there are, and the plan with it. 0: the first open one."""
         comments = self.machine.comments()
         rows = [f'T{t} P{comments.get(t, (t, ""))[0]} Z{v["z"]:+.6f} D{v["d"]:+.6f} ;{comments.get(t, (t, ""))[1]}'
                 for t, v in sorted(state['tools'].items())]
@@ -184,27 +191,23 @@ class Adapter:
         options = {'machine': self.options.machine, 'tools': LOADED}
         if self.material:
             options['material'] = self.material
-        request = {'plan': self.options.plan, 'options': options, 'deadline_ms': int(1000 * self.options.deadline)}
-        return programs.of_answer(self.planner.ask(request, self.options.deadline + self.options.grace))
+        request = {'plan': SO_FAR if self.journal.cut else self.options.plan, 'from': n, 'options': options,
+                   'deadline_ms': int(1000 * self.options.deadline)}
+        answer = self.planner.ask(request, self.options.deadline + self.options.grace)
+        return programs.of_answer(answer, n or self.next()), answer['steps'], answer['plan']
 
     def bind(self, n):
         self.machine.standing()
         state = self.machine.state(self.measured)
-        plan = self.plan(state)
-        for step in plan.steps:
-            if step.n in self.journal.cut and step.sha256 != self.journal.cut[step.n]:
-                raise Refused(f'workingstep {step.n} was cut otherwise than this plan has it: plan the rest anew')
-        tell_program(first=1 + len(self.journal.cut), steps=len(plan.steps))
+        step, steps, plan = self.plan(n, state)
+        tell_program(first=self.next(), steps=steps)
         if n == 0:
             return
-        if not 1 <= n <= len(plan.steps):
-            raise Refused(f'there is no workingstep {n}')
-        step = plan.steps[n - 1]
-        programs.check_tools(plan, step, state['tools'])
+        programs.check_tools(step, state['tools'])
         programs.check_travel(step, state['offset'], state['tools'][step.tool]['z'], state['limits'])
-        text = plan.subroutine(step, self.binding(state))
+        text = step.subroutine(self.binding(state))
         written(f'{programs.FIRST + n}.ngc', text)
-        self.bound[n] = (step, state, programs.END.search(text)[1])
+        self.bound[n] = (step, state, programs.END.search(text)[1], plan)
         self.journal.add('bound', step=n, id=step.id, tool=step.tool, file_sha256=self.bound[n][2],
                          material=self.material, **state)
 
@@ -216,7 +219,7 @@ class Adapter:
     def check(self, n):
         if n not in self.bound:
             raise Refused(f'workingstep {n} was not bound')
-        _, state, expected = self.bound[n]
+        _, state, expected, _ = self.bound[n]
         name = f'{programs.FIRST + n}.ngc'
         try:
             programs.check_text(pathlib.Path(name).read_text(), expected)
@@ -228,7 +231,8 @@ class Adapter:
     def done(self, n):
         if n not in self.bound:
             raise Refused(f'workingstep {n} was not bound')
-        step = self.bound.pop(n)[0]
+        step, _, _, plan = self.bound.pop(n)
+        written(SO_FAR, plan)
         s = self.machine.stat
         s.poll()
         self.journal.add('cut', step=n, id=step.id, lines_sha256=step.sha256, tool_in_spindle=s.tool_in_spindle,

@@ -3,8 +3,10 @@
 
     binder.py LIBRARY [MEMORY_MB]
 
-A line of JSON in: {"plan": FILE, "options": {NAME: VALUE}, "deadline_ms": N}; a line out: {"code": N, "message": TEXT,
-"program": G-CODE or null}, codes and options as include/capstan/capstan_late.h has them. MEMORY_MB is what planning
+A line of JSON in: {"plan": FILE, "from": N, "options": {NAME: VALUE}, "deadline_ms": N}; workingstep N is bound, nothing
+else. A line out: {"code": N, "message": TEXT, "program": G-CODE or null, "steps": N, "plan": JSON}: the program of that
+workingstep, how many there are, and the plan as far as it is bound, which is the FILE of the next one. Codes and options
+are as include/capstan/capstan_late.h has them. MEMORY_MB is what planning
 may take beyond what the library takes when it is loaded. The process ends with the one that started it.
 """
 import ctypes
@@ -14,8 +16,8 @@ import resource
 import signal
 import sys
 
-LINUXCNC = 2  # CAPSTAN_LATE_LINUXCNC
-INTERFACE = 2  # CAPSTAN_LATE_INTERFACE, at least
+JSON, LINUXCNC = 1, 2  # CAPSTAN_LATE_JSON, CAPSTAN_LATE_LINUXCNC
+INTERFACE = 4  # CAPSTAN_LATE_INTERFACE, at least
 
 
 def load(path):
@@ -23,7 +25,8 @@ def load(path):
     session, text = ctypes.c_void_p, ctypes.c_char_p
     for name, result, arguments in (
             ('interface', ctypes.c_uint, []), ('create', session, []), ('set', ctypes.c_int, [session, text, text]),
-            ('bind', ctypes.c_int, [session, text, ctypes.c_size_t, ctypes.c_uint]),
+            ('bind_next', ctypes.c_int, [session, text, ctypes.c_size_t, ctypes.c_uint, ctypes.c_uint, ctypes.c_uint]),
+            ('steps', ctypes.c_uint, [session]),
             ('message', text, [session]), ('output', text, [session, ctypes.c_int, ctypes.c_void_p])):
         function = getattr(library, 'capstan_late_' + name)
         function.restype, function.argtypes = result, arguments
@@ -32,16 +35,37 @@ def load(path):
     return library
 
 
+class Held:
+    """What the session has: options as they were set, and the plan that it bound last."""
+    options, plan = {}, None
+
+
+def as_it_is(value):
+    """An option's value, and the content of the file that it names: a tool table that changed is set anew."""
+    file = pathlib.Path(value)
+    return value, file.read_bytes() if file.is_file() else None
+
+
 def bind(library, session, request):
     for name, value in request['options'].items():
+        now = as_it_is(value)
+        if Held.options.get(name) == now:
+            continue
         code = library.capstan_late_set(session, name.encode(), value.encode())
         if code != 0:
             return {'code': code, 'message': library.capstan_late_message(session).decode(), 'program': None}
+        Held.options[name] = now
     plan = pathlib.Path(request['plan']).read_bytes()
-    code = library.capstan_late_bind(session, plan, len(plan), request['deadline_ms'])
+    # The plan that this session bound last it need not read again.
+    text, size = (None, 0) if plan == Held.plan else (plan, len(plan))
+    code = library.capstan_late_bind_next(session, text, size, request['from'], 1, request['deadline_ms'])
     program = library.capstan_late_output(session, LINUXCNC, None) if code == 0 else None
-    return {'code': code, 'message': library.capstan_late_message(session).decode(),
-            'program': program.decode() if program else None}
+    answer = {'code': code, 'message': library.capstan_late_message(session).decode(),
+              'program': program.decode() if program else None}
+    if program:
+        Held.plan = library.capstan_late_output(session, JSON, None)
+        answer.update(steps=library.capstan_late_steps(session), plan=Held.plan.decode())
+    return answer
 
 
 def main():

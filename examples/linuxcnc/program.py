@@ -1,8 +1,7 @@
-"""A program that Capstan wrote, cut into one subroutine per workingstep.
+"""The program of one workingstep, as Capstan wrote and checked it, as a subroutine that LinuxCNC calls.
 
-Each subroutine begins and ends as the whole program does: retracted, spindle and coolant off; between are the lines of its
-workingstep as they were checked. What the whole program had done before (the tool, the spindle at speed) is said again
-where the workingstep's own lines do not. The last line has the SHA-256 of all lines before it: a file without it is cut
+It is whole: it begins and ends retracted, spindle and coolant off, and calls its own tool. Its lines are those that were
+checked, but for the end of the program. The last line has the SHA-256 of all lines before it: a file without it is cut
 short, one that does not fit it was altered.
 """
 import hashlib
@@ -24,52 +23,34 @@ def digest(text):
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-class Step:
-    def __init__(self, match, lines):
-        self.id, self.n, self.tool = match['id'], int(match['n']), int(match['tool'])
-        self.lines = lines
-        self.sha256 = digest('\n'.join(lines))
-
-
 class Program:
-    """Workingsteps in order, what stands before the first and after the last, and the tools, by number."""
+    """One workingstep, the n-th of its plan: its lines, what stands before and after them, and the tools, by number."""
 
-    def __init__(self, text):
+    def __init__(self, text, n):
         lines = text.splitlines()
         begins = [i for i, line in enumerate(lines) if STEP.match(line)]
-        if not begins or lines.count('(end)') != 1:
-            raise Refused('the program has no workingstep, or no end')
+        if len(begins) != 1 or lines.count('(end)') != 1:
+            raise Refused('the program is not that of one workingstep, or has no end')
         if sum(line.startswith('(CAPSTAN SETUP ') for line in lines) != 1:
             raise Refused('the plan has more than one set-up; this adapter stays in one')
-        end = lines.index('(end)')
+        step, end = STEP.match(lines[begins[0]]), lines.index('(end)')
+        self.n, self.id, self.tool = n, step['id'], int(step['tool'])
         self.tools = {int(m['t']): m for m in map(TOOL.match, lines) if m}
         self.head = [line for line in lines[:begins[0]] if line and not line.startswith('(')]
+        self.lines = [line for line in lines[begins[0]:end] if line]
         self.tail = [line for line in lines[end + 1:] if line and line != 'M2']
-        self.steps = [Step(STEP.match(lines[at]), [line for line in lines[at:to] if line])
-                      for at, to in zip(begins, begins[1:] + [end])]
-        if [s.n for s in self.steps] != list(range(1, len(self.steps) + 1)):
-            raise Refused('the workingsteps of the program are not numbered in order')
-        self.dwell = next((line for line in lines if line.startswith('G4 ')), None)
+        self.sha256 = digest('\n'.join(self.lines))
 
-    def before(self, step):
-        """The tool in the spindle and the spindle at speed, where the step's lines count on both."""
-        if any(' M6' in line for line in step.lines):
-            return []
-        speed = next((line for line in step.lines if re.match(r'S[\d.]+ M[34]\b', line)), None)
-        if speed is None:
-            raise Refused(f'workingstep {step.n} states no spindle speed')
-        return [f'T{step.tool} M6', speed] + ([self.dwell] if self.dwell else [])
-
-    def subroutine(self, step, binding):
+    def subroutine(self, binding):
         """The file that LinuxCNC calls, with the mark of the binding that it came from."""
-        name = f'o{FIRST + step.n}'
-        body = '\n'.join([f'(CAPSTAN BINDING {binding})', f'{name} sub', *self.head, *self.before(step), *step.lines,
-                          *self.tail, f'{name} endsub', '']) + '\n'
+        name = f'o{FIRST + self.n}'
+        body = '\n'.join([f'(CAPSTAN BINDING {binding})', f'{name} sub', *self.head, *self.lines, *self.tail,
+                          f'{name} endsub', '']) + '\n'
         return body + f'(CAPSTAN END sha256={digest(body)})\n'
 
 
-def of_answer(answer):
-    """The program of the planner's answer (binder.py), where it is one to be cut."""
+def of_answer(answer, n):
+    """The program of workingstep n in the planner's answer (binder.py), where it is one to be cut."""
     lines = answer['message'].splitlines()
     if answer['code'] != 0 or not answer['program']:
         errors = [line for line in lines if 'error: ' in line]
@@ -78,7 +59,7 @@ def of_answer(answer):
     doubts = [line for line in lines if 'warning: ' in line and '[CHK-' in line]
     if doubts:
         raise Refused(doubts[0].partition('warning: ')[2])
-    return Program(answer['program'])
+    return Program(answer['program'], n)
 
 
 def check_text(text, expected):
@@ -92,14 +73,14 @@ def check_text(text, expected):
         raise Refused('it was not bound now: it is stale')
 
 
-def check_tools(program, step, table):
-    """Fails unless the step uses one tool, loaded, with its own offset, as long and wide as the table says."""
+def check_tools(step, table):
+    """Fails unless a workingstep uses one tool, loaded, with its own offset, as long and wide as the table says."""
     numbers = set()
     for line in step.lines:
         if not line.startswith('('):
             numbers.update(int(n) for n in re.findall(r'[TH](\d+)', line))
     for number in numbers | {step.tool}:
-        stated, loaded = program.tools.get(number), table.get(number)
+        stated, loaded = step.tools.get(number), table.get(number)
         if number != step.tool or stated is None or int(stated['h']) != number:
             raise Refused(f'workingstep {step.n} is of T{step.tool}, but names {number}')
         if loaded is None:

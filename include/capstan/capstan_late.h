@@ -23,8 +23,9 @@ extern "C" {
 typedef struct capstan_late capstan_late;
 
 /* Counts what was added to this interface; what was there stays. 2: options by name, progress, stop, formats
- * by name. 3: capstan_late_changes; options "may" and "time". */
-#define CAPSTAN_LATE_INTERFACE 3
+ * by name. 3: capstan_late_changes; options "may" and "time". 4: capstan_late_take, capstan_late_bind_next,
+ * capstan_late_steps; option "stop-at-deadline". */
+#define CAPSTAN_LATE_INTERFACE 4
 /* Of the library that is linked. */
 CAPSTAN_LATE_API unsigned capstan_late_interface(void);
 
@@ -69,6 +70,21 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_prepare(capstan_late* session);
 CAPSTAN_LATE_API capstan_late_code capstan_late_bind(capstan_late* session, const char* plan, size_t size,
                                                      unsigned deadline_ms);
 
+/* Reads a plan, so that the first capstan_late_bind_next, without one, need not. */
+CAPSTAN_LATE_API capstan_late_code capstan_late_take(capstan_late* session, const char* plan, size_t size);
+
+/* Binds `count` workingsteps only, against the piece as those before them leave it: nothing else is planned,
+ * and the program is that of these steps, whole, with its end. `from` is the first of them, counted from 1 in
+ * the order of the workplan; the plan must have the paths of those before, which are cut. 0: the first of
+ * which something is open. Without a plan (NULL, 0): the plan that this session took or bound last, so
+ * that a part is bound step by step without being read again; CAPSTAN_LATE_JSON is the whole plan as far as
+ * it is bound, to go on with after a restart. A control that goes on at its deadline sets "stop-at-deadline"
+ * to "yes": what is not checked by then is given up in time, with CAPSTAN_LATE_IMPOSSIBLE, in place of
+ * CAPSTAN_LATE_LATE after it. */
+CAPSTAN_LATE_API capstan_late_code capstan_late_bind_next(capstan_late* session, const char* plan,
+                                                          size_t size, unsigned from, unsigned count,
+                                                          unsigned deadline_ms);
+
 /* Is told during a bind how far it is: the stage's name and a fraction from 0 to 1; NULL: no more. It is
  * called from the thread that binds, or one of its workers; of its session it may call capstan_late_stop
  * only. */
@@ -95,7 +111,10 @@ CAPSTAN_LATE_API const char* capstan_late_changes(const capstan_late* session);
 CAPSTAN_LATE_API capstan_late_code capstan_late_status(const capstan_late* session);
 CAPSTAN_LATE_API const char* capstan_late_message(const capstan_late* session);
 
-/* Machining time of the bound plan in seconds, 0 when there is none. */
+/* How many workingsteps the bound plan has, those that are still open among them; 0 when there is none. */
+CAPSTAN_LATE_API unsigned capstan_late_steps(const capstan_late* session);
+
+/* Machining time of what was bound in seconds, 0 when nothing is. */
 CAPSTAN_LATE_API double capstan_late_machining_seconds(const capstan_late* session);
 
 CAPSTAN_LATE_API void capstan_late_close(capstan_late* session);

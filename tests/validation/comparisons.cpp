@@ -47,7 +47,8 @@ Comparison summary(const std::vector<Comparison>& all) {
       {"catalogue-times", "13. Times against a catalogue's"},
       {"freecad", "14. Roughing against FreeCAD's paths"},
       {"tuning", "15. Tuning in simulated shops"},
-      {"plates", "16. NIST plates as cases"}};
+      {"plates", "16. NIST plates as cases"},
+      {"bind-times", "17. Late binding: times"}};
   Comparison out{.name = "summary"};
   Table rows{{"comparison", "figure"}, {}};
   for (const auto& [name, title] : titles) {
@@ -84,6 +85,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(freecad(capstan::testing::source_dir() + "/docs/validation/freecad.csv"));
   out.push_back(tuning());
   out.push_back(plates(corpus));
+  out.push_back(bind_times(capstan::testing::source_dir() + "/docs/validation/bind_times.csv"));
   out.push_back(summary(out));
   return out;
 }

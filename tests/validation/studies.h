@@ -60,4 +60,7 @@ namespace capstan::validation {
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);
 
+/// Times of late binding, as `capstan_bind_times` recorded them in a file.
+[[nodiscard]] Comparison bind_times(const std::string& file);
+
 }  // namespace capstan::validation

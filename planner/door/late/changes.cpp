@@ -24,7 +24,8 @@ namespace {
 using model::Plan;
 using model::StepResult;
 
-constexpr std::array<std::string_view, kChoices> kWords = {"tools", "feeds", "depths", "strategy", "order"};
+constexpr std::array<std::string_view, kChoices> kWords = {"tools", "feeds",        "depths",    "strategy",
+                                                           "order", "alternatives", "conditions"};
 
 /// By its name, the n-th of that name apart: planning anew gives new persistent ids.
 using Key = std::pair<std::string, int>;
@@ -210,7 +211,25 @@ std::string Decisions::names() const {
   return out;
 }
 
-std::vector<Change> changes(const Plan& before, const Plan& after) {
+namespace {
+
+std::vector<Change> changes_of_part(const Plan& before, const Plan& after) {
+  std::vector<Change> out;
+  for (const StepResult& b : after.steps) {
+    const auto at = std::find_if(before.steps.begin(), before.steps.end(),
+                                 [&](const StepResult& a) { return a.step == b.step; });
+    const std::string name = name_of(after, b);
+    auto c = at != before.steps.end() ? std::optional(compared(before, after, *at, b, name))
+                                      : closed(before, after, b, name);
+    if (c && !c->text.empty()) out.push_back(*std::move(c));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Change> changes(const Plan& before, const Plan& after, bool part) {
+  if (part) return changes_of_part(before, after);
   const Named was = named(before), is = named(after);
   std::vector<Change> out;
   for (const Key& key : is.order) {
@@ -257,7 +276,7 @@ std::string words_of(const std::vector<Change>& changes, const std::vector<std::
   return out + ".\n";
 }
 
-Status within_policy(const Plan& before, const Plan& after, Decisions may) {
+Status within_policy(const Plan& before, const Plan& after, Decisions may, bool part) {
   for (const auto& [key, decision] : before.ledger.entries()) {
     if (!decision.pinned) continue;
     if (model::hash_attribute(before.model, key.object, key.attribute) ==
@@ -269,7 +288,7 @@ Status within_policy(const Plan& before, const Plan& after, Decisions may) {
                  .hint = "unpin it, or load what the plan needs"});
   }
   if (may == Decisions::all()) return {};
-  for (const Change& c : changes(before, after)) {
+  for (const Change& c : changes(before, after, part)) {
     for (const Choice choice : c.decided) {
       if (may.has(choice)) continue;
       return fail({.code = "LATE-POLICY",

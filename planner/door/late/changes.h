@@ -11,9 +11,10 @@
 namespace capstan::late {
 
 /// The kinds of decisions that a control may take. kOrder: which steps there are, and in which order.
-/// kStrategy: the way of the cutter, at the depths that there are.
-enum class Choice : std::uint8_t { kTools, kFeeds, kDepths, kStrategy, kOrder };
-inline constexpr std::size_t kChoices = 5;
+/// kStrategy: the way of the cutter, at the depths that there are. kAlternatives: which element of a
+/// selective is taken. kConditions: if and while statements, by what was measured.
+enum class Choice : std::uint8_t { kTools, kFeeds, kDepths, kStrategy, kOrder, kAlternatives, kConditions };
+inline constexpr std::size_t kChoices = 7;
 [[nodiscard]] std::string_view to_text(Choice c);  ///< "tools", "feeds", ...
 
 /// A set of them.
@@ -46,7 +47,9 @@ struct Change {
 /// are gone. Steps are matched by name. What `before` left open and `after` has is a change, too. A tool that
 /// is the same by its number, measured smaller, is no other tool: its new path is no decision, a new depth
 /// is.
-[[nodiscard]] std::vector<Change> changes(const model::Plan& before, const model::Plan& after);
+/// `part`: `after` has some of the steps, and the nouns of `before`; the others are not told.
+[[nodiscard]] std::vector<Change> changes(const model::Plan& before, const model::Plan& after,
+                                          bool part = false);
 
 /// The same in sentences for a screen, one a line, with what it does to the time in all; empty: nothing
 /// changed.
@@ -55,6 +58,7 @@ struct Change {
                                    const model::Plan& after);
 
 /// Why a plan may not be given that decides more than `may`, or that changes what the operator pinned.
-[[nodiscard]] Status within_policy(const model::Plan& before, const model::Plan& after, Decisions may);
+[[nodiscard]] Status within_policy(const model::Plan& before, const model::Plan& after, Decisions may,
+                                   bool part = false);
 
 }  // namespace capstan::late

@@ -64,13 +64,20 @@ bool edited(const Job& job) {
                      [](const Diagnostic& d) { return model::edit_told_by(d) != model::EditTold::kNothing; });
 }
 
-/// Whether every enabled workingstep has its tool, path, feed and results, and nothing is open.
-bool bound_to_its_end(const Plan& plan) {
+/// Whether every enabled workingstep, or each of the plan's where it is a part, has its tool, path, feed and
+/// results, and nothing is open.
+bool bound_to_its_end(const Plan& plan, bool part) {
   if (plan.steps.empty() || !plan.unplanned.empty() || plan.stock.box.empty()) return false;
   for (const model::StepResult& s : plan.steps)
     if (s.path == nullptr || s.schedule == nullptr) return false;
-  const std::vector<AnyRef> roots = {plan.project};
-  for (const AnyRef r : model::reachable(plan.model, roots)) {
+  std::vector<AnyRef> all;
+  if (part) {
+    for (const model::StepResult& s : plan.steps) all.push_back(s.step);
+  } else {
+    const std::vector<AnyRef> roots = {plan.project};
+    all = model::reachable(plan.model, roots);
+  }
+  for (const AnyRef r : all) {
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(r);
     const auto* e = plan.model.get<model::Executable>(r);
     if (ws == nullptr || !e->enabled.value_or(true)) continue;
@@ -107,6 +114,14 @@ bool take_loaded(const pipeline::Inputs& in, model::Cutter& c) {
   return true;
 }
 
+/// Leaves the cutters that the plan's steps use.
+void drop_other_cutters(Plan& plan) {
+  std::erase_if(plan.cutters, [&](const model::Cutter& c) {
+    return std::none_of(plan.steps.begin(), plan.steps.end(),
+                        [&](const model::StepResult& s) { return s.cutter_id == c.id; });
+  });
+}
+
 /// Nouns say the same of pockets as the cutters.
 void state_pockets(Plan& plan) {
   for (const model::StepResult& s : plan.steps) {
@@ -121,11 +136,19 @@ void state_pockets(Plan& plan) {
 
 }  // namespace
 
-std::optional<Plan> as_it_is(const Plan& plan, const pipeline::Inputs& inputs, Job& job) {
+std::optional<Plan> as_it_is(const Plan& plan, const pipeline::Inputs& inputs,
+                             std::optional<pipeline::Window> window, Job& job) {
   if (edited(job) || !model::unreadable(plan).empty() || !model::contradictions(plan).empty() ||
-      !bound_to_its_end(plan) || !made_for(plan, inputs) || !chosen_alike(plan, inputs))
+      !made_for(plan, inputs) || !chosen_alike(plan, inputs))
     return std::nullopt;
   Plan out = plan;
+  if (window) {
+    if (plan.steps.size() < window->first + window->count) return std::nullopt;
+    const auto from = plan.steps.begin() + static_cast<std::ptrdiff_t>(window->first);
+    out.steps.assign(from, from + static_cast<std::ptrdiff_t>(window->count));
+    drop_other_cutters(out);
+  }
+  if (!bound_to_its_end(out, window.has_value())) return std::nullopt;
   for (model::Cutter& c : out.cutters)
     if (!take_loaded(inputs, c)) return std::nullopt;
   std::stable_sort(out.cutters.begin(), out.cutters.end(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "planner/door/late/kept.h"
@@ -11,11 +12,13 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/said_before.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/making/given/listed_steps.h"
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/by_planning.h"
+#include "planner/proof/verify/verify.h"
 
 // A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
 // takes; then an improvement on the rest of the time. Each answer passes the same four questions: is anything
@@ -27,6 +30,7 @@ namespace capstan::late {
 namespace {
 
 constexpr double kSameRadiusMm = 1e-6;
+constexpr std::string_view kStoppedPlanning = "PIP-STOPPED";  ///< of pipeline::stopped_planning
 
 using TimePoint = std::chrono::steady_clock::time_point;
 using Duration = std::chrono::steady_clock::duration;
@@ -37,12 +41,27 @@ double machining_s(const model::Plan& plan) {
   return t;
 }
 
-pipeline::Policy policy_of(pipeline::Reopen reopen) {
-  pipeline::Policy p;
-  p.only_loaded_cutters = true;
-  p.reopen = reopen;
-  return p;
-}
+/// What one call binds: a plan, in a shop, for some of its steps or all.
+struct Case {
+  const model::Plan& plan;  ///< with what the machine's state re-opened
+  const pipeline::Inputs& inputs;
+  const LatePolicy& policy;
+  std::optional<pipeline::Window> window;
+  std::function<Status(const model::Plan&)> acceptable;
+  TimePoint began;
+
+  [[nodiscard]] pipeline::Policy how(pipeline::Reopen reopen) const {
+    pipeline::Policy p;
+    p.only_loaded_cutters = true;
+    p.reopen = reopen;
+    p.window = window;
+    return p;
+  }
+  [[nodiscard]] std::optional<verify::CutBefore> cut_before() const {
+    if (!window) return std::nullopt;
+    return verify::CutBefore{plan, window->first};
+  }
+};
 
 /// Whether planning chose all operations and paths of the plan, and nobody pinned a value: then it may choose
 /// them once more.
@@ -128,15 +147,17 @@ void tell_late(LateOutcome& out, const LatePolicy& policy, TimePoint began, Job&
 
 /// What comes of a plan that is checked, with its program; a fault where it is condemned. `checking` is what
 /// both checks took.
-Result<LateOutcome> judged(pipeline::Checked made, const pipeline::Inputs& inputs, const LatePolicy& policy,
-                           Duration& checking, Job& job) {
+Result<LateOutcome> judged(pipeline::Checked made, const Case& c, bool allow_findings, Duration& checking,
+                           Job& job) {
   LateOutcome out;
   const auto check_start = job.now();
-  out.findings = pipeline::findings_of(made, job, &out.program, inputs.proofs.get());
+  const auto before = c.cut_before();
+  out.findings =
+      pipeline::findings_of(made, job, &out.program, c.inputs.proofs.get(), before ? &*before : nullptr);
   poll();  // a check that was stopped proves nothing, whatever findings are allowed
   checking = made.checking + (job.now() - check_start);
   out.condemned = model::condemned(made.plan, out.findings);
-  if (!out.condemned.empty() && (!policy.allow_findings || model::never_written(out.condemned))) {
+  if (!out.condemned.empty() && (!allow_findings || model::never_written(out.condemned))) {
     return fail(
         {.code = "LATE-UNSAFE",
          .message = "the plan does not pass the check: " + model::text_of(made.plan, out.condemned.front()),
@@ -152,16 +173,14 @@ Result<LateOutcome> judged(pipeline::Checked made, const pipeline::Inputs& input
 
 /// The plan as it was brought, checked with the tools as they are; nothing where it is not bound to its end,
 /// or does not hold any more. What is not given says nothing.
-std::optional<LateOutcome> still_holds(const model::Plan& plan, const pipeline::Inputs& inputs,
-                                       const std::function<Status(const model::Plan&)>& acceptable,
-                                       const LatePolicy& policy, Duration& checking, Job& job) {
+std::optional<LateOutcome> still_holds(const Case& c, Duration& checking, Job& job) {
   const std::vector<Diagnostic> said = job.diagnostics();
-  auto as_brought = as_it_is(plan, inputs, job);
-  if (as_brought && acceptable(*as_brought)) {
-    LatePolicy strict = policy;
-    strict.allow_findings = false;
-    auto out = judged(pipeline::checked(*std::move(as_brought), job, inputs.proofs.get()), inputs, strict,
-                      checking, job);
+  auto as_brought = as_it_is(c.plan, c.inputs, c.window, job);
+  if (as_brought && c.acceptable(*as_brought)) {
+    const auto before = c.cut_before();
+    auto out = judged(
+        pipeline::checked(*std::move(as_brought), job, c.inputs.proofs.get(), before ? &*before : nullptr), c,
+        false, checking, job);
     if (out) {
       out->kept = true;
       return *std::move(out);
@@ -174,33 +193,30 @@ std::optional<LateOutcome> still_holds(const model::Plan& plan, const pipeline::
 
 /// The fallback: everything, on a small budget, and checked. Steps that the check condemns are planned again
 /// while half of the time is left. `checking` is what one check takes. A stop leaves it.
-Result<LateOutcome> fallback(const model::Plan& plan, const pipeline::Inputs& inputs,
-                             const std::function<Status(const model::Plan&)>& acceptable,
-                             const LatePolicy& policy, pipeline::Reopen reopen, TimePoint began,
-                             Duration& checking, Job& job) {
+Result<LateOutcome> fallback(const Case& c, pipeline::Reopen reopen, Duration& checking, Job& job) {
   std::optional<TimePoint> half;
-  if (policy.deadline) half = began + *policy.deadline / 2;
-  const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
-  auto made = pipeline::bind_checked(plan, inputs, policy_of(reopen), job, {half, acceptable});
+  if (c.policy.deadline) half = c.began + *c.policy.deadline / 2;
+  const std::uint32_t budget = std::exchange(job.evaluation_budget, c.policy.fallback_budget);
+  auto made = pipeline::bind_checked(c.plan, c.inputs, c.how(reopen), job, {half, c.acceptable});
   job.evaluation_budget = budget;
   if (!made) return tl::unexpected(made.error());
-  return judged(*std::move(made), inputs, policy, checking, job);
+  return judged(*std::move(made), c, c.policy.allow_findings, checking, job);
 }
 
 /// Plans again with the whole budget; takes the plan into `out` if it is whole, checked, in time and faster.
-void improve(LateOutcome& out, model::Plan plan, const pipeline::Inputs& inputs,
-             const std::function<Status(const model::Plan&)>& acceptable, const LatePolicy& policy,
-             pipeline::Reopen reopen, TimePoint began, Job& trial, Job& job) {
-  auto better = pipeline::bind(std::move(plan), inputs, policy_of(reopen), trial);
-  if (!better || !acceptable(*better)) return;
+void improve(LateOutcome& out, const Case& c, pipeline::Reopen reopen, Job& trial, Job& job) {
+  auto better = pipeline::bind(c.plan, c.inputs, c.how(reopen), trial);
+  if (!better || !c.acceptable(*better)) return;
   const double t = machining_s(*better);
   const bool faster = t < out.fallback_s || !out.condemned.empty();
   if (!faster) return;
-  pipeline::Checked checked = pipeline::checked(*std::move(better), trial, inputs.proofs.get());
+  const auto cut = c.cut_before();
+  const verify::CutBefore* before = cut ? &*cut : nullptr;
+  pipeline::Checked checked = pipeline::checked(*std::move(better), trial, c.inputs.proofs.get(), before);
   pipeline::CheckedProgram program;
-  auto findings = pipeline::findings_of(checked, trial, &program, inputs.proofs.get());
+  auto findings = pipeline::findings_of(checked, trial, &program, c.inputs.proofs.get(), before);
   if (!model::condemned(checked.plan, findings).empty()) return;
-  if (policy.deadline && job.now() > began + *policy.deadline) return;
+  if (c.policy.deadline && job.now() > c.began + *c.policy.deadline) return;
   for (auto& d : trial.take_diagnostics()) job.report(std::move(d));
   out.plan = std::move(checked.plan);
   out.of_plan = std::move(checked.findings);
@@ -212,59 +228,163 @@ void improve(LateOutcome& out, model::Plan plan, const pipeline::Inputs& inputs,
 }
 
 /// What is told of an answer, and recorded in it.
-void finish(LateOutcome& out, const model::Plan& brought, const pipeline::Inputs& inputs,
-            const std::vector<std::string>& reopened, const LatePolicy& policy, TimePoint began, Job& job) {
+void finish(LateOutcome& out, const model::Plan& brought, const Case& c,
+            const std::vector<std::string>& reopened, Job& job) {
   out.reopened = reopened;
-  out.changes = changes(brought, out.plan);
-  out.words = words_of(out.changes, out.reopened, brought, out.plan);
-  record(out.plan, brought, inputs, out.reopened, policy.time);
-  tell_late(out, policy, began, job);
+  const bool part = c.window.has_value();
+  out.changes = changes(brought, out.plan, part);
+  // Times of a part are not held against those of a whole.
+  out.words = words_of(out.changes, out.reopened, part ? model::Plan{} : brought, out.plan);
+  if (part) {
+    out.first = c.window->first + 1;
+    model::Plan whole = joined(c.plan, out.plan, *c.window);
+    out.part = std::exchange(out.plan, std::move(whole));
+  }
+  record(out.plan, brought, c.inputs, out.reopened, c.policy.time);
+  tell_late(out, c.policy, c.began, job);
 }
 
-}  // namespace
+/// The operations of a plan, chosen for the whole part with the tools that are loaded: those that are open,
+/// or all.
+Result<model::Plan> with_operations(const model::Plan& plan, const pipeline::Inputs& inputs,
+                                    const LatePolicy& policy, pipeline::Reopen reopen, Job& job) {
+  if (!policy.may.has(Choice::kOrder))
+    return fail(
+        {.code = "LATE-POLICY",
+         .message = "operations would have to be chosen, and this control may not decide order (it may: " +
+                    policy.may.text() + ")",
+         .file = plan.file_name,
+         .hint = "plan the operations first (capstan plan --bind strategy), or allow it (may)"});
+  pipeline::Policy how;
+  how.bind = pipeline::Bind::kStrategy;
+  how.only_loaded_cutters = true;
+  how.reopen = reopen;
+  const std::uint32_t budget = std::exchange(job.evaluation_budget, policy.fallback_budget);
+  auto out = stoppable(
+      job, [&] { return pipeline::bind(plan, inputs, how, job); },
+      [&]() -> Result<model::Plan> { return tl::unexpected(pipeline::stopped_planning(plan)); });
+  job.evaluation_budget = budget;
+  return out;
+}
 
-Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
-  const TimePoint began = policy.began.value_or(job.now());
+/// What ended a call: the deadline, where it is the deadline that stopped it.
+Diagnostic as_stopped(const Diagnostic& why, const LatePolicy& policy, TimePoint began, const Job& job) {
+  const bool at_deadline =
+      policy.stop_at_deadline && policy.deadline && job.now() >= began + *policy.deadline;
+  if (!at_deadline || why.code != kStoppedPlanning) return why;
+  return {.code = "LATE-NONE",
+          .message =
+              "no workingstep was bound and checked when the deadline of " + ms(*policy.deadline) + " came",
+          .file = why.file,
+          .hint = "retract and stop; give it more time, or bind fewer workingsteps at once"};
+}
+
+/// The improvement: only in the time left, with twice the time of one check in reserve.
+void improve_in_time(LateOutcome& out, const Case& c, pipeline::Reopen reopen, Duration checking, Job& job) {
+  std::optional<TimePoint> until;
+  if (c.policy.deadline) until = c.began + *c.policy.deadline - 2 * checking;
+  const bool more =
+      !job.stop_requested() && c.policy.budget > c.policy.fallback_budget && !(until && job.now() >= *until);
+  if (!more) return;
+  Job trial;
+  trial.threads = job.threads;
+  trial.evaluation_budget = c.policy.budget;
+  trial.set_clock(job.clock());
+  trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
+  if (until) trial.set_deadline(*until);
+  // Who stops the call stops the improvement; the fallback is what was checked by then.
+  const auto nothing_more = [] {};
+  stoppable(
+      job,
+      [&] {
+        stoppable(
+            trial, [&] { improve(out, c, reopen, trial, job); }, nothing_more);
+      },
+      nothing_more);
+}
+
+/// `bind`; `why`: what was decided of the plan before.
+Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
+                              TimePoint began, std::vector<std::string> why, Job& job) {
   const std::vector<model::Cutter> magazine = inputs.library;
   // The improvement repeats most of the fallback.
   if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
   if (!inputs.proofs) inputs.proofs = std::make_shared<memo::Memo>();
+  if (policy.stop_at_deadline && policy.deadline) job.set_deadline(began + *policy.deadline);
+  const std::size_t bound = policy.next && policy.next->from ? *policy.next->from - 1 : plan.steps.size();
+  const auto ways = take_branches(plan, policy.measured, magazine, policy.may, bound);
+  if (!ways) return tl::unexpected(ways.error());
+  why.insert(why.end(), ways->begin(), ways->end());
+  // Results of steps behind a way that was taken are of other places in the workplan.
+  if (!ways->empty() && plan.steps.size() > bound) plan.steps.resize(bound);
+  std::optional<pipeline::Window> window;
+  std::set<model::AnyRef> operations;
+  if (policy.next) {
+    std::vector<model::AnyRef> steps = given::steps_in_order(plan);
+    if (operations_open(plan, steps)) {
+      auto chosen = with_operations(plan, inputs, policy, pipeline::Reopen::kNothing, job);
+      if (!chosen) return tl::unexpected(as_stopped(chosen.error(), policy, began, job));
+      plan = *std::move(chosen);
+      steps = given::steps_in_order(plan);
+    }
+    auto meant = window_of(plan, *policy.next, steps);
+    if (!meant) return tl::unexpected(meant.error());
+    window = *meant;
+    operations = operations_of(plan, *window, steps);
+  }
   const model::Plan brought = plan;
-  auto reopened = given::match_loaded(plan, inputs.library, job);
+  auto reopened = given::match_loaded(plan, inputs.library, job, window ? &operations : nullptr);
   if (!reopened) return tl::unexpected(reopened.error());
-  const auto acceptable = [&](const model::Plan& made) -> Status {
-    if (auto ok = nothing_open(made); !ok) return ok;
-    if (auto ok = only_loaded(made, magazine); !ok) return ok;
-    if (auto ok = no_more_rest(brought, made); !ok) return ok;
-    return within_policy(brought, made, policy.may);
-  };
+  why.insert(why.end(), reopened->begin(), reopened->end());
+  const Case c{plan,
+               inputs,
+               policy,
+               window,
+               [&](const model::Plan& made) -> Status {
+                 if (auto ok = nothing_open(made); !ok) return ok;
+                 if (auto ok = only_loaded(made, magazine); !ok) return ok;
+                 if (auto ok = no_more_rest(brought, made); !ok) return ok;
+                 return within_policy(brought, made, policy.may, window.has_value());
+               },
+               began};
   Duration checking{};
   auto reopen = pipeline::Reopen::kNothing;
   const auto fallen_back = [&] {
-    return stoppable(
-        job, [&] { return fallback(plan, inputs, acceptable, policy, reopen, began, checking, job); },
+    auto made = stoppable(
+        job, [&] { return fallback(c, reopen, checking, job); },
         [&]() -> Result<LateOutcome> { return tl::unexpected(pipeline::stopped_planning(plan)); });
+    if (!made) made = tl::unexpected(as_stopped(made.error(), policy, began, job));
+    return made;
   };
   const SaidBefore before(job);
   const auto as_brought = [&]() -> std::optional<LateOutcome> {
     if (!reopened->empty()) return std::nullopt;
     return stoppable(
-        job, [&] { return still_holds(plan, inputs, acceptable, policy, checking, job); },
-        [] { return std::optional<LateOutcome>(); });
+        job, [&] { return still_holds(c, checking, job); }, [] { return std::optional<LateOutcome>(); });
   };
   if (auto holds = as_brought()) {
-    finish(*holds, brought, inputs, *reopened, policy, began, job);
+    finish(*holds, brought, c, why, job);
     return *std::move(holds);
   }
   auto out = fallen_back();
   const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
-  if (nothing_fits && !reopened->empty() && planning_chose_all(plan)) {
+  const bool nothing_cut = !window || window->first == 0;
+  if (nothing_fits && nothing_cut && !reopened->empty() && planning_chose_all(plan)) {
+    const std::string anew_for = "with the loaded tools alone the plan's operations cannot be made (" +
+                                 out.error().message + "); all of them were chosen anew";
     auto said = job.take_diagnostics();
     reopen = pipeline::Reopen::kOperations;
+    if (window) {
+      auto chosen = with_operations(plan, inputs, policy, reopen, job);
+      if (!chosen) return tl::unexpected(as_stopped(chosen.error(), policy, began, job));
+      // Nothing of it names a tool that is missing, so that this comes once.
+      why.push_back(anew_for);
+      inputs.library = magazine;
+      return bind_case(*std::move(chosen), inputs, policy, began, std::move(why), job);
+    }
     auto anew = fallen_back();
     if (anew) {
-      reopened->push_back("with the loaded tools alone the plan's operations cannot be made (" +
-                          out.error().message + "); all of them were chosen anew");
+      why.push_back(anew_for);
       out = std::move(anew);
     } else {
       (void)job.take_diagnostics();
@@ -274,33 +394,16 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
     }
   }
   if (!out) return out;
-
-  // The improvement: only in the time left, with twice the time of one check in reserve.
-  std::optional<TimePoint> until;
-  if (policy.deadline) until = began + *policy.deadline - 2 * checking;
-  const bool more =
-      !job.stop_requested() && policy.budget > policy.fallback_budget && !(until && job.now() >= *until);
-  if (more) {
-    Job trial;
-    trial.threads = job.threads;
-    trial.evaluation_budget = policy.budget;
-    trial.set_clock(job.clock());
-    trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
-    if (until) trial.set_deadline(*until);
-    // Who stops the call stops the improvement; the fallback is what was checked by then.
-    const auto nothing_more = [] {};
-    stoppable(
-        job,
-        [&] {
-          stoppable(
-              trial,
-              [&] { improve(*out, std::move(plan), inputs, acceptable, policy, reopen, began, trial, job); },
-              nothing_more);
-        },
-        nothing_more);
-  }
-  finish(*out, brought, inputs, *reopened, policy, began, job);
+  improve_in_time(*out, c, reopen, checking, job);
+  finish(*out, brought, c, why, job);
   return out;
+}
+
+}  // namespace
+
+Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
+  const TimePoint began = policy.began.value_or(job.now());
+  return bind_case(std::move(plan), std::move(inputs), policy, began, {}, job);
 }
 
 }  // namespace capstan::late

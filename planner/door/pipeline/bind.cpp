@@ -8,6 +8,7 @@
 #include "planner/door/pipeline/checked.h"
 #include "planner/door/pipeline/profit.h"
 #include "planner/door/pipeline/stages.h"
+#include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
@@ -17,6 +18,7 @@
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/reopen_all.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/range/positions.h"
@@ -126,6 +128,7 @@ std::map<AnyRef, MadeStep> made_steps(const step::PlanSoFar& p) {
 /// Leaves open what the policy does not want bound: feeds and paths always, tools too when only operations
 /// are wanted. A plan written like this is closed by a later bind.
 void leave_open(model::Plan& plan, const std::vector<StepDraft>& steps, Bind bind) {
+  std::vector<model::DecisionKey> open;
   for (const StepDraft& s : steps) {
     auto* op = plan.model.get<model::MachiningOperation>(s.operation);
     if (op == nullptr) continue;
@@ -135,15 +138,16 @@ void leave_open(model::Plan& plan, const std::vector<StepDraft>& steps, Bind bin
         t->feedrate.reset();
         t->spindle.reset();
       }
-      if (technology.set() && !s.keep_feed) plan.ledger.reopen({technology, "feedrate"});
-      if (technology.set() && !s.keep_speed) plan.ledger.reopen({technology, "spindle"});
+      if (technology.set() && !s.keep_feed) open.push_back({technology, "feedrate"});
+      if (technology.set() && !s.keep_speed) open.push_back({technology, "spindle"});
     }
     if (bind == Bind::kStrategy && s.proposed) {
       const auto wanted = tooling::nouns_from_requirement(plan.model, s.proposal.tool);
       plan.model.get<model::MachiningOperation>(s.operation)->its_tool = wanted;
-      plan.ledger.reopen({s.operation, "its_tool"});
+      open.push_back({s.operation, "its_tool"});
     }
   }
+  model::reopen_all(plan.ledger, open);
 }
 
 /// By feature and workingstep: what its file states wrongly.
@@ -181,15 +185,58 @@ void tell_needed(model::Plan& plan, const std::vector<model::NeededTool>& needed
               .hint = "the plan holds them as entries for a list of tools (--tools): capstan explain"});
 }
 
+/// How many of the drafts a window counts as cut: those that have a result.
+std::size_t cut_before(const Asked& asked, const Drafts& drafts) {
+  return asked.policy.window ? std::min(asked.policy.window->first, drafts.steps.size()) : 0;
+}
+
+/// Of the steps before the window nothing is open: they are cut.
+Status close_cut(const model::Plan& plan, Drafts& drafts, const Asked& asked) {
+  const Window window = *asked.policy.window;
+  std::vector<StepDraft>& steps = drafts.steps;
+  if (steps.size() != window.first + window.count)
+    return fail({.code = "PIP-NEXT",
+                 .message = "of the first " + counted(window.first + window.count, "step", "steps") +
+                            " only " + std::to_string(steps.size()) + " have an operation",
+                 .file = plan.file_name,
+                 .hint = "plan the operations before single steps are bound"});
+  for (std::size_t i = 0; i < window.first; ++i) {
+    const bool there = i < asked.recorded.steps.size();
+    if (!there || asked.recorded.steps[i].step != steps[i].step || asked.recorded.steps[i].path == nullptr)
+      return fail({.code = "PIP-NEXT",
+                   .message = "step " + std::to_string(i + 1) + " '" + draft::name_of(plan.model, steps[i]) +
+                              "' has no path, so that what it left is not known",
+                   .file = plan.file_name,
+                   .hint = "bring the plan that the steps before were bound in"});
+    steps[i].open_tool = steps[i].open_technology = false;
+  }
+  return {};
+}
+
+/// What is cut was cut with the cutter that the plan had then.
+void take_cut_cutters(Drafts& drafts, const Asked& asked) {
+  for (std::size_t i = 0; i < cut_before(asked, drafts); ++i) {
+    const std::string& id = asked.recorded.steps[i].cutter_id;
+    for (const model::Cutter& c : asked.recorded.cutters)
+      if (c.id == id) drafts.steps[i].cutter = c;
+  }
+}
+
 /// The stages of one try that choose steps, tools and order; whether all of them came to their end.
 Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& required, const Asked& asked,
                           Tries& tries, Job& job) {
   poll();
-  auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
-  tries.need(proposed.needed);
-  if (tries.learn(std::move(learned))) return false;
+  if (asked.policy.window) {
+    if (auto ok = close_cut(plan, drafts, asked); !ok) return tl::unexpected(ok.error());
+  } else {
+    auto [proposed, learned] = propose_missing(plan, std::move(drafts), required, asked, job);
+    tries.need(proposed.needed);
+    if (tries.learn(std::move(learned))) return false;
+    drafts = std::move(proposed);
+  }
   poll();
-  drafts = select_open_tools(plan, std::move(proposed), required, asked, job);
+  drafts = select_open_tools(plan, std::move(drafts), required, asked, job);
+  if (asked.policy.window) take_cut_cutters(drafts, asked);
   tries.need(drafts.needed);
   if (tries.learn(leave_what_rests(plan, drafts))) return false;
   poll();
@@ -224,7 +271,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   const Asked asked{inputs, policy, tries.bans, recorded, not_made, *margin};
   piece::report_outside(plan, job);
   poll();
-  auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job);
+  const std::size_t most = policy.window ? policy.window->first + policy.window->count : given::kAllSteps;
+  auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job, most);
   if (!listed) return tl::unexpected(listed.error());
   piece::keep_corner_rests(plan, corners, listed->steps);
   poll();
@@ -243,7 +291,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   const step::PlanSoFar so_far{plan, drafts.setups, drafts.steps, piece, required->demands, recorded, wishes};
   if (policy.bind == Bind::kAll) {
     given::carry_tools(plan.model, drafts.steps);
-    auto made = make_paths(plan, drafts.steps, so_far, drafts.used, tries, options_of(inputs), job);
+    auto made = make_paths(plan, drafts.steps, so_far, drafts.used, cut_before(asked, drafts), tries,
+                           options_of(inputs), job);
     if (!made) return tl::unexpected(made.error());
     if (tries.learn(*std::move(made))) return again;
     given::join_paths(plan, drafts.setups);

@@ -156,10 +156,10 @@ void tell_tries(const Tries& tries, Job& job) {
   for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
 }
 
-Checked checked(model::Plan plan, Job& job, memo::Memo* proofs) {
+Checked checked(model::Plan plan, Job& job, memo::Memo* proofs, const verify::CutBefore* before) {
   Checked out;
   const auto began = job.now();
-  out.findings = verify::check_plan(plan, job, proofs);
+  out.findings = verify::check_plan(plan, job, proofs, before);
   out.plan = std::move(plan);
   out.checking = job.now() - began;
   return out;
@@ -171,13 +171,16 @@ namespace {
 Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                           const Anew& anew) {
   auto until = anew.until;
+  std::optional<verify::CutBefore> before;
+  if (policy.window) before.emplace(verify::CutBefore{plan, policy.window->first});
+  const verify::CutBefore* const cut_before = before ? &*before : nullptr;
   Tries tries;
   auto first = bind_within(plan, inputs, policy, tries, job);
   if (!first) return tl::unexpected(first.error());
   if (anew.acceptable) {
     if (auto ok = anew.acceptable(*first); !ok) return tl::unexpected(ok.error());
   }
-  Checked best = policy.bind == Bind::kAll ? checked(*std::move(first), job, inputs.proofs.get())
+  Checked best = policy.bind == Bind::kAll ? checked(*std::move(first), job, inputs.proofs.get(), cut_before)
                                            : Checked{*std::move(first), {}, 0, {}};
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
@@ -199,7 +202,7 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     auto again = bind_within(plan, inputs, policy, tries, trial);
     if (!again) break;
     for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
-    Checked now_checked = checked(*std::move(again), trial, inputs.proofs.get());
+    Checked now_checked = checked(*std::move(again), trial, inputs.proofs.get(), cut_before);
     findings = now_checked.findings;
     if (trial.stop_requested()) break;  // not checked to its end: no better than what is there
     offences = offences_of(now_checked.plan, findings, tries);

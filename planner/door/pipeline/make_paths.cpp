@@ -56,11 +56,13 @@ std::string sizes(const optimise::CutAnswer& a) {
 class PathMaker {
  public:
   PathMaker(model::Plan& plan, std::vector<StepDraft>& steps, const step::PlanSoFar& p,
-            const std::vector<std::string>& used, Tries& tries, const optimise::Options& options, Job& job)
+            const std::vector<std::string>& used, std::size_t cut, Tries& tries,
+            const optimise::Options& options, Job& job)
       : plan_(plan),
         steps_(steps),
         p_(p),
         used_(used),
+        cut_(cut),
         bans_(tries.bans),
         job_(job),
         stocks_(plan.stock, p.setups, steps, left_out_, tries.smallest, tries.memo.get()),
@@ -73,6 +75,10 @@ class PathMaker {
     for (StepDraft& step : steps_) {
       job_.progress("paths", static_cast<double>(done++) / static_cast<double>(steps_.size()));
       poll();
+      if (done <= cut_) {
+        remove(step, p_.recorded.steps[done - 1]);
+        continue;
+      }
       if (given_up(step)) continue;
       if (auto ok = make(step); !ok) return tl::unexpected(ok.error());
     }
@@ -84,6 +90,13 @@ class PathMaker {
   }
 
  private:
+  /// What a step took away that is cut, as it was cut.
+  void remove(const StepDraft& step, const model::StepResult& cut) {
+    stocks_.keep(step.setup);
+    if (step.feature.set() || step.operation.set()) stocks_.cut(step.setup, *cut.path, step.cutter);
+    if (plan_.model.holds<model::MachiningOperation>(step.operation)) progress_.done(step);
+  }
+
   /// True if a feature that this step needs has failed: then the step is not made either. A proposed step
   /// waits for the next try at its feature; for a step of the file the reason is reported.
   bool given_up(const StepDraft& step) {
@@ -228,7 +241,8 @@ class PathMaker {
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
     if (!seconds || *seconds <= kShiftS) return std::nullopt;
     return "it cuts " + trimmed(*seconds / 3600.0, 1) + " h, longer than a shift of " +
-           trimmed(kShiftS / 3600.0, 0) + " h; take a machine that turns a wider tool in this material (--machine), or change the feature";
+           trimmed(kShiftS / 3600.0, 0) +
+           " h; take a machine that turns a wider tool in this material (--machine), or change the feature";
   }
 
   [[nodiscard]] static bool exceeds(const StepDraft& step, const step::MeasuredCut& t) {
@@ -474,6 +488,7 @@ class PathMaker {
   std::vector<StepDraft>& steps_;
   const step::PlanSoFar& p_;
   const std::vector<std::string>& used_;
+  const std::size_t cut_;  ///< of the steps, the first that are cut
   const draft::Bans& bans_;
   Job& job_;
   std::set<AnyRef> left_out_;  ///< steps that were proposed and cut nothing
@@ -492,9 +507,9 @@ class PathMaker {
 }  // namespace
 
 Result<Learned> make_paths(model::Plan& plan, std::vector<StepDraft>& steps, const step::PlanSoFar& p,
-                           const std::vector<std::string>& used, Tries& tries,
+                           const std::vector<std::string>& used, std::size_t cut, Tries& tries,
                            const optimise::Options& options, Job& job) {
-  return PathMaker(plan, steps, p, used, tries, options, job).run();
+  return PathMaker(plan, steps, p, used, cut, tries, options, job).run();
 }
 
 }  // namespace capstan::pipeline

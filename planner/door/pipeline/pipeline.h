@@ -24,6 +24,9 @@
 namespace capstan::casebase {
 class CaseBase;
 }
+namespace capstan::verify {
+struct CutBefore;
+}
 
 namespace capstan::pipeline {
 
@@ -74,11 +77,20 @@ struct Inputs {
 /// Plannings for most profit, the first for least cost among them; two or three usually do.
 inline constexpr int kMostPlannings = 5;
 
+/// Some steps of a plan, by their numbers from 0 in the order in which its workplan has them. Those before
+/// are cut, as the plan that is brought has them (its first results); those after are still to come.
+struct Window {
+  std::size_t first = 0, count = 1;
+};
+
 struct Policy {
   Reopen reopen = Reopen::kNothing;
   Bind bind = Bind::kAll;
   /// Late binding: only cutters that are in the magazine (Cutter::pocket > 0) may be used.
   bool only_loaded_cutters = false;
+  /// Late binding: only these steps, whose operations are chosen, are bound, against the stock that the steps
+  /// before them leave. The plan that comes of it has the results of these steps alone.
+  std::optional<Window> window = std::nullopt;
 };
 
 /// Closes what is open in a plan: proposes operations, picks cutters, orders the steps, and for each step in
@@ -116,8 +128,10 @@ struct Checked {
   std::chrono::steady_clock::duration checking{};  ///< what checking it took
 };
 
-/// A plan and what the check says of it. `proofs`: Inputs::proofs.
-[[nodiscard]] Checked checked(model::Plan plan, Job& job, memo::Memo* proofs = nullptr);
+/// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a
+/// window: what was cut before them.
+[[nodiscard]] Checked checked(model::Plan plan, Job& job, memo::Memo* proofs = nullptr,
+                              const verify::CutBefore* before = nullptr);
 
 /// Until when plans are made anew, and which plans may be given at all (nothing: any): what it says of the
 /// first one ends `bind_checked`, of a later one only that one is passed over.

@@ -14,7 +14,7 @@ std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job) {
 }
 
 std::vector<model::Finding> findings_of(const Checked& checked, Job& job, CheckedProgram* kept,
-                                        memo::Memo* proofs) {
+                                        memo::Memo* proofs, const verify::CutBefore* before) {
   const model::Plan& plan = checked.plan;
   std::vector<model::Finding> out = checked.findings;
   if (plan.steps.empty()) return out;
@@ -30,7 +30,7 @@ std::vector<model::Finding> findings_of(const Checked& checked, Job& job, Checke
     return out;
   }
   const verify::ProgramText text{"program", *program, controls::tool_table_of(plan)};
-  auto more = verify::check_program(text, &plan, plan.machine, plan.cutters, job, proofs);
+  auto more = verify::check_program(text, &plan, plan.machine, plan.cutters, job, proofs, before);
   out.insert(out.end(), more.begin(), more.end());
   if (kept != nullptr) *kept = {text.text, text.tool_table, std::move(more)};
   return out;

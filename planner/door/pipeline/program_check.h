@@ -15,9 +15,10 @@ struct CheckedProgram {
   std::vector<model::Finding> findings;
 };
 /// The same for a plan that is checked already. `kept`, where it is given, gets the program. `proofs`:
-/// Inputs::proofs.
+/// Inputs::proofs. `before`: as `checked`.
 [[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job,
                                                       CheckedProgram* kept = nullptr,
-                                                      memo::Memo* proofs = nullptr);
+                                                      memo::Memo* proofs = nullptr,
+                                                      const verify::CutBefore* before = nullptr);
 
 }  // namespace capstan::pipeline

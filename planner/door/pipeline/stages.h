@@ -66,10 +66,12 @@ void name_what_rests(model::Plan& plan, const std::vector<draft::SetupDraft>& se
 /// Fixtures and clamps of each set-up, where that is wanted.
 [[nodiscard]] Result<Drafts> hold_workpieces(model::Plan& plan, Drafts drafts, const Asked& asked, Job& job);
 /// Depths, paths, sections, feeds, step by step, with the retries of one step: the next cutter, a thinner
-/// cut. `steps` are those of `p`, and `plan` is its plan.
+/// cut. `steps` are those of `p`, and `plan` is its plan; of the first `cut` of them only what they removed
+/// counts.
 [[nodiscard]] Result<Learned> make_paths(model::Plan& plan, std::vector<draft::StepDraft>& steps,
                                          const step::PlanSoFar& p, const std::vector<std::string>& used,
-                                         Tries& tries, const optimise::Options& options, Job& job);
+                                         std::size_t cut, Tries& tries, const optimise::Options& options,
+                                         Job& job);
 
 /// The solver that the caller wants.
 [[nodiscard]] optimise::Options options_of(const Inputs& inputs);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/controls/profile/profile.h"
+#include "planner/door/late/branches.h"
 #include "planner/door/late/changes.h"
 #include "planner/door/service/formats.h"
 #include "planner/ground/base/nearest_names.h"
@@ -119,6 +120,13 @@ const std::vector<std::string>& assume_words() {
 std::string set_deadline(Request& r, Text text) {
   r.deadline = parse_duration(text);
   return r.deadline ? "" : "'" + text + "' is no time above 0, e.g. 200ms or 2s";
+}
+
+std::string set_measured(Request& r, Text text) {
+  const auto read = late::parse_measured(text);
+  if (!read) return read.error().message + "; expected " + read.error().expected;
+  r.measured = text;
+  return {};
 }
 
 std::string set_may(Request& r, Text text) {
@@ -245,13 +253,45 @@ std::vector<Option> table() {
        {nullptr, "e.g. 200ms or 2s; a plan that comes later ends with 5", nullptr},
        &set_deadline,
        {}},
+      {"next",
+       Value::kWhole,
+       {nullptr,
+        "bind so many workingsteps only: the first of which something is open, or those from --from on",
+        nullptr},
+       [](Request& r, Text t) { return r.next = std::stoul(t), std::string(); },
+       {},
+       1,
+       1000000},
+      {"from",
+       Value::kWhole,
+       {nullptr, "the first workingstep that is bound, as the workplan counts them; those before are cut",
+        nullptr},
+       [](Request& r, Text t) { return r.from = std::stoul(t), std::string(); },
+       {},
+       1,
+       1000000},
+      {"stop-at-deadline",
+       Value::kFlag,
+       {nullptr,
+        "give nothing, in time, where nothing is checked by the deadline; without it the plan comes late",
+        nullptr},
+       [](Request& r, Text t) { return r.stop_at_deadline = t == "yes", std::string(); },
+       {}},
+      {"measured",
+       Value::kText,
+       {nullptr,
+        "what was measured, by names of NC variables: wall=0.04,floor=-0.01; decides if and while statements",
+        nullptr},
+       &set_measured,
+       {}},
       {"may",
        Value::kText,
-       {"what a control may decide of the plan: tools, feeds, depths, strategy, order (with commas), all or "
-        "none",
-        "what may be decided: tools, feeds, depths, strategy, order (with commas), all or none; no more than "
-        "the "
-        "plan itself allows",
+       {"what a control may decide of the plan: tools, feeds, depths, strategy, order, alternatives, "
+        "conditions "
+        "(with commas), all or none",
+        "what may be decided: tools, feeds, depths, strategy, order, alternatives, conditions (with commas), "
+        "all or "
+        "none; no more than the plan itself allows",
         nullptr},
        &set_may,
        {}},

@@ -60,13 +60,15 @@ Diagnostic stopped_call(const std::string& file) {
   return {.code = "APP-STOPPED", .message = "stopped before its end; nothing is given", .file = file};
 }
 
-Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job) {
+Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job, const model::Plan* of_program) {
   const auto all = [&]() -> Status {
     // Each writes its own; what they say is told in the order of the outputs.
     std::vector<Job> jobs(outputs.size());
     std::vector<std::optional<Result<Written>>> made(outputs.size());
-    parallel_for(job, outputs.size(),
-                 [&](std::size_t i) { made[i] = write(plan, *outputs[i].format, jobs[i]); });
+    parallel_for(job, outputs.size(), [&](std::size_t i) {
+      const Format& format = *outputs[i].format;
+      made[i] = write(of_program != nullptr && format.of_program() ? *of_program : plan, format, jobs[i]);
+    });
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       Output& o = outputs[i];
       for (Diagnostic& d : jobs[i].take_diagnostics()) job.report(std::move(d));

@@ -29,8 +29,10 @@ struct Output {
 [[nodiscard]] Diagnostic stopped_call(const std::string& file);
 
 /// Fills `bytes` and `losses`, on the job's threads. Things that ISO 14649 or AP238 cannot hold are noted
-/// (EXC-LOSS). Fails  as the writers; APP-STOPPED.
-[[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job);
+/// (EXC-LOSS). `of_program`: the plan that programs and tool tables are written of, where that is another.
+/// Fails  as the writers; APP-STOPPED.
+[[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job,
+                          const model::Plan* of_program = nullptr);
 
 /// " (without 3 things)", or nothing when the file holds all of the plan.
 [[nodiscard]] std::string losses_text(const Output& output);

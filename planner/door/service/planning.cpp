@@ -27,7 +27,7 @@ Result<model::Plan> read(Source source, bool strict, Job& job) {
 /// Findings of each program among the outputs. One that was checked with its plan, and is the same to the
 /// byte, is not checked once more.
 std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<Output>& outputs, Job& job) {
-  const model::Plan& plan = planned.plan;
+  const model::Plan& plan = planned.part ? *planned.part : planned.plan;
   const pipeline::CheckedProgram& known = planned.program;
   std::vector<FileFinding> out;
   for (const Output& o : outputs) {
@@ -40,7 +40,9 @@ std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<O
       for (const model::Finding& f : known.findings) out.push_back({o.path, f, true});
       continue;
     }
-    for (auto& f : verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job))
+    const verify::CutBefore cut{planned.plan, planned.cut_before};
+    for (auto& f : verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job,
+                                         nullptr, planned.part ? &cut : nullptr))
       out.push_back({o.path, std::move(f), true});
   }
   return out;
@@ -143,6 +145,13 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
   policy.deadline = request.deadline;
   policy.began = began;
   policy.allow_findings = request.allow_findings;
+  policy.stop_at_deadline = request.stop_at_deadline;
+  if (request.measured) {
+    auto measured = late::parse_measured(*request.measured);
+    if (!measured) return failed(measured.error(), Code::kUsage);
+    policy.measured = *std::move(measured);
+  }
+  if (request.next || request.from) policy.next = late::Next{request.next.value_or(1), request.from};
   auto outcome = late::bind(std::move(plan), std::move(inputs), policy, job);
   if (!outcome) return failed(outcome.error(), code_of(outcome.error(), Code::kImpossible));
   for (const std::string& what : outcome->reopened) job.note("LATE-REOPENED", what, "");
@@ -150,6 +159,8 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
                  std::move(outcome->of_plan),
                  false,
                  std::move(outcome->program),
+                 std::move(outcome->part),
+                 outcome->first > 0 ? outcome->first - 1 : 0,
                  outcome->late,
                  std::move(outcome->words)};
 }
@@ -183,7 +194,7 @@ namespace {
 /// `judge`, left by a stop.
 Result<Verdict> judged(const Request& request, const Planned& planned, std::vector<Output>& outputs,
                        Job& job) {
-  const model::Plan& made = planned.plan;
+  const model::Plan& made = planned.part ? *planned.part : planned.plan;
   Verdict v;
   for (const auto& f : planned.findings) v.findings.push_back({made.file_name, f, false});
   auto of_text = of_programs(planned, outputs, job);

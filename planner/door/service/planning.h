@@ -28,7 +28,10 @@ struct Planned {
   std::vector<model::Finding> findings;   ///< of the plan; those of its program: `judge`
   bool open = false;                      ///< decisions are left open, so there is no path to check yet
   pipeline::CheckedProgram program = {};  ///< bind: the program as it was checked with the plan
-  bool late = false;                      ///< bind: the deadline was past when the plan was there
+  /// bind, of some workingsteps: these alone, of which the program is; `plan` is the whole that they are in.
+  std::optional<model::Plan> part = std::nullopt;
+  std::size_t cut_before = 0;  ///< steps of `plan` that are cut before these
+  bool late = false;           ///< bind: the deadline was past when the plan was there
   /// bind: what changed against the plan that was brought, for the operator's screen: sentences, one a line.
   std::string changes = {};
 };
@@ -49,6 +52,11 @@ struct Planned {
 /// job's diagnostics.
 [[nodiscard]] Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, model::Plan plan,
                                        std::chrono::steady_clock::time_point began, Job& job);
+
+/// What a format is written of: a program of the workingsteps that were bound, a plan of all.
+[[nodiscard]] inline const model::Plan& plan_for(const Planned& planned, const Format& format) {
+  return planned.part && format.of_program() ? *planned.part : planned.plan;
+}
 
 /// A finding, and the file it is about.
 struct FileFinding {

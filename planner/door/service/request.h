@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -33,6 +34,9 @@ struct Request {
   bool strict = false;                                ///< nothing is given when there is a finding
   bool allow_findings = false;                        ///< a program even when the check condemns it
   std::optional<std::string> may;                     ///< bind: what may be decided (late/changes.h)
+  std::optional<std::size_t> next, from;              ///< bind: how many workingsteps, and from which on
+  bool stop_at_deadline = false;                      ///< bind: what is not checked by then is given up
+  std::optional<std::string> measured;                ///< bind: of NC variables (late/branches.h)
   std::string time;                                   ///< bind: when it is, for the record
   std::optional<std::string> control;                 ///< check: a control's profile, by id or file
   bool schema = false;                                ///< check: what reading found is a finding, too

@@ -1,5 +1,7 @@
 #include "planner/door/service/session.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -10,8 +12,16 @@
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/making/given/listed_steps.h"
 
 namespace capstan::service {
+namespace {
+
+/// Options of a binding that nothing of a shop depends on.
+constexpr std::array<std::string_view, 8> kOfOneCall = {
+    "deadline", "from", "measured", "may", "next", "stop-at-deadline", "threads", "time"};
+
+}  // namespace
 
 Code Session::end(Code code, const std::string& line) {
   if (!line.empty()) message_ += line + "\n";
@@ -40,8 +50,10 @@ Code Session::set(std::string_view name, const std::string& text) {
   return guarded([&] {
     message_.clear();
     if (auto ok = service::set(request_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
-    shop_.reset();
-    failed_ = false;
+    if (std::find(kOfOneCall.begin(), kOfOneCall.end(), name) == kOfOneCall.end()) {
+      shop_.reset();
+      failed_ = false;
+    }
     return end(Code::kDone);
   });
 }
@@ -59,7 +71,7 @@ Code Session::opened(Job& job) {
   return Code::kDone;
 }
 
-Outcome<const Session::Read*> Session::read(std::string plan, Job& job) {
+Outcome<const model::Plan*> Session::read(std::string plan, Job& job) {
   if (!read_ || read_->text != plan) {
     read_.reset();
     auto made = read_plan(plan, "plan", job, request_.strict);
@@ -67,7 +79,7 @@ Outcome<const Session::Read*> Session::read(std::string plan, Job& job) {
     read_ = Read{std::move(plan), *std::move(made), job.take_diagnostics()};
   }
   for (const Diagnostic& d : read_->said) job.report(d);
-  return &*read_;
+  return &read_->plan;
 }
 
 Code Session::open() {
@@ -78,28 +90,53 @@ Code Session::open() {
   });
 }
 
-Code Session::bring(std::string plan) {
+Code Session::take(std::string plan) {
   return guarded([&] {
+    last_.reset();
     message_.clear();
     if (plan.empty()) return end(Code::kUsage, "error: there is no plan");
     Job job;
     const auto at_hand = read(std::move(plan), job);
     for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
-    return at_hand ? end(Code::kDone) : end(at_hand.error().code, to_text(at_hand.error().what));
+    if (!at_hand) return end(at_hand.error().code, to_text(at_hand.error().what));
+    last_ = **at_hand;
+    return end(Code::kDone);
   });
 }
 
 std::vector<std::string> Session::left_open() const {
+  if (last_) return open_texts(*last_);
   return read_ ? open_texts(read_->plan) : std::vector<std::string>{};
 }
 
 Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> deadline) {
+  return guarded([&] {
+    last_.reset();
+    Request request = request_;
+    if (deadline) request.deadline = deadline;
+    return bind_as(std::move(plan), std::move(request));
+  });
+}
+
+Code Session::bind_next(std::string plan, std::size_t from, std::size_t count,
+                        std::optional<std::chrono::milliseconds> deadline) {
+  return guarded([&] {
+    if (!plan.empty()) last_.reset();
+    Request request = request_;
+    if (deadline) request.deadline = deadline;
+    request.next = std::max<std::size_t>(1, count);
+    request.from = from == 0 ? std::nullopt : std::optional(from);
+    return bind_as(std::move(plan), std::move(request));
+  });
+}
+
+Code Session::bind_as(std::string plan, Request request) {
   const auto began = std::chrono::steady_clock::now();
   return guarded([&] {
     bound_.reset();
     outputs_.clear();
     message_.clear();
-    if (plan.empty() || failed_)
+    if ((plan.empty() && !last_) || failed_)
       return end(Code::kUsage, "error: there is no plan, or the session did not open");
     Job job;
     job.threads = request_.threads;
@@ -119,16 +156,18 @@ Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> de
       }
     } const running(*this, job);
     if (const Code code = opened(job); code != Code::kDone) return code;
-    Request request = request_;
-    if (deadline) request.deadline = deadline;
-    const auto at_hand = stoppable(
-        job, [&] { return read(std::move(plan), job); },
-        [&]() -> Outcome<const Read*> { return failed(stopped_call("plan"), Code::kImpossible); });
-    auto bound = at_hand ? bind_in(*shop_, request, (*at_hand)->plan, began, job)
+    const auto at_hand = [&]() -> Outcome<const model::Plan*> {
+      if (plan.empty()) return &*last_;
+      return stoppable(
+          job, [&] { return read(std::move(plan), job); },
+          [&]() -> Outcome<const model::Plan*> { return failed(stopped_call("plan"), Code::kImpossible); });
+    }();
+    auto bound = at_hand ? bind_in(*shop_, request, **at_hand, began, job)
                          : Outcome<Planned>(tl::unexpected(at_hand.error()));
     for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
     if (!bound) return end(bound.error().code, to_text(bound.error().what));
     bound_ = *std::move(bound);
+    if (bound_->part) last_ = bound_->plan;
     return end(bound_->late ? Code::kLate : Code::kDone);
   });
 }
@@ -145,7 +184,7 @@ const std::string* Session::output(std::string_view name) {
   const std::string* made = nullptr;
   guarded([&] {
     Job job;
-    auto written = write(bound_->plan, *format, job);
+    auto written = write(plan_for(*bound_, *format), *format, job);
     if (!written) return end(Code::kImpossible, to_text(written.error()));
     made = &outputs_.emplace(name, std::move(written->bytes)).first->second;
     return code_;
@@ -159,10 +198,12 @@ std::optional<Broadcasts> Session::broadcasts(const std::optional<DefaultContent
   return std::nullopt;
 }
 
+std::size_t Session::steps() const { return bound_ ? given::steps_in_order(bound_->plan).size() : 0; }
+
 double Session::machining_s() const {
   double t = 0.0;
   if (bound_) {
-    for (const auto& s : bound_->plan.steps) t += s.cutting_s + s.rapid_s;
+    for (const auto& s : (bound_->part ? *bound_->part : bound_->plan).steps) t += s.cutting_s + s.rapid_s;
   }
   return t;
 }

@@ -30,13 +30,19 @@ class Session {
   Code set(std::string_view name, const std::string& text);
   /// Opens the shop, so that the first `bind` need not.
   Code open();
-  /// Reads a plan, so that a `bind` of the same bytes need not.
-  Code bring(std::string plan);
-  /// What the plan that was read last leaves open, each in a few words ("its_tool of DRILLING 'x'").
+  /// Reads a plan, so that the first `bind_next`, without one, need not.
+  Code take(std::string plan);
+  /// What the plan at hand (read last, or bound as far as it is) leaves open, each in a few words ("its_tool
+  /// of DRILLING 'x'").
   [[nodiscard]] std::vector<std::string> left_open() const;
   /// Binds a plan before the deadline (unset: that of the options, or none). After it the code is kLate,
   /// never kDone.
   Code bind(std::string plan, std::optional<std::chrono::milliseconds> deadline);
+  /// The same of so many workingsteps only, against the stock that those before leave (late/next.h). `from`:
+  /// the first of them, counted from 1; 0: the first of which something is open. An empty plan: the one that
+  /// the last bind gave, so that a part is bound step by step without being read again.
+  Code bind_next(std::string plan, std::size_t from, std::size_t count,
+                 std::optional<std::chrono::milliseconds> deadline);
   /// Asks the running `bind` to end; it then returns its checked fallback, or kImpossible. A later one is not
   /// affected.
   void stop();
@@ -51,8 +57,10 @@ class Session {
   [[nodiscard]] const std::string* changes() const { return bound_ ? &bound_->changes : nullptr; }
   /// The broadcasts of the bound plan, else of the one that was read last; nothing without either.
   [[nodiscard]] std::optional<Broadcasts> broadcasts(const std::optional<DefaultContent>& otherwise) const;
-  /// Of the bound plan; 0 if there is none.
+  /// Of what was bound; 0 if nothing is.
   [[nodiscard]] double machining_s() const;
+  /// How many workingsteps the bound plan has, those that are still open among them; 0 without a plan.
+  [[nodiscard]] std::size_t steps() const;
 
   /// Code and diagnostics (lines of text) of the last call but `output`.
   [[nodiscard]] Code code() const { return code_; }
@@ -66,6 +74,7 @@ class Session {
   Code guarded(Body body);
   Code end(Code code, const std::string& line = {});
   Code opened(Job& job);
+  Code bind_as(std::string plan, Request request);
 
   /// A plan as it was read: the next bind of the same bytes need not read them again.
   struct Read {
@@ -73,7 +82,7 @@ class Session {
     model::Plan plan;
     std::vector<Diagnostic> said;
   };
-  [[nodiscard]] Outcome<const Read*> read(std::string plan, Job& job);
+  [[nodiscard]] Outcome<const model::Plan*> read(std::string plan, Job& job);
 
   Request request_;
   Job::Progress progress_;
@@ -83,6 +92,7 @@ class Session {
   std::optional<Read> read_;
   bool failed_ = false;  ///< the shop did not open, and no option was set since
   std::optional<Planned> bound_;
+  std::optional<model::Plan> last_;  ///< that `bind_next` goes on with
   std::map<std::string, std::string, std::less<>> outputs_;
   std::string message_;
   Code code_ = Code::kDone;

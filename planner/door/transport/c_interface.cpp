@@ -75,6 +75,18 @@ capstan_late_code capstan_late_bind(capstan_late* s, const char* plan, size_t si
                                  std::chrono::milliseconds(deadline_ms)));
 }
 
+capstan_late_code capstan_late_take(capstan_late* s, const char* plan, size_t size) {
+  if (s == nullptr) return CAPSTAN_LATE_USAGE;
+  return code_of(s->session.take(plan == nullptr ? std::string() : std::string(plan, size)));
+}
+
+capstan_late_code capstan_late_bind_next(capstan_late* s, const char* plan, size_t size, unsigned from,
+                                         unsigned count, unsigned deadline_ms) {
+  if (s == nullptr) return CAPSTAN_LATE_USAGE;
+  return code_of(s->session.bind_next(plan == nullptr ? std::string() : std::string(plan, size), from, count,
+                                      std::chrono::milliseconds(deadline_ms)));
+}
+
 void capstan_late_on_progress(capstan_late* s, capstan_late_progress progress, void* user) {
   if (s == nullptr) return;
   if (progress == nullptr) return s->session.set_progress({});
@@ -107,6 +119,9 @@ const char* capstan_late_message(const capstan_late* s) {
 const char* capstan_late_changes(const capstan_late* s) {
   const std::string* text = s == nullptr ? nullptr : s->session.changes();
   return text == nullptr ? nullptr : text->c_str();
+}
+unsigned capstan_late_steps(const capstan_late* s) {
+  return s == nullptr ? 0U : static_cast<unsigned>(s->session.steps());
 }
 double capstan_late_machining_seconds(const capstan_late* s) {
   return s == nullptr ? 0.0 : s->session.machining_s();

@@ -27,10 +27,17 @@ using model::TypeId;
 /// Walks program structure in order of execution, without recursion.
 class Walker {
  public:
-  Walker(model::Plan& plan, const std::map<AnyRef, std::string>& unreadable, Listed& out, Job& job)
+  Walker(const model::Plan& plan, const std::map<AnyRef, std::string>& unreadable, Listed& out, Job& job)
       : plan_(plan), unreadable_(unreadable), out_(out), job_(job) {}
 
-  void walk(AnyRef root) {
+  /// From the project's workplan on.
+  void walk() {
+    const auto* project = plan_.model.get<model::Project>(plan_.project);
+    AnyRef root = project != nullptr ? AnyRef(project->main_workplan) : AnyRef{};
+    if (!root.set()) {
+      const auto plans = plan_.model.all(TypeId::kWorkplan);
+      if (!plans.empty()) root = plans.front();
+    }
     push({root, {}});
     while (!pending_.empty()) {
       const Item at = pending_.back();
@@ -38,6 +45,8 @@ class Walker {
       visit(at);
     }
   }
+  /// What is not understood, by its feature.
+  [[nodiscard]] const std::vector<model::Unplanned>& not_done() const { return not_done_; }
 
  private:
   struct Item {
@@ -120,7 +129,7 @@ class Walker {
                                            : "has " + keyword + ", which is not understood") +
                             "; it is kept in the plan and not executed";
     say("PIP-UNHANDLED", executable, why);
-    plan_.unplanned.push_back({feature, why});
+    not_done_.push_back({feature, why});
   }
 
   static bool is_turning(const model::KeptInstance* k) {
@@ -158,8 +167,9 @@ class Walker {
                  .instance = plan_.model.origin(what).instance});
   }
 
-  model::Plan& plan_;
+  const model::Plan& plan_;
   const std::map<AnyRef, std::string>& unreadable_;
+  std::vector<model::Unplanned> not_done_;
   Listed& out_;
   Job& job_;
   std::vector<Item> pending_;
@@ -435,15 +445,12 @@ void say_assumptions(const model::Plan& plan, const std::vector<StepDraft>& step
 }  // namespace
 
 Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRef, std::string>& unreadable,
-                          double grown_mm, Job& job) {
+                          double grown_mm, Job& job, std::size_t most) {
   Listed out;
-  const auto* project = plan.model.get<model::Project>(plan.project);
-  AnyRef root = project != nullptr ? AnyRef(project->main_workplan) : AnyRef{};
-  if (!root.set()) {
-    const auto plans = plan.model.all(TypeId::kWorkplan);
-    if (!plans.empty()) root = plans.front();
-  }
-  Walker(plan, unreadable, out, job).walk(root);
+  Walker walker(plan, unreadable, out, job);
+  walker.walk();
+  if (out.steps.size() > most) out.steps.resize(most);
+  plan.unplanned.insert(plan.unplanned.end(), walker.not_done().begin(), walker.not_done().end());
   if (out.setups.empty()) {
     SetupDraft s;
     const auto setups = plan.model.all(TypeId::kSetup);
@@ -489,6 +496,15 @@ Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRe
   }
   out.steps = std::move(kept);
   say_assumptions(plan, out.steps, job);
+  return out;
+}
+
+std::vector<AnyRef> steps_in_order(const model::Plan& plan) {
+  Listed listed;
+  Job silent;
+  Walker(plan, {}, listed, silent).walk();
+  std::vector<AnyRef> out;
+  for (const StepDraft& s : listed.steps) out.push_back(s.step);
   return out;
 }
 

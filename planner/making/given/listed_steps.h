@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -21,14 +22,20 @@ struct Listed {
   std::vector<draft::StepDraft> steps;  ///< in the order of the workplan
 };
 
+inline constexpr std::size_t kAllSteps = static_cast<std::size_t>(-1);
+
 /// Gives the set-ups and workingsteps of the plan's file. Writes into `plan`: a set-up where the file has
 /// none, re-opened values, and changes for safety (PIP-CHANGED). Steps without an operation are left to the
 /// rules; steps that are not understood become unplanned (PIP-UNHANDLED). `unreadable`: by feature and
-/// workingstep, what the file states wrongly. `grown_mm` as piece::Piece.
-/// Fails  as model::placement for a set-up without a valid placement.
+/// workingstep, what the file states wrongly. `grown_mm` as piece::Piece. `most`: the first so many steps
+/// only. Fails  as model::placement for a set-up without a valid placement.
 [[nodiscard]] Result<Listed> list_steps(model::Plan& plan, Reopen reopen,
                                         const std::map<model::AnyRef, std::string>& unreadable,
-                                        double grown_mm, Job& job);
+                                        double grown_mm, Job& job, std::size_t most = kAllSteps);
+
+/// What a plan's workplan executes, in order, as `list_steps` lists it; nothing is said of what is not
+/// understood.
+[[nodiscard]] std::vector<model::AnyRef> steps_in_order(const model::Plan& plan);
 
 /// The security planes lie above the raw piece, every feature that is cut and what holds the piece; a given
 /// one that does not is raised (PIP-SECPLANE), in `setups` and in the nouns.

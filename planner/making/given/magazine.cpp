@@ -152,13 +152,16 @@ void take_length(const Cutter& loaded, Cutter& into) {
   model::take_measured_length(into, loaded.functional_length_mm, "derived: as long as the loaded tool");
 }
 
-Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job) {
+Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job,
+                                              const std::set<AnyRef>* of) {
   const auto assumed = model::assumed_tool_materials(plan);
   std::vector<std::string> reopened;
   std::vector<Cutter> merged;
   std::set<std::string> seen;
   const std::vector<AnyRef> roots = {plan.project};
-  for (const AnyRef r : model::reachable(plan.model, roots)) {
+  const std::vector<AnyRef> all =
+      of != nullptr ? std::vector<AnyRef>(of->begin(), of->end()) : model::reachable(plan.model, roots);
+  for (const AnyRef r : all) {
     const auto* op = plan.model.get<model::MachiningOperation>(r);
     if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool)) continue;
     if (tooling::is_requirement(plan.model, op->its_tool)) continue;

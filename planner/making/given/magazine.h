@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,12 @@ namespace capstan::given {
 /// A tool that is there (same class and diameter, or the same id) keeps its decisions and takes pocket and
 /// length from the table; one that is not is re-opened, and with it, by the ledger, what depends on it.
 /// `library` then has the plan's tools as they are loaded, and the loaded ones that it does not name.
-/// Gives what was re-opened, one sentence each, in the order of the plan.
+/// Gives what was re-opened, one sentence each, in the order of the plan. `of`: of these operations only.
 /// Fails  LATE-TOOL for a tool of the plan that is loaded but has no length in the table
 ///        (model::offset_fault). Such a tool that the plan does not name is not used.
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan,
-                                                            std::vector<model::Cutter>& library, Job& job);
+                                                            std::vector<model::Cutter>& library, Job& job,
+                                                            const std::set<model::AnyRef>* of = nullptr);
 
 /// The loaded cutter (Cutter::loaded, a pocket) that equals this one by class and every size that both state,
 /// whatever its name. Of several: a measured one first, then the same name, the same number, the lowest

@@ -19,6 +19,14 @@ struct ProgramText {
   std::string tool_table;  ///< LinuxCNC's .tbl; may be empty: then nothing is said about it
 };
 
+/// What was cut before a plan's steps, where these are a part of all: the first `steps` results of `plan`,
+/// whose nouns the plan has, too. Nothing is said of them. Steps of the workplan that are in neither are
+/// still to come: what they work on is not asked to be done.
+struct CutBefore {
+  const model::Plan& plan;
+  std::size_t steps = 0;
+};
+
 /// What is wrong with a plan. Reads what the plan holds, computes everything else itself: stock, removal,
 /// force bound, order. Findings come by step in the order of execution, then property, then move; equal
 /// ones of a step are folded into the worst with their number.
@@ -30,15 +38,18 @@ struct ProgramText {
 ///            keeps what was found of steps: where the stock before a step, its cutter with shank and holder,
 ///            its sizes and moves are as in an earlier check, it is not swept again. The findings are the
 ///            same.
+/// Not judged  with `before`: the life of a tool over what it cut before.
 [[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job,
-                                                     memo::Memo* known = nullptr);
+                                                     memo::Memo* known = nullptr,
+                                                     const CutBefore* before = nullptr);
 
 /// What is wrong with a program, alone or against the plan that it was written from. Steps are told by the
 /// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1.
 [[nodiscard]] std::vector<model::Finding> check_program(const ProgramText& program, const model::Plan* plan,
                                                         const model::Machine& machine,
                                                         const std::vector<model::Cutter>& cutters, Job& job,
-                                                        memo::Memo* known = nullptr);
+                                                        memo::Memo* known = nullptr,
+                                                        const CutBefore* before = nullptr);
 
 /// What each property asks, one sentence; empty for a number that is not checked.
 [[nodiscard]] std::string_view property_text(int number);

@@ -77,6 +77,14 @@ TEST_F(LateBindingAtTheControl, CutsThePartWithTheToolsOfThePlan) {
   expect_pocket(block("all_there", {{1, kMill8}}));
 }
 
+TEST_F(LateBindingAtTheControl, GivesWhatWasCutToTheCaseBaseByWorkingstep) {
+  const std::string& cases = scenarios().cases;
+  EXPECT_FALSE(scenarios().cases_failed) << cases;
+  EXPECT_NE(cases.find("2 cases, 2 of them new"), std::string::npos) << cases;
+  for (const char* step : {"POCKET area_rough", "POCKET area_finish"})
+    EXPECT_NE(cases.find(step), std::string::npos) << step << "\n" << cases;
+}
+
 TEST_F(LateBindingAtTheControl, ChoosesAnotherToolForOneThatIsMissing) {
   expect_whole_program("missing");
   EXPECT_EQ(of("missing").tool, 3);

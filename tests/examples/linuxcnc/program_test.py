@@ -27,14 +27,6 @@ G1 Z-5 F500
 G3 X10 Y20 I4 J3
 G0 Z20
 
-(CAPSTAN STEP id="finish" n=2 tool=1 setup=1)
-G54
-G43 H1
-G0 Z20
-S6000 M3
-G1 X30 F500
-G0 Z20
-
 (end)
 G53 G0 Z101.6
 M5
@@ -52,70 +44,68 @@ def answer(code=0, message='', text=TEXT):
 class Answers(unittest.TestCase):
     def test_a_failure_is_refused_with_its_first_error(self):
         with self.assertRaisesRegex(program.Refused, '^no tool fits'):
-            program.of_answer(answer(4, 'p: warning: old\np: error: no tool fits [PIP-NO-TOOL]\np: error: more', None))
+            program.of_answer(answer(4, 'p: warning: old\np: error: no tool fits [PIP-NO-TOOL]\np: error: more', None), 1)
 
     def test_a_plan_that_came_late_is_refused_though_it_is_there(self):
         with self.assertRaisesRegex(program.Refused, 'code 5'):
-            program.of_answer(answer(5))
+            program.of_answer(answer(5), 1)
 
     def test_a_warning_of_the_check_is_refused_and_another_is_not(self):
         with self.assertRaisesRegex(program.Refused, 'an edge lasts 5 s'):
-            program.of_answer(answer(message='p: warning: an edge lasts 5 s [CHK-SPEED-MATERIAL]'))
-        self.assertEqual(len(program.of_answer(answer(message='p: warning: unit taken [TBL-UNIT]')).steps), 2)
+            program.of_answer(answer(message='p: warning: an edge lasts 5 s [CHK-SPEED-MATERIAL]'), 1)
+        self.assertEqual(program.of_answer(answer(message='p: warning: unit taken [TBL-UNIT]'), 2).n, 2)
 
     def test_a_second_set_up_is_refused(self):
         second = TEXT.replace('(CAPSTAN TOOL', '(CAPSTAN SETUP n=2 offset=G55 security=20)\n(CAPSTAN TOOL')
         with self.assertRaisesRegex(program.Refused, 'more than one set-up'):
-            program.of_answer(answer(text=second))
+            program.of_answer(answer(text=second), 1)
+
+
+    def test_a_program_of_more_than_one_workingstep_is_refused(self):
+        second = TEXT.replace('(end)', '(CAPSTAN STEP id="finish" n=2 tool=1 setup=1)\nG54\n\n(end)')
+        with self.assertRaisesRegex(program.Refused, 'not that of one workingstep'):
+            program.of_answer(answer(text=second), 1)
 
 
 class Subroutines(unittest.TestCase):
     def setUp(self):
-        self.plan = program.Program(TEXT)
-        self.texts = [self.plan.subroutine(step, 'now') for step in self.plan.steps]
+        self.step = program.Program(TEXT, 2)
 
-    def test_each_begins_and_ends_retracted_with_the_spindle_off(self):
-        for n, text in enumerate(self.texts, 1):
-            lines = text.splitlines()
-            self.assertEqual(lines[1:6], [f'o{1000 + n} sub', 'G21 G17 G90 G94 G40 G49 G80', 'G53 G0 Z101.6', 'M5', 'M9'])
-            self.assertEqual(lines[-6:-2], ['G53 G0 Z101.6', 'M5', 'M9', f'o{1000 + n} endsub'])
-            self.assertNotIn('M2', lines)
+    def test_begins_and_ends_retracted_with_the_spindle_off_and_does_not_end_the_program(self):
+        lines = self.step.subroutine('now').splitlines()
+        self.assertEqual(lines[1:6], ['o1002 sub', 'G21 G17 G90 G94 G40 G49 G80', 'G53 G0 Z101.6', 'M5', 'M9'])
+        self.assertEqual(lines[-6:-2], ['G53 G0 Z101.6', 'M5', 'M9', 'o1002 endsub'])
+        self.assertNotIn('M2', lines)
 
     def test_has_every_line_of_its_step_in_order(self):
-        for step, text in zip(self.plan.steps, self.texts):
-            self.assertIn('\n'.join(step.lines), text)
-        self.assertNotIn('finish', self.texts[0])
-
-    def test_a_step_that_counts_on_the_one_before_gets_tool_and_speed_and_waits_for_it(self):
-        self.assertIn('T1 M6\nS6000 M3\nG4 P1.5\n(CAPSTAN STEP id="finish"', self.texts[1])
-        self.assertEqual(self.texts[0].count(' M6'), 1)
+        self.assertIn('\n'.join(self.step.lines), self.step.subroutine('now'))
+        self.assertIn('T1 M6', self.step.lines)
 
     def test_only_the_whole_unaltered_text_that_is_expected_passes(self):
-        text = self.texts[0]
+        text = self.step.subroutine('now')
         mark = program.END.search(text)[1]
         program.check_text(text, mark)
         for wrong, why in ((text[:-40], 'cut short'), (text.replace('Z-5', 'Z-6'), 'altered'), (text + '\n', 'cut short'),
-                           (self.plan.subroutine(self.plan.steps[0], 'before'), 'stale')):
+                           (self.step.subroutine('before'), 'stale')):
             with self.assertRaisesRegex(program.Refused, why):
                 program.check_text(wrong, mark)
 
 
 class Machines(unittest.TestCase):
     def setUp(self):
-        self.plan = program.Program(TEXT)
-        self.rough = self.plan.steps[0]
+        self.rough = program.Program(TEXT, 1)
 
     def test_a_tool_must_be_in_the_table_as_long_and_wide_as_the_program_has_it(self):
-        program.check_tools(self.plan, self.rough, TABLE)
+        program.check_tools(self.rough, TABLE)
         for table, why in (({2: TABLE[1]}, 'not in the tool table'), ({1: {'z': 79.9, 'd': 8.0}}, 'length 79.9'),
                            ({1: {'z': 80.0, 'd': 7.9}}, 'diameter 7.9')):
             with self.assertRaisesRegex(program.Refused, why):
-                program.check_tools(self.plan, self.rough, table)
+                program.check_tools(self.rough, table)
 
     def test_a_length_offset_of_another_tool_is_refused(self):
-        other = program.Program(TEXT.replace('T1 M6\nG43 H1', 'T1 M6\nG43 H2'))
+        other = program.Program(TEXT.replace('T1 M6\nG43 H1', 'T1 M6\nG43 H2'), 1)
         with self.assertRaisesRegex(program.Refused, 'names 2'):
-            program.check_tools(other, other.steps[0], {**TABLE, 2: TABLE[1]})
+            program.check_tools(other, {**TABLE, 2: TABLE[1]})
 
     def test_arcs_count_as_their_circles(self):
         # From (10, 20) round (14, 23): radius 5.

@@ -64,6 +64,16 @@ Scenarios run_all() {
     return out;
   }
   out.outcomes = read_outcomes(testing::slurp(folder.file("outcomes.txt")));
+  // What was cut becomes cases, as the example's README says it.
+  const std::string log = "'" + folder.file("log.csv") + "'", base = "'" + folder.file("shop.db") + "'",
+                    plan = "'" + folder.file("all_there.json") + "'";
+  out.cases_failed =
+      exit_of("{ /usr/bin/python3 -B '" + root + "/examples/linuxcnc/cases.py' '" +
+                  folder.file("all_there.txt") + "' '" + folder.file("all_there.jsonl") + "' > " + log +
+                  " && '" CAPSTAN_COMMAND "' cases import " + base + " csv " + log + " --plan " + plan +
+                  " && '" CAPSTAN_COMMAND "' cases trace " + base + " " + plan + "; }",
+              said) != 0;
+  out.cases = testing::slurp(said);
   out.failed = read_samples(testing::slurp(folder.file("samples.txt")), out.record);
   return out;
 }

@@ -24,6 +24,9 @@ struct Scenarios {
   std::string failed;  ///< why they did not all run; empty: they did
   std::map<std::string, Outcome> outcomes;
   Record record;  ///< where the machine did anything
+  /// What the command says of the cases of the first scenario: imported, and told (`cases trace`).
+  std::string cases;
+  bool cases_failed = false;
 };
 
 /// Run when it is asked for first, a minute and a half.

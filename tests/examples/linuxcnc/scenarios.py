@@ -83,6 +83,12 @@ o2 endwhile
 '''
 
 
+def forget():
+    """What an adapter before knew of a part."""
+    for file in ('journal.jsonl', 'so_far.json'):
+        pathlib.Path(file).unlink(missing_ok=True)
+
+
 def journal():
     file = pathlib.Path('journal.jsonl')
     return file.read_text() if file.exists() else ''
@@ -163,7 +169,7 @@ class Shop:
         subprocess.run(['halcmd', 'sets', 'mark', str(self.mark)], check=True, stdin=subprocess.DEVNULL)
 
     def scenario(self, name, table=MILL_8 + MILL_10, program=None, ask=None, during=None, until=None, adapter=(), **more):
-        pathlib.Path('journal.jsonl').unlink(missing_ok=True)
+        forget()
         self.ready(table)
         self.new_mark()
         process = self.adapter(*adapter, **more)
@@ -192,7 +198,7 @@ def kill_who_asks():
 
 def restart(shop):
     """The power goes while the second workingstep is cut; another adapter goes on from the journal."""
-    pathlib.Path('journal.jsonl').unlink(missing_ok=True)
+    forget()
     shop.ready(MILL_8 + MILL_10)
     shop.new_mark()
     process = shop.adapter()
@@ -227,6 +233,8 @@ def work(operator, options):
         shop = Shop(operator, options, out)
         shop.scenario('all_there')
         shutil.copyfile('1001.ngc', 'earlier.ngc')
+        shutil.copyfile('journal.jsonl', 'all_there.jsonl')
+        shutil.copyfile('so_far.json', 'all_there.json')
         shop.scenario('missing', table=MILL_10)
         shop.scenario('worn', table=WORN)
         shop.scenario('measured', program=plan.replace(FIRST, 'M104 P1 Q7.9\n' + FIRST))
@@ -249,6 +257,12 @@ def work(operator, options):
         shop.scenario('adapter_killed', during=lambda process: process.kill())
         shop.scenario('asker_killed', during=lambda process: process.send_signal(signal.SIGSTOP), until=kill_who_asks)
         restart(shop)
+
+
+def of_mark(samples, mark, out):
+    """The samples of one scenario, as they are."""
+    with open(samples) as rows, open(out, 'w') as file:
+        file.writelines(row for row in rows if row.split()[-1] == str(mark))
 
 
 def changes(samples, out):
@@ -278,7 +292,9 @@ def main():
              'libcapstan_late.so': options.library, **{name: HERE / name for name in ('M110', 'M111', 'faulty_planner.py')}}
 
     def collect(folder):
-        shutil.copyfile(folder / 'outcomes.txt', pathlib.Path(options.out) / 'outcomes.txt')
+        for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json'):
+            shutil.copyfile(folder / name, pathlib.Path(options.out) / name)
+        of_mark(folder / 'samples.txt', 1, pathlib.Path(options.out) / 'all_there.txt')
         changes(folder / 'samples.txt', pathlib.Path(options.out) / 'samples.txt')
 
     return simulated.session(lambda operator: work(operator, options), files, clock_rate=options.rate, collect=collect,

@@ -90,7 +90,8 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
                   .file = plan.file_name},
                  kImpossible);
   }
-  if (auto ok = service::make(plan, outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = service::make(plan, outputs, s.job, planned.part ? &*planned.part : nullptr); !ok)
+    return s.end(ok.error(), kImpossible);
   // Open decisions have no path yet, so there is nothing to check.
   service::Verdict verdict;
   if (!planned.open) {
@@ -107,7 +108,7 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
       if (s.is_new(f)) s.job.report(as_diagnostic(f.finding, f.file, f.program));
     }
   }
-  service::take_plan(plan, end);
+  service::take_plan(planned.part ? *planned.part : plan, end);
   service::take_verdict(plan, verdict, end);
   const bool condemned = !verdict.condemned.empty();
   const bool clean =

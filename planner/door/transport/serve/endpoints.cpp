@@ -5,72 +5,19 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
 #include "planner/door/service/formats.h"
+#include "planner/door/transport/serve/replies.h"
 #include "planner/door/transport/serve/wire/json_request.h"
 
 namespace capstan::transport {
 
-using Json = nlohmann::ordered_json;
 using service::Code;
 
 namespace {
 
 constexpr std::string_view kText = "text/plain; charset=utf-8";
-
-struct Said {
-  Code code;
-  std::string_view status;  ///< as capstan_late.h has it, without CAPSTAN_LATE_
-  unsigned http;
-};
-constexpr std::array kSaid{
-    Said{Code::kDone, "OK", 200},
-    Said{Code::kUsage, "USAGE", 400},
-    Said{Code::kUnreadable, "UNREADABLE", 422},
-    Said{Code::kImpossible, "IMPOSSIBLE", 409},
-    Said{Code::kLate, "LATE", 504},
-    Said{Code::kFault, "FAULT", 500},
-};
-const Said& said(Code code) {
-  const auto* at = std::find_if(kSaid.begin(), kSaid.end(), [&](const Said& s) { return s.code == code; });
-  return at == kSaid.end() ? kSaid.back() : *at;
-}
-
-HttpReply json_reply(unsigned status, const Json& json) {
-  // Bytes of a caller that are no UTF-8 come back as U+FFFD.
-  return {.status = status, .body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
-}
-
-Json of_call(Code code, const std::string& message) {
-  return {{"code", static_cast<int>(code)}, {"status", said(code).status}, {"message", message}};
-}
-
-HttpReply of_code(Code code, const std::string& message) {
-  return json_reply(said(code).http, of_call(code, message));
-}
-
-HttpReply refused(unsigned status, const Diagnostic& d) {
-  return json_reply(status, of_call(Code::kUsage, to_text(d) + "\n"));
-}
-HttpReply refused(unsigned status, std::string code, std::string message, std::string hint = {}) {
-  return refused(status, {.code = std::move(code), .message = std::move(message), .hint = std::move(hint)});
-}
-
-HttpReply no_session() { return refused(404, "SERVE-SESSION", "this user has no session of that name"); }
-
-/// "a, b": the words between commas.
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> out;
-  std::istringstream in(text);
-  for (std::string word; std::getline(in, word, ',');) {
-    const auto begin = word.find_first_not_of(' ');
-    if (begin != std::string::npos) out.push_back(word.substr(begin, word.find_last_not_of(' ') - begin + 1));
-  }
-  return out;
-}
 
 /// Options of a session whose value may be a file.
 constexpr std::array<std::string_view, 7> kFileOptions = {"machine", "tools", "material", "workholding",
@@ -166,7 +113,7 @@ HttpReply Endpoints::answer(const Found& found, const HttpRequest& request, cons
     reply = ended_ ? refused(503, "SERVE-ENDS", "the server is stopping")
                    : (this->*found.endpoint->answer)(request, found.words, caller);
   } catch (const std::exception& e) {
-    reply = of_code(Code::kFault, std::string("error: a fault of the server itself: ") + e.what() + "\n");
+    reply = of_call(Code::kFault, std::string("error: a fault of the server itself: ") + e.what() + "\n");
   }
   metrics_.answered(found.endpoint->name, reply.status,
                     std::chrono::duration<double>(Clock::now() - caller.arrived).count());
@@ -194,7 +141,7 @@ HttpReply Endpoints::in_session(const Words& words, const Caller& caller,
 }
 
 HttpReply Endpoints::health(const HttpRequest&, const Words&, const Caller&) {
-  return json_reply(200, {{"status", "ok"}, {"sessions", sessions_.count()}});
+  return object_reply(200, {{"status", "\"ok\""}, {"sessions", std::to_string(sessions_.count())}});
 }
 
 HttpReply Endpoints::metrics(const HttpRequest&, const Words&, const Caller&) {
@@ -228,7 +175,7 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
     out << at->second;
     out.close();
-    if (!out) return of_code(Code::kFault, "error: the tool table cannot be kept\n");
+    if (!out) return of_call(Code::kFault, "error: the tool table cannot be kept\n");
     options.emplace_back("tools", file);
   }
   Code code = Code::kDone;
@@ -238,135 +185,7 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
   }
   if (code == Code::kDone) code = s.session.open();
   keep_ending(s);
-  Json reply = of_call(code, s.session.message());
-  reply["session"] = s.id;
-  return json_reply(code == Code::kDone ? done : said(code).http, reply);
-}
-
-Status Endpoints::take_broadcast(ServedSession& s, const std::map<std::string, std::string>& members,
-                                 const Caller& caller) {
-  service::DefaultContent otherwise{.start = false, .end = false, .measured = {}};
-  std::string file;
-  bool any = false;
-  for (const auto& [name, value] : members) {
-    const bool yes = value == "yes";
-    const auto is_flag = [&] { return yes || value == "no"; };
-    if (name == "at") {
-      for (const std::string& word : words_of(value)) {
-        if (word != "start" && word != "end")
-          return fail({.code = "SERVE-JSON", .message = "`at` has '" + word + "'", .expected = "start, end"});
-        (word == "start" ? otherwise.start : otherwise.end) = true;
-        any = true;
-      }
-    } else if (name == "measured") {
-      otherwise.measured = words_of(value);
-    } else if (name == "only_if_changed" && is_flag()) {
-      otherwise.only_if_changed = yes;
-    } else if (name == "wait_for_reply" && is_flag()) {
-      otherwise.wait_for_reply = yes;
-    } else if (name == "file") {
-      if (caller.user != own_user_)
-        return fail({.code = "SERVE-FILE", .message = "only the server's own user may name files"});
-      file = value;
-    } else {
-      return fail({.code = "SERVE-JSON",
-                   .message = "`broadcast` has '" + name + "': '" + value + "'",
-                   .expected =
-                       "at: start,end; measured: names; only_if_changed, wait_for_reply: yes or no; file: "
-                       "a path"});
-    }
-  }
-  s.broadcasts.set(any ? std::optional(otherwise) : std::nullopt, file);
-  return {};
-}
-
-HttpReply Endpoints::tell(const HttpRequest& request, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
-  if (!s) return no_session();
-  const auto read = read_json_request(request.body,
-                                      {{Member::Kind::kText, "event"},
-                                       {Member::Kind::kText, "workingstep"},
-                                       {Member::Kind::kText, "time"},
-                                       {Member::Kind::kWhole, "elapsed_ms"},
-                                       {Member::Kind::kValues, "measured"}},
-                                      limits_.json_bytes);
-  if (!read) return refused(400, read.error());
-  const auto text = [&](const char* name) {
-    const auto at = read->texts.find(name);
-    return at == read->texts.end() ? std::string() : at->second;
-  };
-  using Kind = service::ControlEvent::Kind;
-  const std::string what = text("event");
-  service::ControlEvent event;
-  event.kind = what == "start" ? Kind::kStart : what == "end" ? Kind::kEnd : Kind::kAt;
-  const bool over = what == "finish";
-  if (event.kind == Kind::kAt && what != "at" && !over)
-    return refused(400, {.code = "SERVE-JSON",
-                         .message = "`event` is '" + what + "'",
-                         .expected = "start, at, end or finish"});
-  event.workingstep = text("workingstep");
-  event.time = text("time");
-  if (const auto at = read->wholes.find("elapsed_ms"); at != read->wholes.end())
-    event.elapsed_s = static_cast<double>(at->second) / 1000.0;
-  if (const auto at = read->objects.find("measured"); at != read->objects.end()) event.measured = at->second;
-  if (const auto at = event.measured.find("location"); at != event.measured.end()) {
-    const Json xyz = Json::parse(at->second);
-    if (!xyz.is_array() || xyz.size() != 3 ||
-        !std::all_of(xyz.begin(), xyz.end(), [](const Json& v) { return v.is_number(); }))
-      return refused(
-          400, {.code = "SERVE-JSON", .message = "`location` is no place", .expected = "[x, y, z] in mm"});
-    event.location_mm = {xyz[0].get<double>(), xyz[1].get<double>(), xyz[2].get<double>()};
-  }
-  const auto make =
-      [&](const std::optional<service::DefaultContent>& otherwise) -> std::optional<service::Broadcasts> {
-    const std::unique_lock lock(s->in_use, std::try_to_lock);
-    return lock ? s->session.broadcasts(otherwise) : std::nullopt;
-  };
-  const auto told = s->broadcasts.tell(event, over, limits_.broadcast_lines, limits_.write, make);
-  if (!told) return refused(409, told.error());
-  metrics_.broadcast(told->lines.size());
-  Code code = Code::kDone;
-  std::string message = told->warning;
-  if (!s->broadcasts.replied(told->lines, Clock::now() + limits_.reply)) {
-    code = Code::kLate;
-    message +=
-        "error: nobody replied to the broadcast in time: the control goes on when it may "
-        "[BROADCAST-REPLY]\n";
-  }
-  Json reply = of_call(code, message);
-  reply["lines"] = Json::array();
-  for (const service::BroadcastLine& line : told->lines) reply["lines"].push_back(Json::parse(line.json));
-  return json_reply(said(code).http, reply);
-}
-
-HttpReply Endpoints::reply(const HttpRequest& request, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
-  if (!s) return no_session();
-  const auto read = read_json_request(request.body, {{Member::Kind::kWhole, "reply_to"}}, limits_.json_bytes);
-  if (!read) return refused(400, read.error());
-  const auto at = read->wholes.find("reply_to");
-  if (at == read->wholes.end() || !s->broadcasts.reply(at->second))
-    return refused(409, "BROADCAST-REPLY", "no broadcast of that number waits for a reply");
-  return of_code(Code::kDone, "");
-}
-
-HttpReply Endpoints::stream(const HttpRequest&, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
-  if (!s) return no_session();
-  if (!s->broadcasts.open_stream())
-    return refused(409, "SERVE-BUSY", "another reader has the broadcasts of this session");
-  return {.status = 200, .media = "application/x-ndjson", .body = {}};
-}
-
-std::optional<std::string> Endpoints::next_lines(const Found& found, const Caller& caller) {
-  const auto s = ended_ ? nullptr : sessions_.find(found.words.front(), caller.user, Clock::now());
-  if (!s) return std::nullopt;
-  return s->broadcasts.take(std::chrono::milliseconds(100));
-}
-
-void Endpoints::end_stream(const Found& found, const Caller& caller) {
-  if (const auto s = sessions_.find(found.words.front(), caller.user, Clock::now()))
-    s->broadcasts.close_stream();
+  return of_call(code, s.session.message(), {{"session", json_of(s.id)}}, code == Code::kDone ? done : 0);
 }
 
 HttpReply Endpoints::open_session(const HttpRequest& request, const Words&, const Caller& caller) {
@@ -380,7 +199,7 @@ HttpReply Endpoints::open_session(const HttpRequest& request, const Words&, cons
   const std::lock_guard lock(s->in_use);
   HttpReply reply;
   for (const auto& [name, value] : defaults_) {
-    if (s->session.set(name, value) != Code::kDone) reply = of_code(s->session.code(), s->session.message());
+    if (s->session.set(name, value) != Code::kDone) reply = of_call(s->session.code(), s->session.message());
   }
   if (reply.body.empty()) reply = take_state(*s, request, caller, 201);
   if (reply.status != 201) sessions_.close(*s);  // nobody would know of it
@@ -388,7 +207,7 @@ HttpReply Endpoints::open_session(const HttpRequest& request, const Words&, cons
 }
 
 HttpReply Endpoints::list_sessions(const HttpRequest&, const Words&, const Caller& caller) {
-  return json_reply(200, {{"sessions", sessions_.ids_of(caller.user)}});
+  return object_reply(200, {{"sessions", json_of(sessions_.ids_of(caller.user))}});
 }
 
 HttpReply Endpoints::put_state(const HttpRequest& request, const Words& words, const Caller& caller) {
@@ -397,26 +216,33 @@ HttpReply Endpoints::put_state(const HttpRequest& request, const Words& words, c
 
 HttpReply Endpoints::put_plan(const HttpRequest& request, const Words& words, const Caller& caller) {
   return in_session(words, caller, [&](ServedSession& s) {
-    const Code code = s.session.bring(request.body);
+    const Code code = s.session.take(request.body);
     s.plan = code == Code::kDone ? request.body : std::string();
     s.broadcasts.plan_changed(false);
     keep_ending(s);
-    return of_code(code, s.session.message());
+    return of_call(code, s.session.message());
   });
 }
 
 HttpReply Endpoints::left_open(const HttpRequest&, const Words& words, const Caller& caller) {
   return in_session(words, caller, [&](ServedSession& s) {
     if (s.plan.empty()) return refused(409, "SERVE-PLAN", "no plan was brought", "PUT one to .../plan");
-    return json_reply(200, {{"open", s.session.left_open()}});
+    return object_reply(200, {{"open", json_of(s.session.left_open())}});
   });
 }
 
 HttpReply Endpoints::bind(const HttpRequest& request, const Words& words, const Caller& caller) {
   return in_session(words, caller, [&](ServedSession& s) {
-    const auto read =
-        read_json_request(request.body, {{Member::Kind::kWhole, "deadline_ms"}}, limits_.json_bytes);
+    const auto read = read_json_request(request.body,
+                                        {{Member::Kind::kWhole, "deadline_ms"},
+                                         {Member::Kind::kWhole, "next"},
+                                         {Member::Kind::kWhole, "from"}},
+                                        limits_.json_bytes);
     if (!read) return refused(400, read.error());
+    const auto whole = [&](const char* name) {
+      const auto at = read->wholes.find(name);
+      return at == read->wholes.end() ? std::size_t{0} : static_cast<std::size_t>(at->second);
+    };
     const auto asked = read->wholes.find("deadline_ms");
     const auto most = static_cast<std::uint64_t>(limits_.deadline.count());
     if (asked == read->wholes.end() || asked->second > most)
@@ -427,14 +253,17 @@ HttpReply Endpoints::bind(const HttpRequest& request, const Words& words, const 
     // The caller has waited in the queue, too.
     const auto gone = std::chrono::ceil<std::chrono::milliseconds>(Clock::now() - caller.arrived);
     const auto left = std::max(std::chrono::milliseconds(asked->second) - gone, std::chrono::milliseconds(0));
-    const Code code = s.session.bind(s.plan, left);
-    metrics_.bound(said(code).status);
+    // Steps are bound further in the plan that the session has: the one that was brought, or bound so far.
+    const Code code = whole("next") + whole("from") > 0
+                          ? s.session.bind_next({}, whole("from"), whole("next"), left)
+                          : s.session.bind(s.plan, left);
+    metrics_.bound(status_of(code));
     s.broadcasts.plan_changed(true);
     keep_ending(s);
-    Json reply = of_call(code, s.session.message());
-    reply["machining_s"] = s.session.machining_s();
-    if (const std::string* changes = s.session.changes()) reply["changes"] = *changes;
-    return json_reply(said(code).http, reply);
+    Members more = {{"machining_s", json_of(s.session.machining_s())},
+                    {"steps", std::to_string(s.session.steps())}};
+    if (const std::string* changes = s.session.changes()) more.emplace_back("changes", json_of(*changes));
+    return of_call(code, s.session.message(), more);
   });
 }
 
@@ -444,11 +273,11 @@ HttpReply Endpoints::result(const HttpRequest&, const Words& words, const Caller
   const bool free = s->in_use.try_lock();
   if (free) s->in_use.unlock();
   const std::lock_guard lock(s->ended);
-  Json reply = of_call(s->ending.code, s->ending.message);
-  reply["busy"] = !free;
-  reply["bound"] = s->ending.bound;
-  reply["machining_s"] = s->ending.machining_s;
-  return json_reply(200, reply);
+  return of_call(s->ending.code, s->ending.message,
+                 {{"busy", free ? "false" : "true"},
+                  {"bound", s->ending.bound ? "true" : "false"},
+                  {"machining_s", json_of(s->ending.machining_s)}},
+                 200);
 }
 
 HttpReply Endpoints::output(const HttpRequest&, const Words& words, const Caller& caller) {
@@ -481,14 +310,14 @@ HttpReply Endpoints::cancel(const HttpRequest&, const Words& words, const Caller
   const auto s = sessions_.find(words.front(), caller.user, Clock::now());
   if (!s) return no_session();
   s->session.stop();
-  return of_code(Code::kDone, "");
+  return of_call(Code::kDone, {});
 }
 
 HttpReply Endpoints::close_session(const HttpRequest&, const Words& words, const Caller& caller) {
   const auto s = sessions_.find(words.front(), caller.user, Clock::now());
   if (!s) return no_session();
   sessions_.close(*s);
-  return of_code(Code::kDone, "");
+  return of_call(Code::kDone, {});
 }
 
 }  // namespace capstan::transport

@@ -5,8 +5,7 @@
 
 namespace capstan::transport {
 
-/// What a server takes at most; a request beyond it is refused, never cut. Defaults without a source, but for
-/// `body_bytes`: the largest plan of the corpus and room for ten of it.
+/// What a server takes at most; a request beyond it is refused, never cut. Defaults, unsourced.
 struct Limits {
   std::size_t header_bytes = 8 << 10;
   std::size_t body_bytes = std::size_t{64} << 20;  ///< of a plan

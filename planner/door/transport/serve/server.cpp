@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "planner/door/transport/serve/endpoints.h"
+#include "planner/door/transport/serve/replies.h"
 #include "planner/door/transport/serve/wire/connection.h"
 #include "planner/door/transport/serve/wire/http.h"
 #include "planner/door/transport/serve/wire/socket_file.h"
@@ -47,10 +48,11 @@ class Event {
   int fd_;
 };
 
-HttpReply refused(unsigned status, const std::string& what, unsigned retry_after_s = 0) {
-  return {.status = status,
-          .body = "{\"code\":2,\"status\":\"USAGE\",\"message\":\"error: " + what + "\\n\"}\n",
-          .retry_after_s = retry_after_s};
+/// What is refused before a request is there.
+HttpReply turned_away(unsigned status, const char* why, unsigned retry_after_s = 0) {
+  HttpReply reply = refused(status, "SERVE-REFUSED", why);
+  reply.retry_after_s = retry_after_s;
+  return reply;
 }
 
 class Server {
@@ -101,7 +103,7 @@ class Server {
       const std::lock_guard lock(mutex_);
       if (connections_ >= limits_.connections) {
         metrics_.refused("connections");
-        connection->write(to_bytes(refused(503, "too many connections are open", 1), false), {});
+        connection->write(to_bytes(turned_away(503, "too many connections are open", 1), false), {});
         return;
       }
       ++connections_;
@@ -139,7 +141,7 @@ class Server {
 
   void converse(Connection& c) {
     std::uint32_t user = 0;
-    if (!may_ask(c, user)) return end_with(c, refused(403, "this user may not ask here"), "uid");
+    if (!may_ask(c, user)) return end_with(c, turned_away(403, "this user may not ask here"), "uid");
     RequestReader reader(limits_.header_bytes, limits_.body_bytes);
     while (next(c, reader)) {
       const Caller caller{user, Clock::now()};
@@ -185,13 +187,13 @@ class Server {
         case Connection::Read::kBytes:
           break;
         case Connection::Read::kEnd:
-          if (!idle) end_with(c, refused(400, "the request ends in its middle"), "cut");
+          if (!idle) end_with(c, turned_away(400, "the request ends in its middle"), "cut");
           return false;
         case Connection::Read::kTime:
-          if (!idle) end_with(c, refused(408, "the request comes too slowly"), "slow");
+          if (!idle) end_with(c, turned_away(408, "the request comes too slowly"), "slow");
           return false;
         case Connection::Read::kStop:
-          if (!idle) end_with(c, refused(503, "the server is stopping"), "stop");
+          if (!idle) end_with(c, turned_away(503, "the server is stopping"), "stop");
           return false;
       }
       if (idle) until = Clock::now() + limits_.request;
@@ -221,7 +223,7 @@ class Server {
           task->done.tell();
         })) {
       metrics_.refused("queue");
-      reply = refused(503, "too many requests wait", 1);
+      reply = turned_away(503, "too many requests wait", 1);
       return true;
     }
     bool there = true;

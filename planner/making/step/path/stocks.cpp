@@ -151,6 +151,16 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
   return measured;
 }
 
+void Stocks::cut(std::size_t setup, const model::CutterPath& path, const model::Cutter& cutter) {
+  // What stays above a head is told by its measuring alone.
+  if (engagement::head_height(cutter)) return (void)measure(setup, path, cutter);
+  const auto profile = model::profile_of(cutter);
+  stock::cut(of(setup), profile, path);
+  auto& exact = exact_[setup];
+  if (!exact || !exact->lost().empty()) return;
+  if (auto held = exact->cut(profile, path); !held) exact->lose(held.error().message);
+}
+
 double top_over(const stock::HeightMap& map, const toolpath::PathJob& job) {
   geometry::Box3 box;
   const auto b = geometry::bounds(job.shape.area);

@@ -92,6 +92,8 @@ class Stocks {
   /// Fails  as engagement::measure; then nothing was cut.
   [[nodiscard]] Result<engagement::Measurement> measure(std::size_t setup, const model::CutterPath& path,
                                                         const model::Cutter& cutter);
+  /// Removes a cut that nobody asks anything of.
+  void cut(std::size_t setup, const model::CutterPath& path, const model::Cutter& cutter);
 
  private:
   [[nodiscard]] double smallest(std::size_t setup) const;

@@ -315,9 +315,10 @@ std::optional<Disagreement> disagreement(const Reading& own, const std::vector<F
 
 namespace capstan::verify {
 
-std::vector<PlannersReading> planners_readings(const model::Model& m) {
+std::vector<PlannersReading> planners_readings(const model::Model& m, const std::set<model::AnyRef>* of) {
   std::vector<PlannersReading> out;
   for (const auto f : m.all_below(model::TypeId::kManufacturingFeature)) {
+    if (of != nullptr && !of->contains(f)) continue;
     if (auto shapes = model::shapes_of(m, model::Ref<model::ManufacturingFeature>(f)))
       out.push_back({f, *std::move(shapes)});
   }

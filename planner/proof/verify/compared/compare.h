@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct PlannersReading {
   model::AnyRef feature;
   std::vector<model::FeatureShape> shapes;
 };
-/// Of all features that the planner can read.
-[[nodiscard]] std::vector<PlannersReading> planners_readings(const model::Model& m);
+/// Of all features that the planner can read, or of some of them.
+[[nodiscard]] std::vector<PlannersReading> planners_readings(const model::Model& m,
+                                                             const std::set<model::AnyRef>* of = nullptr);
 
 }  // namespace capstan::verify
 

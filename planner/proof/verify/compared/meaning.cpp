@@ -20,8 +20,11 @@ std::string place(geometry::Vec3 p) { return "X" + plain(p.x) + " Y" + plain(p.y
 
 }  // namespace
 
-void check_meaning(const model::Plan& plan, Findings& findings) {
-  check_meaning(plan, planners_readings(plan.model), findings);
+void check_meaning(const model::Plan& plan, Findings& findings, bool cut_only) {
+  std::set<model::AnyRef> cut;
+  for (const model::StepResult& s : plan.steps)
+    if (const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step)) cut.insert(ws->its_feature);
+  check_meaning(plan, planners_readings(plan.model, cut_only ? &cut : nullptr), findings);
 }
 
 void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings) {

@@ -12,7 +12,8 @@ struct PlannersReading;
 /// What the planner reads features as, which its paths are made by, against the own reading of the file's
 /// text (volumes/reading.h): 38. An error where a step cuts what is read in two ways, a warning where none
 /// does; a note for what is cut and not read by both.
-void check_meaning(const model::Plan& plan, Findings& findings);
+/// `cut_only`: of features that the plan's steps cut.
+void check_meaning(const model::Plan& plan, Findings& findings, bool cut_only = false);
 /// The same of readings that are given (compare.h): those of the planner, or with a fault in them.
 void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings);
 

@@ -11,7 +11,8 @@ namespace capstan::verify {
 namespace {
 
 /// False if a stop ended it and the finding says where.
-bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* known) {
+bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* known,
+           const CutBefore* before) {
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   check_ranges(plan, findings);
   check_twice(plan, findings);
@@ -29,13 +30,13 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_life(steps, findings);
   check_machine(plan, findings);
   check_holding(plan, findings);
-  check_order(plan, findings);
-  check_coverage(plan, findings);
+  check_order(plan, findings, before);
+  check_coverage(plan, findings, before);
   const PartShapes part = shapes_of_part(plan);
-  check_meaning(plan, findings);
+  check_meaning(plan, findings, before != nullptr);
   check_within(plan, part, findings);
   std::vector<double> speed_shares;
-  const bool swept = check_removal(plan, steps, findings, job, &speed_shares, known);
+  const bool swept = check_removal(plan, steps, findings, job, &speed_shares, known, before);
   check_predicted(plan, steps, speed_shares, findings);
   if (!swept) return false;
   job.progress("check", 1.0);
@@ -44,9 +45,10 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
 
 }  // namespace
 
-std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job, memo::Memo* known) {
+std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job, memo::Memo* known,
+                                       const CutBefore* before) {
   Findings findings;
-  check_to_its_end(job, findings, [&] { return judge(plan, findings, job, known); });
+  check_to_its_end(job, findings, [&] { return judge(plan, findings, job, known, before); });
   return findings.take();
 }
 

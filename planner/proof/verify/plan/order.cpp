@@ -4,10 +4,12 @@
 
 #include "planner/ground/geometry/region.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/target/target.h"
+#include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
 
@@ -34,33 +36,41 @@ struct Entry {
   std::string id;
   AnyRef feature, operation;
   std::size_t setup = 0;
+  const model::Cutter* cutter = nullptr;
+  bool cut = false;  ///< before the plan's steps
 };
 
-std::vector<Entry> entries_of(const model::Plan& plan) {
-  std::vector<Entry> out;
+void add_entries(const model::Plan& plan, std::size_t steps, bool cut, std::vector<Entry>& out) {
   const std::vector<std::string> ids = model::step_ids(plan);
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
-    if (ws == nullptr || !plan.steps[i].path) continue;
-    out.push_back({i, ids[i], ws->its_feature, ws->its_operation, plan.steps[i].setup});
+  for (std::size_t i = 0; i < std::min(steps, plan.steps.size()); ++i) {
+    const model::StepResult& s = plan.steps[i];
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    if (ws == nullptr || !s.path) continue;
+    out.push_back(
+        {i, ids[i], ws->its_feature, ws->its_operation, s.setup, model::find_cutter(plan, s.cutter_id), cut});
   }
+}
+
+std::vector<Entry> entries_of(const model::Plan& plan, const CutBefore* before) {
+  std::vector<Entry> out;
+  if (before != nullptr) add_entries(before->plan, before->steps, true, out);
+  add_entries(plan, plan.steps.size(), false, out);
   return out;
 }
 
 /// A cone along the side of a feature breaks its edge: it comes when the feature is done.
-bool breaks_edges(const model::Plan& plan, const Entry& e) {
-  const model::Cutter* c = model::find_cutter(plan, plan.steps[e.order].cutter_id);
-  return e.operation.type == TypeId::kSideFinishMilling && c != nullptr &&
-         verify::breaks_edges(c->cutter_class);
+bool breaks_edges(const Entry& e) {
+  return e.operation.type == TypeId::kSideFinishMilling && e.cutter != nullptr &&
+         verify::breaks_edges(e.cutter->cutter_class);
 }
 
 void check_ranks(const model::Plan& plan, const std::vector<Entry>& entries, Findings& findings) {
   std::map<AnyRef, const Entry*> highest;
   for (const Entry& e : entries) {
     const int rank = order_rank(e.operation.type);
-    if (rank == 0 || breaks_edges(plan, e)) continue;
+    if (rank == 0 || breaks_edges(e)) continue;
     const Entry*& before = highest[group_of(plan.model, e.feature)];
-    if (before != nullptr && rank < order_rank(before->operation.type)) {
+    if (before != nullptr && !e.cut && rank < order_rank(before->operation.type)) {
       findings.error(28, "CHK-ORDER", {e.order + 1, e.id, -1},
                      name_of(e.operation.type) + " comes after " + name_of(before->operation.type) + " (" +
                          before->id + ") on the same feature; put it before");
@@ -124,7 +134,7 @@ void check_faces(const model::Plan& plan, const std::vector<Entry>& entries, Fin
   }
   for (std::size_t f = 0; f < firsts.size(); ++f) {
     const Footprint& face = firsts[f].print;
-    if (!face.good || !face.face) continue;
+    if (!face.good || !face.face || firsts[f].entry->cut) continue;
     for (std::size_t g = 0; g < f; ++g) {
       const Footprint& other = firsts[g].print;
       if (!other.good || firsts[g].entry->setup != firsts[f].entry->setup) continue;
@@ -139,15 +149,31 @@ void check_faces(const model::Plan& plan, const std::vector<Entry>& entries, Fin
 
 }  // namespace
 
-void check_order(const model::Plan& plan, Findings& findings) {
-  const std::vector<Entry> entries = entries_of(plan);
+void check_order(const model::Plan& plan, Findings& findings, const CutBefore* before) {
+  const std::vector<Entry> entries = entries_of(plan, before);
   check_ranks(plan, entries, findings);
   check_faces(plan, entries, findings);
 }
 
-void check_coverage(const model::Plan& plan, Findings& findings) {
+std::set<AnyRef> to_come(const model::Plan& plan, const CutBefore& before) {
+  std::set<AnyRef> there, out;
+  for (const model::StepResult& s : plan.steps) there.insert(s.step);
+  for (std::size_t i = 0; i < std::min(before.steps, before.plan.steps.size()); ++i)
+    there.insert(before.plan.steps[i].step);
+  const std::vector<AnyRef> roots = {plan.project};
+  for (const AnyRef r : model::reachable(plan.model, roots)) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(r);
+    if (ws == nullptr || there.contains(r) || !ws->enabled.value_or(true)) continue;
+    out.insert(ws->its_feature);
+    out.insert(ws->final_features.items.begin(), ws->final_features.items.end());
+  }
+  return out;
+}
+
+void check_coverage(const model::Plan& plan, Findings& findings, const CutBefore* before) {
   const model::Model& m = plan.model;
   std::set<AnyRef> covered, said;
+  if (before != nullptr) covered = to_come(plan, *before);
   for (const auto& u : plan.unplanned) {
     said.insert(u.feature);
     if (!u.reason.empty()) continue;
@@ -157,12 +183,14 @@ void check_coverage(const model::Plan& plan, Findings& findings) {
                        name_of(u.feature.type) +
                        ") is listed as not planned, without a reason; plan it again, or state the reason");
   }
-  for (const auto& s : plan.steps) {
+  const auto cover = [&](const model::StepResult& s) {
     const auto* ws = m.get<model::MachiningWorkingstep>(s.step);
-    if (ws == nullptr || !s.path || s.path->size() < 2) continue;
+    if (ws == nullptr || !s.path || s.path->size() < 2) return;
     covered.insert(ws->its_feature);
     for (const auto& f : ws->final_features.items) covered.insert(f);
-  }
+  };
+  for (const auto& s : plan.steps) cover(s);
+  for (std::size_t i = 0; before != nullptr && i < before->steps; ++i) cover(before->plan.steps[i]);
   // What is only a piece of another feature is planned with it.
   const std::set<AnyRef> parts = volumes::parts_of_others(m);
   for (const auto f : m.all_below(TypeId::kManufacturingFeature)) {

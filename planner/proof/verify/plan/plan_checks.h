@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,13 @@
 namespace capstan::verify {
 
 struct PartShapes;
+struct CutBefore;
 
 /// The moves of every step with a path whose numbers are finite; what is not becomes a finding (1).
 [[nodiscard]] std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings);
+/// The same of its first steps only.
+[[nodiscard]] std::vector<StepMoves> moves_of_first(const model::Plan& plan, std::size_t steps,
+                                                    Findings& findings);
 
 /// Values of machine, tools, material, raw piece and steps against what they can be at all: 1.
 void check_ranges(const model::Plan& plan, Findings& findings);
@@ -79,10 +84,12 @@ void check_tool_size(const ToolSize& tool, const model::Machine& machine, const 
 void check_holding(const model::Plan& plan, Findings& findings);
 
 /// What must come first: 28.
-void check_order(const model::Plan& plan, Findings& findings);
+void check_order(const model::Plan& plan, Findings& findings, const CutBefore* before = nullptr);
 
 /// Every feature planned, or said not to be: 34.
-void check_coverage(const model::Plan& plan, Findings& findings);
+void check_coverage(const model::Plan& plan, Findings& findings, const CutBefore* before = nullptr);
+/// The features of which steps are still to come (CutBefore).
+[[nodiscard]] std::set<model::AnyRef> to_come(const model::Plan& plan, const CutBefore& before);
 
 /// Planned features within the raw piece; holes that a drill makes apart from others: 37.
 void check_within(const model::Plan& plan, const PartShapes& part, Findings& findings);

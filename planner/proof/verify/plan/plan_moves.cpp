@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "planner/model/plan/order/step_ids.h"
@@ -94,9 +95,13 @@ StepMoves of_step(const model::Plan& plan, const model::StepResult& s, std::size
 }  // namespace
 
 std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings) {
+  return moves_of_first(plan, plan.steps.size(), findings);
+}
+
+std::vector<StepMoves> moves_of_first(const model::Plan& plan, std::size_t steps, Findings& findings) {
   std::vector<StepMoves> out;
   std::vector<std::string> ids = model::step_ids(plan);
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(steps, plan.steps.size()); ++i) {
     const model::StepResult& s = plan.steps[i];
     if (!s.path || s.path->size() == 0) continue;
     std::string id = std::move(ids[i]);

@@ -92,7 +92,7 @@ std::vector<model::Finding> check_program_text(const ProgramText& text, const mo
 std::vector<model::Finding> check_program(const ProgramText& text, const model::Plan* plan,
                                           const model::Machine& machine,
                                           const std::vector<model::Cutter>& cutters, Job& job,
-                                          memo::Memo* known) {
+                                          memo::Memo* known, const CutBefore* before) {
   Findings findings;
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
@@ -102,7 +102,7 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
     const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
     const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
     const std::vector<StepMoves> steps = judge_text(*reader, program, text, plan, machine, tools, findings);
-    if (plan != nullptr && !check_removal(*plan, steps, findings, job, nullptr, known)) return false;
+    if (plan != nullptr && !check_removal(*plan, steps, findings, job, nullptr, known, before)) return false;
     job.progress("check", 1.0);
     return true;
   });

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "planner/model/nouns/all.h"
+#include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/fixtures.h"
 #include "planner/proof/verify/sweep/grid/carry.h"
 #include "planner/proof/verify/sweep/grip.h"
@@ -51,12 +52,16 @@ bool sound(const model::Cutter* c) {
 
 /// Each feature in the set-up of its last step, with what the others took away.
 void check_left(const model::Plan& plan, const PartShapes& part,
-                const std::vector<std::unique_ptr<Scene>>& scenes, Findings& findings) {
-  const std::vector<Asked> asked = asked_of(plan);
-  check_corner_records(plan, part, asked, findings);
+                const std::vector<std::unique_ptr<Scene>>& scenes, const CutBefore* before,
+                Findings& findings) {
+  const std::vector<Asked> asked = asked_of(plan, before);
+  const std::set<model::AnyRef> later =
+      before == nullptr ? std::set<model::AnyRef>{} : to_come(plan, *before);
+  check_corner_records(plan, part, asked, before != nullptr, findings);
   for (const auto& scene : scenes) {
     std::vector<Asked> here;
     for (const Asked& a : asked) {
+      if (a.done_before || later.contains(a.feature)) continue;
       if (workpiece_in(plan, a.setup) == scene->target.frame()) here.push_back(a);
     }
     if (here.empty()) continue;
@@ -70,7 +75,7 @@ void check_left(const model::Plan& plan, const PartShapes& part,
 }  // namespace
 
 bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job,
-                   std::vector<double>* speed_shares, memo::Memo* known) {
+                   std::vector<double>* speed_shares, memo::Memo* known, const CutBefore* before) {
   if (speed_shares != nullptr) speed_shares->assign(steps.size(), 1.0);
   check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
@@ -88,8 +93,14 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
   std::optional<Grip> grip;
   std::size_t held = static_cast<std::size_t>(-1);
   std::set<model::AnyRef> begun;  // features of which something was cut
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const StepMoves& step = steps[i];
+  Findings unsaid;
+  const std::vector<StepMoves> earlier =
+      before == nullptr ? std::vector<StepMoves>{} : moves_of_first(before->plan, before->steps, unsaid);
+  for (std::size_t k = 0; k < earlier.size() + steps.size(); ++k) {
+    const bool cut = k < earlier.size();
+    const std::size_t i = cut ? 0 : k - earlier.size();
+    const StepMoves& step = cut ? earlier[k] : steps[i];
+    Findings& said = cut ? unsaid : findings;
     job.progress("check", static_cast<double>(i) / static_cast<double>(steps.size()));
     if (job.stop_requested()) {
       findings.error(11, std::string(kStopped), {Findings::kWhole, "", -1},
@@ -117,19 +128,19 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
     }
     if (step.setup != held && step.setup < plan.setups.size()) {
       held = step.setup;
-      grip.emplace(plan.setups[held].holding, scene->grid, step, findings);
+      grip.emplace(plan.setups[held].holding, scene->grid, step, said);
     }
     if (!sound(step.cutter)) continue;
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(
         step.planned != nullptr ? step.planned->step : model::Ref<model::Executable>{});
     const SweptStep swept =
-        known_steps.sweep(step, scene->swept(), ws != nullptr && begun.contains(ws->its_feature), findings);
-    if (speed_shares != nullptr) (*speed_shares)[i] = swept.speed_share;
+        known_steps.sweep(step, scene->swept(), ws != nullptr && begun.contains(ws->its_feature), said);
+    if (speed_shares != nullptr && !cut) (*speed_shares)[i] = swept.speed_share;
     if (ws != nullptr && swept.cuts) begun.insert(ws->its_feature);
     scene->grid.find_top_after_cuts();
-    if (grip && step.setup == held) grip->after(step, scene->grid, findings);
+    if (grip && step.setup == held) grip->after(step, scene->grid, said);
   }
-  check_left(plan, part, scenes, findings);
+  check_left(plan, part, scenes, before, findings);
   return true;
 }
 

@@ -65,6 +65,9 @@ TEST(ServeSchema, KnowsWhatIsAnsweredAndNothingElse) {
   EXPECT_NE(faults("health", R"({"status": "ok", "sessions": 1, "more": 2})"), "");
   answer("health", "GET", "/health");
   answer("answer", "GET", "/nothing");
+  Client wrong(server.socket());
+  wrong.send("no HTTP\r\n\r\n");
+  EXPECT_EQ(faults("answer", wrong.reply().body), "");
   answer("answer", "POST", "/v1/sessions", "no JSON");
   const std::string path = opened(client);
   answer("sessions", "GET", "/v1/sessions");

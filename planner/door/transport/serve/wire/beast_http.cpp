@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "planner/door/transport/serve/replies.h"
 #include "planner/door/transport/serve/wire/http.h"
 
 // The one file that knows Boost.Beast: its parser and its spelling of messages. Sockets are not its business
@@ -46,17 +47,13 @@ RequestReader::~RequestReader() = default;
 
 namespace {
 
-HttpReply refused(unsigned status, const std::string& what) {
-  // What the peer sent is not repeated: only words of Beast's and ours are in it, none of which is quoted.
-  return {.status = status, .body = "{\"error\": \"" + what + "\"}\n"};
-}
-
-HttpReply refused(const boost::beast::error_code& ec, std::size_t header, std::size_t body) {
+/// Of the peer's bytes nothing is repeated: the words are Beast's and ours.
+HttpReply fault_of(const boost::beast::error_code& ec, std::size_t header, std::size_t body) {
   if (ec == http::error::header_limit || ec == http::error::buffer_overflow)
-    return refused(431, "the header is longer than " + std::to_string(header) + " bytes");
+    return refused(431, "SERVE-HTTP", "the header is longer than " + std::to_string(header) + " bytes");
   if (ec == http::error::body_limit)
-    return refused(413, "the body is longer than " + std::to_string(body) + " bytes");
-  return refused(400, "this is no HTTP/1.1 request: " + ec.message());
+    return refused(413, "SERVE-HTTP", "the body is longer than " + std::to_string(body) + " bytes");
+  return refused(400, "SERVE-HTTP", "this is no HTTP/1.1 request: " + ec.message());
 }
 
 }  // namespace
@@ -75,7 +72,7 @@ RequestReader::State RequestReader::take(std::string_view bytes) {
       ec = http::error::header_limit;
     }
     if (ec) {
-      p.wrong = refused(ec, p.header_bytes, p.body_bytes);
+      p.wrong = fault_of(ec, p.header_bytes, p.body_bytes);
       return State::kWrong;
     }
     if (used == 0) return State::kMore;

@@ -17,13 +17,13 @@ namespace capstan::transport {
 struct HttpRequest {
   std::string method;  ///< "GET", "POST", ...
   std::string path;    ///< of the target, without a query
-  std::string body;
+  std::string body = {};
 };
 
 struct HttpReply {
   unsigned status = 200;
   std::string media = "application/json";
-  std::string body;
+  std::string body = {};
   unsigned retry_after_s = 0;  ///< 0: the header is not sent
 };
 

@@ -7,7 +7,7 @@ namespace capstan::transport {
 bool http_is_built() { return false; }
 
 struct RequestReader::Parser {
-  HttpReply wrong{.status = 501, .body = "{\"error\": \"this build has no Boost.Beast\"}\n"};
+  HttpReply wrong{.status = 501};
 };
 RequestReader::RequestReader(std::size_t /*header_bytes*/, std::size_t /*body_bytes*/)
     : parser_(std::make_unique<Parser>()) {}

@@ -112,7 +112,7 @@ std::optional<model::CornerRest> recorded_rest(const model::Plan& plan, const Pa
 }
 
 void check_corner_records(const model::Plan& plan, const PartShapes& part, const std::vector<Asked>& asked,
-                          Findings& out) {
+                          bool partly, Findings& out) {
   for (const model::CornerRest& r : model::corner_rests(plan)) {
     const std::string says = "the plan records that a radius of " + plain(r.radius_mm) +
                              " mm stays in the corners of '" + r.feature + "' in place of " +
@@ -134,7 +134,7 @@ void check_corner_records(const model::Plan& plan, const PartShapes& part, const
                         " mm: the record is of another feature, or this one was changed; plan it again");
       }
     }
-    if (!found)
+    if (!found && !partly)
       out.error(36, "CHK-REST-RECORD", {Findings::kWhole, "", -1},
                 says + "and no feature of that name is made: remove the record, or plan again");
   }

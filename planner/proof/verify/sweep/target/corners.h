@@ -20,8 +20,9 @@ namespace capstan::verify {
                                                              const volumes::Form& form, const Asked& asked);
 
 /// Records that planning does not write: of no feature that is made, of another stated radius, larger than
-/// what the mills of the feature leave (CHK-REST-RECORD).
+/// what the mills of the feature leave (CHK-REST-RECORD). `partly`: a feature of the record may be made in
+/// steps that are not the plan's.
 void check_corner_records(const model::Plan& plan, const PartShapes& part, const std::vector<Asked>& asked,
-                          Findings& out);
+                          bool partly, Findings& out);
 
 }  // namespace capstan::verify

@@ -9,6 +9,7 @@
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/sweep/target/corners.h"
 #include "planner/proof/verify/sweep/target/target.h"
+#include "planner/proof/verify/verify.h"
 #include "planner/proof/verify/volumes/form/in_raw.h"
 
 // What stays of planned features after the last step. Every cell of a feature's area is held against the
@@ -19,10 +20,10 @@
 // radius of the narrowest mill of its steps, and at the foot of a wall that of the tool's corner, both within
 // bounds (steps, outsides, closed pockets: volumes::unstated_corner_mm); nothing in the square ends of slots,
 // at the open side of a pocket, nor where a radius of 0 is stated; and what the plan records as rest material
-// in corners (corners.h), which is told (CHK-REST). Points of drills count below a conical bottom's depth only;
-// what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A through hole that ends
-// within another feature that the plan makes is done there. Crests of threads and what heights do not hold are
-// not looked at, nor what is narrower than two cells: a note says so.
+// in corners (corners.h), which is told (CHK-REST). Points of drills count below a conical bottom's depth
+// only; what a blunter one leaves there is told apart, as rest material (CHK-LEFT-POINT). A through hole that
+// ends within another feature that the plan makes is done there. Crests of threads and what heights do not
+// hold are not looked at, nor what is narrower than two cells: a note says so.
 //
 // In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
 // step.
@@ -116,12 +117,13 @@ std::string not_judged(const Form& s, const Asked& a, double ring) {
 
 }  // namespace
 
-std::vector<Asked> asked_of(const model::Plan& plan) {
-  std::set<model::AnyRef> given_up;
-  for (const auto& u : plan.unplanned) given_up.insert(u.feature);
-  std::vector<Asked> out;
+namespace {
+
+/// Adds what the first `steps` results of a plan make.
+void add_asked(const model::Plan& plan, std::size_t steps, const std::set<model::AnyRef>& given_up,
+               bool done_before, std::vector<Asked>& out) {
   const std::vector<std::string> ids = model::step_ids(plan);
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(steps, plan.steps.size()); ++i) {
     const model::StepResult& step = plan.steps[i];
     const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step);
     const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
@@ -135,6 +137,7 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
       if (it == out.end()) it = out.insert(out.end(), Asked{.feature = f});
       it->where = {i + 1, ids[i], -1};
       it->setup = step.setup;
+      it->done_before = done_before;
       double side = kNone, bottom = kNone;
       if (const auto* o = plan.model.get<model::PlaneMilling>(ws->its_operation)) {
         bottom = o->allowance_bottom.value_or(0.0);
@@ -164,6 +167,16 @@ std::vector<Asked> asked_of(const model::Plan& plan) {
       it->corner_mm = std::min(it->corner_mm, corner);
     }
   }
+}
+
+}  // namespace
+
+std::vector<Asked> asked_of(const model::Plan& plan, const CutBefore* before) {
+  std::set<model::AnyRef> given_up;
+  for (const auto& u : plan.unplanned) given_up.insert(u.feature);
+  std::vector<Asked> out;
+  if (before != nullptr) add_asked(before->plan, before->steps, given_up, true, out);
+  add_asked(plan, plan.steps.size(), given_up, false, out);
   for (Asked& a : out) {
     if (a.side_mm >= kNone) a.side_mm = 0.0;
     if (a.bottom_mm >= kNone) a.bottom_mm = 0.0;

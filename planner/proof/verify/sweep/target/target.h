@@ -19,6 +19,8 @@
 
 namespace capstan::verify {
 
+struct CutBefore;
+
 /// What all features of a plan are by the own reading (volumes), once for all set-ups.
 struct PartShapes {
   struct Entry {
@@ -53,9 +55,10 @@ struct Asked {
   double widest_mm = 0.0;                       ///< radius of its widest mill
   double ridges_mm = 1e300;                     ///< freeform: least height of ridges and chords stated
   bool undercut = false;                        ///< one of its tools cuts under what stands
+  bool done_before = false;                     ///< its last step was cut before the plan's
 };
-/// Features with steps, but those that are unplanned in part.
-[[nodiscard]] std::vector<Asked> asked_of(const model::Plan& plan);
+/// Features with steps, but those that are unplanned in part. `before`: what was cut before counts, too.
+[[nodiscard]] std::vector<Asked> asked_of(const model::Plan& plan, const CutBefore* before = nullptr);
 
 /// Where the workpiece lies in a set-up's frame.
 [[nodiscard]] geometry::Placement workpiece_in(const model::Plan& plan, std::size_t setup);
