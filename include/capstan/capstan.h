@@ -47,7 +47,7 @@ struct PlanOptions {
   std::string bind = {};      ///< how far `plan_...` closes decisions: "none", "strategy", "tools", "all"
   std::string deadline = {};  ///< of `bind_...`, since the call: "200ms", "2s"; then PlanOutput::late
   bool strict = false;        ///< no program and no form of a plan that has findings
-  std::string control = {};   ///< `check_...`: hold plans against this control's profile: an id, or a file
+  std::string profile = {};   ///< `check_...`: hold plans against this control's profile: an id, or a file
   bool schema = false;        ///< `check_...`: what does not follow the schema is a finding, too
   /// Called with the name of a stage and a fraction from 0 to 1, by the calling thread or one of its workers;
   /// it must not throw.
@@ -117,7 +117,7 @@ struct CheckInput {
                                                 const PlanOptions& options = {});
 [[nodiscard]] CAPSTAN_API PlanOutput bind_file(const std::string& path, const PlanOptions& options = {});
 
-/// Proves plans and programs safe, or says what is wrong with them. Of the options machine, tools, control,
+/// Proves plans and programs safe, or says what is wrong with them. Of the options machine, tools, profile,
 /// schema, threads, progress and stop count.
 [[nodiscard]] CAPSTAN_API CheckOutput check_bytes(std::vector<CheckInput> files,
                                                   const PlanOptions& options = {});

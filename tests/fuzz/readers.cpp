@@ -6,6 +6,7 @@
 
 #include "casebase/casebase.h"
 #include "casebase/retain/join/import.h"
+#include "planner/controls/profile/profile.h"
 #include "planner/door/transport/serve/endpoints.h"
 #include "planner/door/transport/serve/wire/http.h"
 #include "planner/door/transport/serve/wire/json_request.h"
@@ -73,6 +74,10 @@ void machine(std::string bytes) {
 void machine_ini(std::string bytes) {
   Job job;
   (void)said(tooling::read_linuxcnc_ini(bytes, "input.ini", job));
+}
+void control_profile(std::string bytes) {
+  Job job;
+  (void)said(controls::read_profile(bytes, "input.yaml", job));
 }
 void materials(std::string bytes) {
   Job job;
@@ -210,6 +215,9 @@ const std::vector<Reader>& readers() {
        {"tooling/data/machines/generic_vmc.yaml", "tooling/data/machines/tormach_1100mx.yaml",
         "examples/reference_pocket_machine.yaml"}},
       {"machine_ini", machine_ini, {}},
+      {"control_profile",
+       control_profile,
+       {"planner/controls/profile/data/grbl.yaml", "planner/controls/profile/data/siemens840d.yaml"}},
       {"materials", materials, {"tooling/data/materials.yaml"}},
       {"workholding",
        workholding,

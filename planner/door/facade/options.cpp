@@ -53,7 +53,7 @@ constexpr std::array kFields = {
     Field{"deadline", [](const PlanOptions& o) { return o.deadline; }},
     Field{"strict", [](const PlanOptions& o) { return flag(o.strict); }},
     Field{"allow-findings", [](const PlanOptions& o) { return flag(o.allow_findings); }},
-    Field{"control", [](const PlanOptions& o) { return o.control; }},
+    Field{"profile", [](const PlanOptions& o) { return o.profile; }},
     Field{"schema", [](const PlanOptions& o) { return flag(o.schema); }},
     Field{"threads", [](const PlanOptions& o) { return std::to_string(std::clamp(o.threads, 1U, 256U)); }},
 };

@@ -294,12 +294,12 @@ class Check {
     return std::nullopt;
   }
 
-  /// With --control: what the control must be told that the plan does not say, or says twice. What the
+  /// With --profile: what the control must be told that the plan does not say, or says twice. What the
   /// planner would close is open still.
   std::optional<Diagnostic> hold_against_control(const model::Plan& plan) {
-    if (!request_.control) return std::nullopt;
+    if (!request_.profile) return std::nullopt;
     if (!control_) {
-      auto read = controls::load_profile(*request_.control, job_);
+      auto read = controls::load_profile(*request_.profile, job_);
       if (!read) return read.error();
       control_ = std::move(read->can);
     }

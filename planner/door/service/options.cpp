@@ -143,7 +143,7 @@ const char* allow_help() {
                                    "stops (M0) before each condemned step";
   return kText.c_str();
 }
-const char* control_help() {
+const char* profile_help() {
   static const std::string kText = [] {
     std::string out = "hold plans against what this control is able to do: ";
     for (const std::string& id : controls::profile_ids()) out += id + ", ";
@@ -313,10 +313,10 @@ std::vector<Option> table() {
        0,
        0,
        "strict"},
-      {"control",
+      {"profile",
        Value::kText,
-       {nullptr, nullptr, control_help()},
-       [](Request& r, Text t) { return r.control = t, std::string(); },
+       {nullptr, nullptr, profile_help()},
+       [](Request& r, Text t) { return r.profile = t, std::string(); },
        {}},
       {"schema",
        Value::kFlag,

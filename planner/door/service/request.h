@@ -38,7 +38,7 @@ struct Request {
   bool stop_at_deadline = false;                      ///< bind: what is not checked by then is given up
   std::optional<std::string> measured;                ///< bind: of NC variables (late/branches.h)
   std::string time;                                   ///< bind: when it is, for the record
-  std::optional<std::string> control;                 ///< check: a control's profile, by id or file
+  std::optional<std::string> profile;                 ///< check: a control's profile, by id or file
   bool schema = false;                                ///< check: what reading found is a finding, too
   unsigned threads = 1;
 

@@ -58,7 +58,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.deadline = "200ms";
   o.strict = true;
   o.schema = true;
-  o.control = "grbl";
+  o.profile = "grbl";
   o.threads = 3;
   const service::Request r = request(o);
   EXPECT_EQ(r.machine, "a machine");
@@ -81,7 +81,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.bind, pipeline::Bind::kStrategy);
   EXPECT_EQ(r.deadline, std::chrono::milliseconds(200));
   EXPECT_TRUE(r.strict && r.schema);
-  EXPECT_EQ(r.control, "grbl");
+  EXPECT_EQ(r.profile, "grbl");
   EXPECT_FALSE(r.allow_findings);
   EXPECT_EQ(r.threads, 3U);
   PlanOptions all_the_same;

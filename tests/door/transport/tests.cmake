@@ -1,4 +1,4 @@
-capstan_test(transport DEPENDS transport service json)
+capstan_test(transport DEPENDS transport service json exchange)
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME Serve.TheExampleInPythonBindsThePlateAndSigtermEndsTheServer

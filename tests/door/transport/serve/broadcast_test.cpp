@@ -12,6 +12,8 @@
 #include <thread>
 
 #include "planner/door/transport/serve/wire/http.h"
+#include "planner/files/exchange/exchange.h"
+#include "planner/model/nouns/all.h"
 #include "tests/door/transport/serve/running_server.h"
 
 namespace capstan::transport {
@@ -110,6 +112,48 @@ TEST_F(ServeBroadcast, AFifoWithoutAReaderHoldsNobody) {
   ASSERT_GT(n, 0);
   EXPECT_EQ(bytes[static_cast<std::size_t>(n) - 1], '\n');
   ::close(fd);
+}
+
+/// The plate as AP238, whose first workingstep says when it begins, and where its spindle is when it ends.
+std::string plate_with_broadcasts() {
+  Job job;
+  auto plan = exchange::read_bytes(plate(), "plate.p21", {}, job);
+  EXPECT_TRUE(plan);
+  auto& m = plan->model;
+  model::BroadcastContent begins, ends;
+  begins.its_id = "begins";
+  begins.message = "roughing begins";
+  ends.its_id = "ends";
+  ends.cbm_measurements.given = true;
+  ends.cbm_measurements.items = {"spindle speed"};
+  ends.only_if_changed = true;
+  model::Broadcast b;
+  b.its_id = "b";
+  b.end_content = m.add(ends);
+  for (const auto at : m.all_below(model::TypeId::kWorkingstep)) {
+    auto& step = m.at<model::Executable>(at);
+    if (step.its_id != "ROUGH POCKET") continue;
+    step.start_content = m.add(begins);
+    step.its_broadcasts.push_back(m.add(b));
+  }
+  const auto written = exchange::write_ap238(*plan, job);
+  EXPECT_TRUE(written);
+  return written ? written->bytes : std::string();
+}
+
+TEST_F(ServeBroadcast, AreThoseThatThePlansFileStatesAlsoWhenItIsBound) {
+  RunningServer server;
+  Client client(server.socket());
+  const std::string path = opened(client);
+  ASSERT_EQ(client.ask("PUT", path + "/plan", plate_with_broadcasts()).status, 200);
+  for (const bool bound : {false, true}) {
+    if (bound) {
+      ASSERT_EQ(client.ask("POST", path + "/bind", R"({"deadline_ms": 600000})").status, 200);
+    }
+    EXPECT_EQ(tell(client, path, "start", 1.0).json()["lines"],
+              Json::parse(R"([{"content": "begins", "message": "roughing begins"}])"));
+    EXPECT_EQ(tell(client, path, "end", bound ? 3000.0 : 2990.0).json()["lines"].size(), 1U);
+  }
 }
 
 TEST_F(ServeBroadcast, RefuseWhatTheyDoNotKnow) {
