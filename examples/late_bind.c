@@ -1,9 +1,13 @@
 /* Binds what a plan leaves open with the tools that a machine has loaded, and prints the program.
  *
- *     late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS > program.ngc
+ *     late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS [next] > program.ngc
+ *
+ * With `next` workingstep by workingstep, each in its turn: a program of each. A control would cut one before
+ * it asks for the next, and may change its tool table between two.
  */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "capstan/capstan_late.h"
 
@@ -21,9 +25,33 @@ static char* read_all(const char* path, size_t* size) {
   return text;
 }
 
+/* Prints the program of what was bound; code of the session. */
+static capstan_late_code print_program(capstan_late* session) {
+  const char* program = capstan_late_output(session, CAPSTAN_LATE_LINUXCNC, NULL);
+  fprintf(stderr, "machining takes %.1f s\n", capstan_late_machining_seconds(session));
+  if (program == NULL) return CAPSTAN_LATE_IMPOSSIBLE;
+  fputs(program, stdout);
+  return CAPSTAN_LATE_OK;
+}
+
+/* All workingsteps of a plan but the last, each bound and printed; the last one is bound. */
+static capstan_late_code bind_each(capstan_late* session, const char* plan, size_t size,
+                                   unsigned deadline_ms) {
+  capstan_late_code code = capstan_late_take(session, plan, size);
+  unsigned steps = 1; /* how many there are is known when the first is bound */
+  for (unsigned step = 1; code == CAPSTAN_LATE_OK && step <= steps; ++step) {
+    if (step > 1 && (code = print_program(session)) != CAPSTAN_LATE_OK) break;
+    code = capstan_late_bind_next(session, NULL, 0, step, 1, deadline_ms);
+    steps = capstan_late_steps(session);
+    if (code == CAPSTAN_LATE_OK) fprintf(stderr, "workingstep %u of %u\n", step, steps);
+  }
+  return code;
+}
+
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    fprintf(stderr, "usage: late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS\n");
+  const int next = argc == 6 && strcmp(argv[5], "next") == 0;
+  if (argc != 5 && !next) {
+    fprintf(stderr, "usage: late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS [next]\n");
     return CAPSTAN_LATE_USAGE;
   }
   size_t size = 0;
@@ -34,18 +62,17 @@ int main(int argc, char** argv) {
   }
   capstan_late* session = capstan_late_open(argv[2], argv[3]);
   capstan_late_code code = capstan_late_status(session);
+  const unsigned deadline_ms = (unsigned)strtoul(argv[4], NULL, 10);
   if (code == CAPSTAN_LATE_OK)
-    code = capstan_late_bind(session, plan, size, (unsigned)strtoul(argv[4], NULL, 10));
+    code = next ? bind_each(session, plan, size, deadline_ms)
+                : capstan_late_bind(session, plan, size, deadline_ms);
   fputs(capstan_late_message(session), stderr);
   if (code == CAPSTAN_LATE_LATE) {
     /* The plan is there, but nobody waits for it any more: this control stands still and asks the operator.
      */
     fprintf(stderr, "bound too late: stay retracted and stopped (code %d)\n", (int)code);
   } else if (code == CAPSTAN_LATE_OK) {
-    const char* program = capstan_late_output(session, CAPSTAN_LATE_LINUXCNC, NULL);
-    fprintf(stderr, "machining takes %.1f s\n", capstan_late_machining_seconds(session));
-    if (program != NULL) fputs(program, stdout);
-    if (program == NULL) code = CAPSTAN_LATE_IMPOSSIBLE;
+    code = print_program(session);
   } else {
     fprintf(stderr, "not bound: retract and stop (code %d)\n", (int)code);
   }

@@ -7,12 +7,10 @@
 #include <string_view>
 #include <utility>
 
-#include "planner/ground/base/job.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "tooling/library/nouns/nouns.h"
 
 // Ways of a program that depend on the machine (ISO 14649-10: if_statement, while_statement, selective)
 // become the steps that are executed. Every other room then reads a workplan without them: what is checked is
@@ -226,14 +224,9 @@ class Branches {
     const std::vector<AnyRef> roots = {way};
     for (const AnyRef r : model::reachable(m, roots)) {
       const auto* ws = m.get<model::MachiningWorkingstep>(r);
-      const auto* op = ws == nullptr ? nullptr : m.get<model::MachiningOperation>(ws->its_operation);
-      if (op == nullptr || !m.holds<model::MachiningTool>(op->its_tool) ||
-          tooling::is_requirement(m, op->its_tool) || plan_.ledger.is_open(ws->its_operation, "its_tool"))
-        continue;
-      Job silent;  // what is to be said of the tool is said when it is used
-      const auto wanted = tooling::cutter_from_nouns(m, op->its_tool, silent, plan_.cutters);
-      if (wanted && given::loaded_like(magazine_, *wanted) == nullptr)
-        return "tool '" + wanted->id + "' of " + name_of(m, r) + " is not in the magazine";
+      if (ws == nullptr) continue;
+      if (const auto tool = given::missing_tool(plan_, ws->its_operation, magazine_))
+        return "tool '" + *tool + "' of " + name_of(m, r) + " is not in the magazine";
     }
     return {};
   }

@@ -141,9 +141,9 @@ std::optional<Plan> as_it_is(const Plan& plan, const pipeline::Inputs& inputs,
   if (edited(job) || !model::unreadable(plan).empty() || !model::contradictions(plan).empty() ||
       !made_for(plan, inputs) || !chosen_alike(plan, inputs))
     return std::nullopt;
+  if (window && plan.steps.size() < window->first + window->count) return std::nullopt;
   Plan out = plan;
   if (window) {
-    if (plan.steps.size() < window->first + window->count) return std::nullopt;
     const auto from = plan.steps.begin() + static_cast<std::ptrdiff_t>(window->first);
     out.steps.assign(from, from + static_cast<std::ptrdiff_t>(window->count));
     drop_other_cutters(out);

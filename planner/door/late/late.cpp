@@ -18,7 +18,6 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/by_planning.h"
-#include "planner/proof/verify/verify.h"
 
 // A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
 // takes; then an improvement on the rest of the time. Each answer passes the same four questions: is anything
@@ -57,9 +56,9 @@ struct Case {
     p.window = window;
     return p;
   }
-  [[nodiscard]] std::optional<verify::CutBefore> cut_before() const {
+  [[nodiscard]] std::optional<model::CutBefore> cut_before() const {
     if (!window) return std::nullopt;
-    return verify::CutBefore{plan, window->first};
+    return model::CutBefore{plan, window->first};
   }
 };
 
@@ -211,7 +210,7 @@ void improve(LateOutcome& out, const Case& c, pipeline::Reopen reopen, Job& tria
   const bool faster = t < out.fallback_s || !out.condemned.empty();
   if (!faster) return;
   const auto cut = c.cut_before();
-  const verify::CutBefore* before = cut ? &*cut : nullptr;
+  const model::CutBefore* before = cut ? &*cut : nullptr;
   pipeline::Checked checked = pipeline::checked(*std::move(better), trial, c.inputs.proofs.get(), before);
   pipeline::CheckedProgram program;
   auto findings = pipeline::findings_of(checked, trial, &program, c.inputs.proofs.get(), before);
@@ -332,9 +331,13 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
     window = *meant;
     operations = operations_of(plan, *window, steps);
   }
-  const model::Plan brought = plan;
+  // Of a large plan a copy costs more than a workingstep: it is made where a tool will be re-opened.
+  std::optional<model::Plan> as_it_came;
+  const auto missing = [&](model::AnyRef op) { return given::missing_tool(plan, op, magazine).has_value(); };
+  if (!window || std::any_of(operations.begin(), operations.end(), missing)) as_it_came = plan;
   auto reopened = given::match_loaded(plan, inputs.library, job, window ? &operations : nullptr);
   if (!reopened) return tl::unexpected(reopened.error());
+  const model::Plan& brought = as_it_came ? *as_it_came : plan;
   why.insert(why.end(), reopened->begin(), reopened->end());
   const Case c{plan,
                inputs,
@@ -366,6 +369,9 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
     finish(*holds, brought, c, why, job);
     return *std::move(holds);
   }
+  // What the plan takes as it was brought may be what time there was.
+  if (policy.stop_at_deadline && job.stop_requested())
+    return tl::unexpected(as_stopped(pipeline::stopped_planning(plan), policy, began, job));
   auto out = fallen_back();
   const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
   const bool nothing_cut = !window || window->first == 0;

@@ -156,7 +156,7 @@ void tell_tries(const Tries& tries, Job& job) {
   for (const std::string& s : tries.said) job.note("PIP-ANEW", s);
 }
 
-Checked checked(model::Plan plan, Job& job, memo::Memo* proofs, const verify::CutBefore* before) {
+Checked checked(model::Plan plan, Job& job, memo::Memo* proofs, const model::CutBefore* before) {
   Checked out;
   const auto began = job.now();
   out.findings = verify::check_plan(plan, job, proofs, before);
@@ -171,9 +171,9 @@ namespace {
 Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                           const Anew& anew) {
   auto until = anew.until;
-  std::optional<verify::CutBefore> before;
-  if (policy.window) before.emplace(verify::CutBefore{plan, policy.window->first});
-  const verify::CutBefore* const cut_before = before ? &*before : nullptr;
+  std::optional<model::CutBefore> before;
+  if (policy.window) before.emplace(model::CutBefore{plan, policy.window->first});
+  const model::CutBefore* const cut_before = before ? &*before : nullptr;
   Tries tries;
   auto first = bind_within(plan, inputs, policy, tries, job);
   if (!first) return tl::unexpected(first.error());

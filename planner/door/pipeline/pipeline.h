@@ -15,6 +15,7 @@
 #include "planner/making/given/tool_material_wish.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
 #include "planner/model/plan/resources/material.h"
@@ -23,9 +24,6 @@
 
 namespace capstan::casebase {
 class CaseBase;
-}
-namespace capstan::verify {
-struct CutBefore;
 }
 
 namespace capstan::pipeline {
@@ -131,7 +129,7 @@ struct Checked {
 /// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a
 /// window: what was cut before them.
 [[nodiscard]] Checked checked(model::Plan plan, Job& job, memo::Memo* proofs = nullptr,
-                              const verify::CutBefore* before = nullptr);
+                              const model::CutBefore* before = nullptr);
 
 /// Until when plans are made anew, and which plans may be given at all (nothing: any): what it says of the
 /// first one ends `bind_checked`, of a later one only that one is passed over.

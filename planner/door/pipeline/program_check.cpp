@@ -14,7 +14,7 @@ std::vector<model::Finding> findings_of(const model::Plan& plan, Job& job) {
 }
 
 std::vector<model::Finding> findings_of(const Checked& checked, Job& job, CheckedProgram* kept,
-                                        memo::Memo* proofs, const verify::CutBefore* before) {
+                                        memo::Memo* proofs, const model::CutBefore* before) {
   const model::Plan& plan = checked.plan;
   std::vector<model::Finding> out = checked.findings;
   if (plan.steps.empty()) return out;

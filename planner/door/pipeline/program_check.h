@@ -19,6 +19,6 @@ struct CheckedProgram {
 [[nodiscard]] std::vector<model::Finding> findings_of(const Checked& checked, Job& job,
                                                       CheckedProgram* kept = nullptr,
                                                       memo::Memo* proofs = nullptr,
-                                                      const verify::CutBefore* before = nullptr);
+                                                      const model::CutBefore* before = nullptr);
 
 }  // namespace capstan::pipeline

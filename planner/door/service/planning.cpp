@@ -40,7 +40,7 @@ std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<O
       for (const model::Finding& f : known.findings) out.push_back({o.path, f, true});
       continue;
     }
-    const verify::CutBefore cut{planned.plan, planned.cut_before};
+    const model::CutBefore cut{planned.plan, planned.cut_before};
     for (auto& f : verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job,
                                          nullptr, planned.part ? &cut : nullptr))
       out.push_back({o.path, std::move(f), true});

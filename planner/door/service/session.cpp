@@ -133,6 +133,8 @@ Code Session::bind_next(std::string plan, std::size_t from, std::size_t count,
 Code Session::bind_as(std::string plan, Request request) {
   const auto began = std::chrono::steady_clock::now();
   return guarded([&] {
+    // The plan that the last bind gave is what the next one goes on with.
+    if (plan.empty() && bound_ && bound_->part) last_ = std::move(bound_->plan);
     bound_.reset();
     outputs_.clear();
     message_.clear();
@@ -141,6 +143,7 @@ Code Session::bind_as(std::string plan, Request request) {
     Job job;
     job.threads = request_.threads;
     job.set_progress(progress_);
+    if (request.stop_at_deadline && request.deadline) job.set_deadline(began + *request.deadline);
     // `stop` finds either this job or none.
     struct Running {
       Session& s;
@@ -167,7 +170,6 @@ Code Session::bind_as(std::string plan, Request request) {
     for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
     if (!bound) return end(bound.error().code, to_text(bound.error().what));
     bound_ = *std::move(bound);
-    if (bound_->part) last_ = bound_->plan;
     return end(bound_->late ? Code::kLate : Code::kDone);
   });
 }
@@ -181,6 +183,12 @@ const std::string* Session::output(std::string_view name) {
   const Format* format = find_format(name);
   if (!bound_ || format == nullptr) return nullptr;
   if (const auto at = outputs_.find(name); at != outputs_.end()) return &at->second;
+  // What was checked is given as it was checked.
+  const pipeline::CheckedProgram& checked = bound_->program;
+  const bool of_machine =
+      format->of_program() && format->control == controls::find_dialect(bound_->plan.machine.control.dialect);
+  const std::string& text = format->holds == Holds::kProgram ? checked.text : checked.tool_table;
+  if (of_machine && !checked.text.empty() && !text.empty()) return &text;
   const std::string* made = nullptr;
   guarded([&] {
     Job job;

@@ -145,6 +145,19 @@ const Cutter* stating_material(const std::vector<Cutter>& library, const Cutter&
   return differ ? nullptr : found;
 }
 
+std::optional<std::string> missing_tool(const model::Plan& plan, AnyRef operation,
+                                        const std::vector<Cutter>& library) {
+  const auto* op = plan.model.get<model::MachiningOperation>(operation);
+  if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool) ||
+      tooling::is_requirement(plan.model, op->its_tool) || plan.ledger.is_open(operation, "its_tool"))
+    return std::nullopt;
+  Job silent;  // what is to be said of the tool is said when it is used
+  auto wanted = tooling::cutter_from_nouns(plan.model, op->its_tool, silent, plan.cutters);
+  if (wanted) take_assumed(model::assumed_tool_materials(plan), *wanted);
+  if (!wanted || loaded_like(library, *wanted) != nullptr) return std::nullopt;
+  return wanted->id;
+}
+
 void take_length(const Cutter& loaded, Cutter& into) {
   if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
   if (!(loaded.functional_length_mm > 0.0)) return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ namespace capstan::given {
 [[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan,
                                                             std::vector<model::Cutter>& library, Job& job,
                                                             const std::set<model::AnyRef>* of = nullptr);
+
+/// The name of an operation's given tool, where none like it is loaded; nothing where one is, or the tool is
+/// open.
+[[nodiscard]] std::optional<std::string> missing_tool(const model::Plan& plan, model::AnyRef operation,
+                                                      const std::vector<model::Cutter>& library);
 
 /// The loaded cutter (Cutter::loaded, a pocket) that equals this one by class and every size that both state,
 /// whatever its name. Of several: a measured one first, then the same name, the same number, the lowest

@@ -7,6 +7,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/memo/memo.h"
 #include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
 
@@ -19,13 +20,7 @@ struct ProgramText {
   std::string tool_table;  ///< LinuxCNC's .tbl; may be empty: then nothing is said about it
 };
 
-/// What was cut before a plan's steps, where these are a part of all: the first `steps` results of `plan`,
-/// whose nouns the plan has, too. Nothing is said of them. Steps of the workplan that are in neither are
-/// still to come: what they work on is not asked to be done.
-struct CutBefore {
-  const model::Plan& plan;
-  std::size_t steps = 0;
-};
+using model::CutBefore;
 
 /// What is wrong with a plan. Reads what the plan holds, computes everything else itself: stock, removal,
 /// force bound, order. Findings come by step in the order of execution, then property, then move; equal
@@ -38,7 +33,9 @@ struct CutBefore {
 ///            keeps what was found of steps: where the stock before a step, its cutter with shank and holder,
 ///            its sizes and moves are as in an earlier check, it is not swept again. The findings are the
 ///            same.
-/// Not judged  with `before`: the life of a tool over what it cut before.
+/// Part       of `before` nothing is said, and what later steps work on is not asked to be done; the life of
+/// a tool
+///            is not judged over what it cut before.
 [[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job,
                                                      memo::Memo* known = nullptr,
                                                      const CutBefore* before = nullptr);

@@ -58,10 +58,10 @@ std::size_t count(const std::string& text, const std::string& what) {
   return n;
 }
 
-std::vector<std::string> errors_of(const model::Plan& plan) {
+std::vector<std::string> errors_of(const model::Plan& plan, const model::CutBefore* before = nullptr) {
   Job job;
   std::vector<std::string> out;
-  for (const auto& f : verify::check_plan(plan, job))
+  for (const auto& f : verify::check_plan(plan, job, nullptr, before))
     if (f.severity == Severity::kError) out.push_back(f.step + " " + f.code + ": " + f.message);
   return out;
 }
@@ -90,6 +90,24 @@ TEST(LateNext, StepByStepComesAWholePlanThatTheCheckPasses) {
   ASSERT_TRUE(again) << to_text(again.error());
   EXPECT_EQ(again->first, 1U);  // nothing is open: from the beginning
   EXPECT_TRUE(again->kept);
+}
+
+TEST(LateNext, AWorkingstepIsCheckedAgainstWhatIsCutAndItsFaultsAreFound) {
+  const Open part = open(kPocket);
+  const pipeline::Inputs in = shop_of(part.table);
+  Job job;
+  const auto rough = bind(part.plan, in, next(), job);
+  ASSERT_TRUE(rough) << to_text(rough.error());
+  const auto finish = bind(rough->plan, in, next(), job);
+  ASSERT_TRUE(finish) << to_text(finish.error());
+  model::Plan last = *finish->part;
+  const model::CutBefore before{finish->plan, 1};
+  EXPECT_THAT(errors_of(last, &before), ::testing::IsEmpty());
+  EXPECT_THAT(errors_of(last), ::testing::Not(::testing::IsEmpty()));  // in the whole piece
+  auto deeper = std::make_shared<model::CutterPath>(*last.steps[0].path);
+  for (double& z : deeper->z) z -= 0.5;
+  last.steps[0].path = deeper;
+  EXPECT_THAT(errors_of(last, &before), ::testing::Contains(::testing::HasSubstr("CHK-GOUGE")));
 }
 
 TEST(LateNext, OfAWorkingstepNoOthersPathIsMade) {

@@ -18,13 +18,8 @@ add_test(NAME LateInterface.TheExampleForCStopsWithoutTools
           ${CMAKE_SOURCE_DIR}/tests/door/late/one_tool.tbl 5000)
 set_tests_properties(LateInterface.TheExampleForCStopsWithoutTools PROPERTIES
   PASS_REGULAR_EXPRESSION "not bound: retract and stop \\(code 4\\)")
-
-# The same workingstep by workingstep.
-add_executable(late_next ${CMAKE_SOURCE_DIR}/examples/late_next.c)
-target_link_libraries(late_next PRIVATE capstan::late_shared)
 add_test(NAME LateInterface.TheExampleForCBindsEachWorkingstepInItsTurn
-  COMMAND late_next ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
-          ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000)
+  COMMAND late_bind ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
+          ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000 next)
 set_tests_properties(LateInterface.TheExampleForCBindsEachWorkingstepInItsTurn PROPERTIES
-  PASS_REGULAR_EXPRESSION "workingstep 2 of [0-9]+: [0-9.]+ s\n"
-  FAIL_REGULAR_EXPRESSION "not bound")
+  PASS_REGULAR_EXPRESSION "workingstep 5 of 5\n" FAIL_REGULAR_EXPRESSION "not bound")

@@ -104,10 +104,10 @@ TEST_P(StoppedWork, APlanIsAnErrorAndLeavesNoFileWhereverItIsStopped) {
     EXPECT_EQ(files_in(folder.path()), 5U);
   }
   ASSERT_GT(whole.asked(), 1000U) << "it asks often";
-  const testing::ScratchFolder folder;
   std::size_t ended = 0;
   for (const std::size_t k : places(whole.asked(), 24)) {
     SCOPED_TRACE("question " + std::to_string(k) + " of " + std::to_string(whole.asked()));
+    const testing::ScratchFolder folder;  // one that ended before it was stopped leaves its files
     Counted stopped(k, GetParam());
     const auto fault = plan_and_write(folder.path(), stopped.job);
     if (stopped.asked() < k) continue;  // it ended before

@@ -25,6 +25,9 @@ namespace {
 
 using namespace capstan;
 
+// Features of plates whose plans have some 50, and some 10,000 workingsteps.
+constexpr std::size_t kFifty = 34, kTenThousand = 6667;
+
 double cpu_ms() {
   timespec t{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -174,18 +177,27 @@ int main(int argc, char** argv) {
     return 2;
   }
   Measuring m;
-  std::cerr << std::unitbuf;
   const std::string bracket =
       capstan::testing::slurp(capstan::testing::source_dir() + "/examples/bracket.p21");
-  const Early plate = early(capstan::testing::plate(22).text, pipeline::Bind::kAll);
+  // What is there so far, so that a long run that is broken off leaves it.
+  const auto write = [&] {
+    const std::string machine =
+        processor() + "," + std::to_string(std::thread::hardware_concurrency()) + "\n";
+    if (!write_file(std::string(argv[1]) + "/bind_times.csv", machine + m.rows())) m.fail("cannot write");
+  };
+  const Early plate = early(capstan::testing::plate(kFifty).text, pipeline::Bind::kAll);
   // T2 mills the plate's pockets, T3 drills.
   changed_tool(m, "length", plate, 3, "Z", 0.01, 200);
+  write();
   changed_tool(m, "diameter", plate, 2, "D", -0.0011, 100);
-  step_by_step(m, "next", early(capstan::testing::plate(22).text, pipeline::Bind::kStrategy), 10, 1000);
+  write();
+  step_by_step(m, "next", early(capstan::testing::plate(kFifty).text, pipeline::Bind::kStrategy), 10, 1000);
+  write();
   all_open(m, "bracket", early(bracket, pipeline::Bind::kStrategy), 20);
-  const Early large = early(capstan::testing::plate(4500).text, pipeline::Bind::kStrategy, plate.table);
-  step_by_step(m, "first", large, 10, 1);
-  const std::string machine = processor() + "," + std::to_string(std::thread::hardware_concurrency()) + "\n";
-  if (!write_file(std::string(argv[1]) + "/bind_times.csv", machine + m.rows())) return 1;
+  write();
+  const Early large =
+      early(capstan::testing::plate(kTenThousand).text, pipeline::Bind::kStrategy, plate.table);
+  step_by_step(m, "first", large, 20, 1);
+  write();
   return m.failed() ? 1 : 0;
 }

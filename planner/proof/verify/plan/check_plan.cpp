@@ -1,3 +1,4 @@
+#include "planner/ground/base/stopping.h"
 #include "planner/model/plan/range/positions.h"
 #include "planner/proof/verify/compared/meaning.h"
 #include "planner/proof/verify/plan/plan_checks.h"
@@ -32,9 +33,13 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_holding(plan, findings);
   check_order(plan, findings, before);
   check_coverage(plan, findings, before);
+  poll();
   const PartShapes part = shapes_of_part(plan);
+  poll();
   check_meaning(plan, findings, before != nullptr);
+  poll();
   check_within(plan, part, findings);
+  poll();
   std::vector<double> speed_shares;
   const bool swept = check_removal(plan, steps, findings, job, &speed_shares, known, before);
   check_predicted(plan, steps, speed_shares, findings);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/moves.h"
@@ -13,7 +14,7 @@
 namespace capstan::verify {
 
 struct PartShapes;
-struct CutBefore;
+using model::CutBefore;
 
 /// The moves of every step with a path whose numbers are finite; what is not becomes a finding (1).
 [[nodiscard]] std::vector<StepMoves> moves_of(const model::Plan& plan, Findings& findings);

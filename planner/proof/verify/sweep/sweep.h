@@ -4,13 +4,14 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/memo/memo.h"
+#include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/moves.h"
 
 namespace capstan::verify {
 
-struct CutBefore;
+using model::CutBefore;
 
 /// Cuts the raw piece with every move, in order, and says what must not happen: rapids through material (9,
 /// 10), gouges (11), contact beyond the flutes (13), plunges and ramps (14), a stopped spindle in the

@@ -12,6 +12,7 @@
 #include "planner/ground/geometry/mesh_corners.h"
 #include "planner/ground/geometry/placement.h"
 #include "planner/ground/geometry/region.h"
+#include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/sweep/grid/grid.h"
@@ -19,7 +20,7 @@
 
 namespace capstan::verify {
 
-struct CutBefore;
+using model::CutBefore;
 
 /// What all features of a plan are by the own reading (volumes), once for all set-ups.
 struct PartShapes {
