@@ -28,6 +28,8 @@ class Door {
   virtual Answer open(const std::string& machine, const std::string& tools) = 0;
   virtual Answer set(const std::string& option, const std::string& value) = 0;
   virtual Answer bind(const std::string& plan, unsigned deadline_ms) = 0;
+  /// The next workingsteps of a plan; an empty one: that of the last bind.
+  virtual Answer next(const std::string& plan, unsigned from, unsigned count, unsigned deadline_ms) = 0;
   virtual std::string output(const std::string& format) = 0;  ///< empty: none
   virtual std::string changes() = 0;
   virtual double machining_s() = 0;
@@ -52,6 +54,11 @@ class ThroughC : public Door {
   }
   Answer bind(const std::string& plan, unsigned deadline_ms) override {
     capstan_late_bind(session_, plan.data(), plan.size(), deadline_ms);
+    return answer();
+  }
+  Answer next(const std::string& plan, unsigned from, unsigned count, unsigned deadline_ms) override {
+    capstan_late_bind_next(session_, plan.empty() ? nullptr : plan.data(), plan.size(), from, count,
+                           deadline_ms);
     return answer();
   }
   std::string output(const std::string& format) override {
@@ -83,10 +90,13 @@ class ThroughHttp : public Door {
     return answer(client_.ask("PUT", path_ + "/state", state.dump()));
   }
   Answer bind(const std::string& plan, unsigned deadline_ms) override {
-    const auto brought = client_.ask("PUT", path_ + "/plan", plan);
-    if (brought.status != 200) return answer(brought);
-    last_ = client_.ask("POST", path_ + "/bind", nlohmann::json{{"deadline_ms", deadline_ms}}.dump()).json();
-    return {last_["code"], last_["message"]};
+    return bound(plan, {{"deadline_ms", deadline_ms}});
+  }
+  Answer next(const std::string& plan, unsigned from, unsigned count, unsigned deadline_ms) override {
+    // What reading the plan said stands in the answer to PUT.
+    const std::string read = plan.empty() ? std::string() : put(plan).message;
+    const Answer answer = bound({}, {{"deadline_ms", deadline_ms}, {"from", from}, {"next", count}});
+    return {answer.code, read + answer.message};
   }
   std::string output(const std::string& format) override {
     const auto reply = client_.ask("GET", path_ + "/output/" + format);
@@ -99,6 +109,15 @@ class ThroughHttp : public Door {
   double machining_s() override { return last_.value("machining_s", 0.0); }
 
  private:
+  Answer put(const std::string& plan) { return answer(client_.ask("PUT", path_ + "/plan", plan)); }
+  Answer bound(const std::string& plan, const nlohmann::json& asked) {
+    if (!plan.empty()) {
+      const Answer brought = put(plan);
+      if (brought.code != CAPSTAN_LATE_OK) return brought;
+    }
+    last_ = client_.ask("POST", path_ + "/bind", asked.dump()).json();
+    return {last_["code"], last_["message"]};
+  }
   static Answer answer(const Client::Reply& reply) {
     const auto json = reply.json();
     return {json.value("code", -1), json.value("message", "")};
@@ -157,6 +176,17 @@ TEST_P(Contract, SaysWhatIsWrongAndGivesNothing) {
   EXPECT_EQ(door->changes(), "none");
 }
 
+TEST_P(Contract, BindsWorkingstepByWorkingstep) {
+  ASSERT_EQ(door->open("generic_vmc", magazine_file()).code, CAPSTAN_LATE_OK);
+  const auto first = door->next(plate(), 0, 1, 600'000);
+  ASSERT_EQ(first.code, CAPSTAN_LATE_OK) << first.message;
+  const std::string program = door->output("linuxcnc");
+  EXPECT_NE(program, "");
+  const auto second = door->next("", 2, 1, 600'000);
+  ASSERT_EQ(second.code, CAPSTAN_LATE_OK) << second.message;
+  EXPECT_NE(door->output("linuxcnc"), program);
+}
+
 TEST_P(Contract, StopsWithoutTheToolsThatAPlanNeeds) {
   ASSERT_EQ(door->open("generic_vmc", testing::source_dir() + "/tests/door/late/one_tool.tbl").code,
             CAPSTAN_LATE_OK);
@@ -187,6 +217,8 @@ TEST(ContractOfBoth, TheSameQuestionsGetTheSameWordsAndBytes) {
   for (const char* format : {"iso14649", "ap238", "json", "linuxcnc", "linuxcnc_tools"})
     EXPECT_EQ(c.output(format), http.output(format)) << format;
   EXPECT_EQ(c.changes(), http.changes());
+  ASSERT_EQ(both([](Door& d) { return d.next(plate(), 0, 2, 600'000); }), CAPSTAN_LATE_OK);
+  EXPECT_EQ(c.output("linuxcnc"), http.output("linuxcnc"));
   EXPECT_EQ(c.machining_s(), http.machining_s());
 }
 

@@ -233,9 +233,16 @@ HttpReply Endpoints::left_open(const HttpRequest&, const Words& words, const Cal
 
 HttpReply Endpoints::bind(const HttpRequest& request, const Words& words, const Caller& caller) {
   return in_session(words, caller, [&](ServedSession& s) {
-    const auto read =
-        read_json_request(request.body, {{Member::Kind::kWhole, "deadline_ms"}}, limits_.json_bytes);
+    const auto read = read_json_request(request.body,
+                                        {{Member::Kind::kWhole, "deadline_ms"},
+                                         {Member::Kind::kWhole, "next"},
+                                         {Member::Kind::kWhole, "from"}},
+                                        limits_.json_bytes);
     if (!read) return refused(400, read.error());
+    const auto whole = [&](const char* name) {
+      const auto at = read->wholes.find(name);
+      return at == read->wholes.end() ? std::size_t{0} : static_cast<std::size_t>(at->second);
+    };
     const auto asked = read->wholes.find("deadline_ms");
     const auto most = static_cast<std::uint64_t>(limits_.deadline.count());
     if (asked == read->wholes.end() || asked->second > most)
@@ -246,11 +253,15 @@ HttpReply Endpoints::bind(const HttpRequest& request, const Words& words, const 
     // The caller has waited in the queue, too.
     const auto gone = std::chrono::ceil<std::chrono::milliseconds>(Clock::now() - caller.arrived);
     const auto left = std::max(std::chrono::milliseconds(asked->second) - gone, std::chrono::milliseconds(0));
-    const Code code = s.session.bind(s.plan, left);
+    // Steps are bound further in the plan that the session has: the one that was brought, or bound so far.
+    const Code code = whole("next") + whole("from") > 0
+                          ? s.session.bind_next({}, whole("from"), whole("next"), left)
+                          : s.session.bind(s.plan, left);
     metrics_.bound(status_of(code));
     s.broadcasts.plan_changed(true);
     keep_ending(s);
-    Members more = {{"machining_s", json_of(s.session.machining_s())}};
+    Members more = {{"machining_s", json_of(s.session.machining_s())},
+                    {"steps", std::to_string(s.session.steps())}};
     if (const std::string* changes = s.session.changes()) more.emplace_back("changes", json_of(*changes));
     return of_call(code, s.session.message(), more);
   });

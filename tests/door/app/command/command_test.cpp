@@ -44,7 +44,7 @@ TEST_F(CommandTest, WrongUsageEndsWithTwoAndSaysWhy) {
 }
 
 TEST_F(CommandTest, WhatIsNotSupportedYetIsSaidBeforeAnyWork) {
-  for (const char* ending : {"mpf", "nc", "h"}) {
+  for (const char* ending : {"mpf", "h"}) {
     const Ran r = run(std::string("plan missing.p21 -o plan.") + ending);
     EXPECT_EQ(r.code, 2) << ending;
     EXPECT_THAT(r.err, HasSubstr("not supported yet")) << ending;
