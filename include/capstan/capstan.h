@@ -58,6 +58,11 @@ struct PlanOptions {
   std::string may = {};      ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
   std::string time = {};     ///< of `bind_...`: when, for the plan's record; any text
   std::string control = {};  ///< in place of the machine's own: "fanuc", "haas", "linuxcnc"
+  unsigned next = 0;         ///< of `bind_...`: so many workingsteps only; 0: the whole plan
+  unsigned from = 0;  ///< of `bind_...`: the first of them, from 1; 0: the first of which something is open
+  bool stop_at_deadline =
+      false;                  ///< of `bind_...`: nothing, in time, where nothing is checked by the deadline
+  std::string measured = {};  ///< of `bind_...`: "wall=0.04,floor=-0.01", what if and while statements ask
 };
 
 /// A thing said about the input or the plan, as the command prints it.
@@ -118,8 +123,8 @@ struct CheckInput {
                                                 const PlanOptions& options = {});
 [[nodiscard]] CAPSTAN_API PlanOutput bind_file(const std::string& path, const PlanOptions& options = {});
 
-/// Proves plans and programs safe, or says what is wrong with them. Of the options machine, tools, profile,
-/// schema, threads, progress and stop count.
+/// Proves plans and programs safe, or says what is wrong with them. Of the options machine, tools, control,
+/// profile, schema, threads, progress and stop count.
 [[nodiscard]] CAPSTAN_API CheckOutput check_bytes(std::vector<CheckInput> files,
                                                   const PlanOptions& options = {});
 [[nodiscard]] CAPSTAN_API CheckOutput check_files(const std::vector<std::string>& paths,

@@ -59,6 +59,9 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.strict = true;
   o.schema = true;
   o.profile = "grbl";
+  o.next = 2;
+  o.from = 3;
+  o.stop_at_deadline = true;
   o.threads = 3;
   const service::Request r = request(o);
   EXPECT_EQ(r.machine, "a machine");
@@ -82,6 +85,9 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.deadline, std::chrono::milliseconds(200));
   EXPECT_TRUE(r.strict && r.schema);
   EXPECT_EQ(r.profile, "grbl");
+  EXPECT_EQ(r.next, 2u);
+  EXPECT_EQ(r.from, 3u);
+  EXPECT_TRUE(r.stop_at_deadline);
   EXPECT_FALSE(r.allow_findings);
   EXPECT_EQ(r.threads, 3U);
   PlanOptions all_the_same;
