@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "planner/model/plan/resources/control_options.h"
 #include "planner/proof/verify/findings.h"
@@ -74,7 +75,14 @@ bool Interpreter::gather(const Line& l, BlockWords& s) {
       }
       const bool g = w.letter == 'G';
       int& count = g ? s.g_count : s.m_count;
-      if (count < (g ? 32 : 16)) (g ? s.g : s.m)[count++] = static_cast<int>(g ? tenths : tenths / 10);
+      const std::size_t most = g ? std::size(s.g) : std::size(s.m);
+      if (static_cast<std::size_t>(count) >= most) {
+        fault(33, "CHK-CODE",
+              "the block has more than " + std::to_string(most) + " codes of " + w.letter +
+                  " and was not followed: write some of them in a block of their own");
+        return false;
+      }
+      (g ? s.g : s.m)[count++] = static_cast<int>(g ? tenths : tenths / 10);
       continue;
     }
     const int i = w.letter - 'A';
@@ -203,6 +211,7 @@ void Interpreter::motion(const BlockWords& s) {
     }
     if (is_cycle(g) && !is_cycle(motion_)) {
       has_r_ = has_z_ = false;
+      q_ = p_s_ = 0.0;  // cancelled with the cycle that stated them: 30i 5.1
       initial_ = known_[2] ? at_.z : 1e300;
     }
     if (!is_cycle(g)) rigid_ = false;
@@ -211,6 +220,10 @@ void Interpreter::motion(const BlockWords& s) {
   }
   if (s.code(280)) return way_home(s);
   const bool centre = s.is('I') || s.is('J');
+  if (!s.axes() && is_cycle(motion_) && s.is('R'))
+    return fault(26, "CHK-CYCLE",
+                 "a block of a cycle with R and no axis drills on some controls (30i 5.1) and not on others: "
+                 "state X and Y with it");
   if (!s.axes() && !(centre && (motion_ == 20 || motion_ == 30))) return;
   if (!units_stated_) {
     fault(2, "CHK-UNITS", "a move before the unit of length was stated (G20 or G21)");

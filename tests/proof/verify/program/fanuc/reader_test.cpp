@@ -125,6 +125,26 @@ TEST(FanucCycles, WhatNeedsTheMachineOrTheOperatorIsNotFollowed) {
     EXPECT_TRUE(finds(read(std::string(code) + " X5. Y6. Z-8. R2. F100.\nG80\n"), "CHK-CYCLE")) << code;
 }
 
+// B-63944EN-2/02, 5.1: the data of a cycle are cancelled with it, by G80 or by a motion.
+TEST(FanucCycles, TakeNoPeckAndNoDwellFromACycleThatWasCancelled) {
+  for (const char* cancel : {"G80\n", "G0 X5.\n"}) {
+    const std::string before = "G98 G83 X5. Y6. Z-6. R2. Q4. F100.\n" + std::string(cancel);
+    EXPECT_TRUE(finds(read(before + "G98 G83 X9. Y6. Z-6. R2. F100.\nG80\n"), "CHK-CYCLE")) << cancel;
+    const std::string waits = "G98 G82 X5. Y6. Z-8. R2. P500 F100.\n" + std::string(cancel);
+    const auto second = moves(read(waits + "G98 G82 X5. Y6. Z-8. R2. F100.\nG80\n"));
+    EXPECT_EQ(std::count(second.begin(), second.end(), "D 0.5"), 1) << cancel;
+  }
+  EXPECT_EQ(faults(read("G98 G83 X5. Y6. Z-6. R2. Q4. F100.\nX9.\nG80\n")), "");
+}
+
+// 5.1: "unless the block contains X, Y, Z, R or any additional axis, drilling is not performed".
+TEST(FanucCycles, ABlockOfACycleWithRAloneIsAFaultForItDrillsOnSomeControls) {
+  EXPECT_TRUE(finds(read("G98 G81 X5. Y6. Z-8. R2. F100.\nR5.\nG80\n"), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(read("G98 G81 R2. F100.\nX5. Y6. Z-8.\nG80\n"), "CHK-CYCLE"));
+  EXPECT_FALSE(read("G98 G81 X5. Y6. Z-8. R2. F100.\nG4 R5. P100\nG80\n").faults.empty());
+  EXPECT_EQ(faults(read("G98 G81 X5. Y6. Z-8. R2. F100.\nX9. R5.\nG80\n")), "");
+}
+
 // B-63844EN/02, 5.1: P counts milliseconds without a point; Haas: seconds with one.
 TEST(FanucReader, WaitsAsLongAsTheControlOfTheMachineDoes) {
   EXPECT_EQ(moves(read("G4 P1500\n")), (Moves{"D 1.5"}));
@@ -215,6 +235,19 @@ TEST(FanucReader, WhatIsNotFollowedIsAFault) {
                             "G20",
                             "G17 G21 X1."})
     EXPECT_FALSE(read(std::string(block) + "\n").faults.empty()) << block;
+}
+
+TEST(FanucReader, ABlockWithMoreCodesThanItKeepsIsAFault) {
+  constexpr int kMostG = 32, kMostM = 16;  // BlockSaid
+  const auto block = [](const char* code, int times) {
+    std::string out;
+    for (int i = 0; i < times; ++i) out += code;
+    return out + "\n";
+  };
+  EXPECT_FALSE(finds(read(block("G90", kMostG)), "CHK-CODE"));
+  EXPECT_TRUE(finds(read(block("G90", kMostG + 1)), "CHK-CODE"));
+  EXPECT_FALSE(finds(read(block("M8", kMostM)), "CHK-CODE"));
+  EXPECT_TRUE(finds(read(block("M8", kMostM + 1)), "CHK-CODE"));
 }
 
 TEST(FanucReader, TheTapeBeginsAndEndsWithPercent) {
