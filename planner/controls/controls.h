@@ -16,8 +16,10 @@ namespace capstan::controls {
 /// The control of that name; null when there is none.
 [[nodiscard]] const Dialect* find_dialect(std::string_view id);
 
-/// The machine with this control: its own as it is; of another the dialect, the decimals that its numbers
-/// have at most, and no options, for what the file says of one control's ways says nothing of the other's.
+/// The machine with the named control. A machine that has it comes back as it is. Of another control the
+/// machine takes the name, has no more decimals than that control writes, and loses its options: the file
+/// states them of its own control. The path tolerance stays; where programs of the named control cannot state
+/// it, `suitability` says that it is assumed (FIT-TOLERANCE).
 [[nodiscard]] model::Machine with_control(model::Machine machine, const std::string& dialect);
 
 /// Controls that are known by name and whose programs are not written yet.

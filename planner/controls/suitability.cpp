@@ -8,6 +8,7 @@
 #include "planner/controls/controls.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/resources/control_options.h"
 
 // A control keeps a programmed feed only while it could still stop within the moves that it has looked at:
 // v^2 <= 2 a s, s the length of the next moves, a the least acceleration of the axes that move (LinuxCNC:
@@ -81,6 +82,15 @@ class Suitability {
   }
 
   void of_plan() {
+    const double own = plan_.machine.control.path_tolerance_mm;
+    const bool moves = std::any_of(plan_.steps.begin(), plan_.steps.end(),
+                                   [](const StepResult& s) { return s.path != nullptr; });
+    const bool set = model::control_option(plan_.machine, "path_tolerance") == "set";
+    if (!can_.path_tolerance && own > 0.0 && moves && !set)
+      add("FIT-TOLERANCE", Severity::kWarning, {}, -1,
+          "no program of the control says how far corners are rounded: " + shortest(own) +
+              " mm of the machine's file is assumed, and a parameter of the control decides; set that "
+              "parameter, and state 'path_tolerance: set' under the machine's control");
     std::set<std::string> offsets, cutters;
     for (const model::SetupResult& s : plan_.setups) offsets.insert(s.work_offset);
     for (const StepResult& s : plan_.steps) cutters.insert(s.cutter_id);

@@ -79,10 +79,33 @@ TEST(Suitability, AToleranceThatTheProgramCannotSayIsAWarning) {
   model::Plan plan = with(straight(2, 1.0));
   plan.steps[0].contour_tolerance_mm = 0.05;
   EXPECT_THAT(codes(plan, {}), IsEmpty());
-  EXPECT_THAT(codes(plan, {.path_tolerance = false}), ElementsAre("FIT-TOLERANCE"));
-  EXPECT_EQ(suitability(plan, {.path_tolerance = false})[0].severity, Severity::kWarning);
+  const auto found = suitability(plan, {.path_tolerance = false});
+  ASSERT_EQ(found.size(), 2u);  // the assumed figure of the plan, then the step's
+  EXPECT_EQ(found[1].code, "FIT-TOLERANCE");
+  EXPECT_EQ(found[1].severity, Severity::kWarning);
+  EXPECT_THAT(found[1].message, HasSubstr("the step may be rounded by 0.05 mm"));
   plan.machine.control.decimals = 1;  // 0.1 mm
   EXPECT_THAT(codes(plan, {}), ElementsAre("FIT-TOLERANCE"));
+}
+
+TEST(Suitability, AToleranceThatOnlyTheControlsParameterSetsIsSaidOnceToBeAssumed) {
+  model::Plan plan = with(straight(2, 1.0));
+  plan.steps.push_back(plan.steps.front());
+  plan.machine.control.path_tolerance_mm = 0.02;
+  plan.machine = with_control(plan.machine, "haas");  // its programs state it: G187 E
+  EXPECT_THAT(suitability(plan), IsEmpty());
+  plan.machine = with_control(plan.machine, "fanuc");
+  const auto found = suitability(plan);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, "FIT-TOLERANCE");
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  EXPECT_EQ(found[0].step, "");
+  EXPECT_THAT(found[0].message, HasSubstr("0.02 mm of the machine's file is assumed"));
+  plan.machine.control_options = model::ControlOptions{{{"path_tolerance", "set"}}};
+  EXPECT_THAT(suitability(plan), IsEmpty());
+  plan.machine.control_options.reset();
+  plan.machine.control.path_tolerance_mm = 0.0;  // exact stop (G61): nothing is rounded
+  EXPECT_THAT(suitability(plan), IsEmpty());
 }
 
 TEST(Suitability, MovesShorterThanABlockTakesAreNotedAtTheWorst) {

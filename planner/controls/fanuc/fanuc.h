@@ -11,13 +11,20 @@ namespace capstan::controls::fanuc {
 /// and feeds, none on S, T, H, P.
 ///
 /// Path     `G64`, or `G61` without a tolerance; Haas says it with `G187 E`.
+///
 /// Length   `G43 H` in the block of the first move of Z: alone it would move Z by the offset itself.
+///
 /// Top      of Z by `G49 G53 Z`, or `G91 G28 Z0.` and `G90 G49`; both take the length offset away as they
-/// move. Tapping  `M29 S`, `G84` (`G74` for left-hand taps) with the pitch as F in G95, or pitch times speed
-/// in G94. Holes    `G81`, `G82`, `G85`, `G89` with all words in each block where they make the path's moves;
-/// pecks are
-///          explicit moves, for the first of the plan's counts from the raw piece and that of G83 from R.
+/// move.
+///
+/// Tapping  `M29 S`, `G84` (`G74` for left-hand taps) with the pitch as F in G95, or pitch times speed in
+/// G94.
+///
+/// Holes    `G81`, `G82`, `G85`, `G89` with all words in each block where they make the path's moves. Pecks
+///          are explicit moves: the plan counts the first from the raw piece, and G83 counts it from R.
+///
 /// Stops    a comment, then `M0`.
+///
 /// Source   FANUC B-63844EN/02, B-63944EN-2/02, B-63833EN-1/02; Haas 96-8000.
 extern const Dialect kFanuc;
 extern const Dialect kHaas;

@@ -25,7 +25,8 @@ struct ControlOptionRow {
 /// mill operator's manual 96-8000 ("Haas").
 inline constexpr std::array kControlOptions{
     ControlOptionRow{"cycles", "feature explicit", 0, 0, "feature", "feature",
-                     "holes as G73 to G89 where a cycle makes the path's moves, or explicit moves",
+                     "holes as G81, G82, G85 and G89, threads as G74 and G84, where a cycle makes the path's "
+                     "moves; or explicit moves",
                      "30i 5.1; Haas, canned cycles"},
     ControlOptionRow{
         "retract", "g53 g28", 0, 0, "g53", "g53",
@@ -50,6 +51,9 @@ inline constexpr std::array kControlOptions{
     ControlOptionRow{"smoothness", "yes no", 0, 0, "-", "yes",
                      "G187 P E: the step's path tolerance, and P2 for roughing, P3 for finishing",
                      "Haas G187"},
+    ControlOptionRow{"path_tolerance", "assumed set", 0, 0, "assumed", "-",
+                     "the file's path_tolerance_mm is assumed, or the control's parameter is set to it",
+                     "0i: no word of a program states it; default, unsourced"},
     ControlOptionRow{"next_tool", "staged called", 0, 0, "staged", "staged",
                      "the next tool is made ready (T) right after a change, or only called with M6",
                      "default, unsourced: the machine builder's tool changer says"},
@@ -73,9 +77,10 @@ inline constexpr std::array kControlOptions{
                      "0i appendix, tape codes"},
     ControlOptionRow{"line_length", "", 72, 255, "200", "200", "characters of a block at most",
                      "default, unsourced"},
-    ControlOptionRow{"peck_clearance_mm", "", 0, 10, "", "",
-                     "where G83 ends its rapid above the last peck; not stated: pecks are explicit moves",
-                     "30i 5.1.6 (parameter 5115); Haas setting 22"},
+    ControlOptionRow{
+        "peck_clearance_mm", "", 0, 10, "", "",
+        "where G83 ends its rapid above the last peck, for the check; programs peck by explicit moves",
+        "30i 5.1.6 (parameter 5115); Haas setting 22"},
     ControlOptionRow{"codes", "", 0, 0, "", "",
                      "the codes that this machine has, as G0 G1 M3, with blanks between; not stated: all",
                      "the machine builder's list of codes"},
