@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <set>
 
+#include "planner/ground/vocabulary/control_options.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/life/arc_speed.h"
+#include "planner/proof/verify/program/fanuc/options.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -139,6 +141,16 @@ TEST(Copies, FinishWhatTheTableSays) {
   for (std::size_t i = 0; i < model::kTypeCount; ++i) {
     const auto op = static_cast<model::TypeId>(i);
     EXPECT_EQ(finishes(op), model::has(op, model::OperationTrait::kFinishes)) << i;
+  }
+}
+
+TEST(Copies, TakeTheDefaultsOfFanucsAndHaassOptionsAsTheTableSays) {
+  for (const fanuc::OptionDefault& d : fanuc::kOptionDefaults) {
+    const auto* row = std::find_if(model::kControlOptions.begin(), model::kControlOptions.end(),
+                                   [&](const model::ControlOptionRow& r) { return r.name == d.name; });
+    ASSERT_NE(row, model::kControlOptions.end()) << d.name;
+    EXPECT_EQ(d.of_fanuc, row->of_fanuc) << d.name;
+    EXPECT_EQ(d.of_haas, row->of_haas) << d.name;
   }
 }
 

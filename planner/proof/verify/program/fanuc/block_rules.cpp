@@ -1,17 +1,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 
+#include "planner/ground/base/number.h"
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/program/fanuc/interpreter.h"
 
-// What a control refuses in one block, and what one FANUC or Haas reads otherwise than the next: a word that
-// no code of the block uses, two codes of one group (the last holds, and nobody means that), numbers without
-// their decimal points.
+// What a control refuses in one block, what this machine's has not (codes, helices, large radii), and what
+// one FANUC or Haas reads otherwise than the next: a word that no code of the block uses, two codes of one
+// group (the last holds, and nobody means that), numbers without their decimal points.
 
 namespace capstan::verify::fanuc {
+
+using model::MoveKind;
+
 namespace {
 
 /// Groups of FANUC B-63844EN/02, 3, "G code list"; 0: of its block only.
@@ -53,6 +58,9 @@ int group_of_g(int g) {
       return (g >= 730 && g <= 760) || (g >= 800 && g <= 890) ? 9 : 0;
   }
 }
+
+/// By which the two radii of an arc may differ: FANUC B-63844EN/02, 4.4 (parameter 3410), the least setting.
+constexpr double kClosureMm = 0.002;
 
 int group_of_m(int m) {
   if (m == 0 || m == 1 || m == 2 || m == 30) return 1;
@@ -160,6 +168,65 @@ void Interpreter::point_rules(const BlockWords& s) {
   const bool waits = s.is('P') && !s.code(541) && !s.code(1540) && !s.code(1870);
   if (waits && s.point['P' - 'A'] && !ways_.seconds)
     fault(33, "CHK-WORD", "P has a decimal point; this machine's P counts whole milliseconds");
+}
+
+Interpreter::ListedCodes Interpreter::listed_codes(std::string_view text) {
+  ListedCodes out;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), word.size() + 1));
+    if (word.empty()) continue;
+    out.all = false;
+    const auto number = parse_double(word.substr(1));
+    if (!number || !(*number >= 0.0 && *number < 10000.0)) continue;
+    if (word.front() == 'G') out.g.insert(static_cast<int>(std::lround(10.0 * *number)));
+    if (word.front() == 'M') out.m.insert(static_cast<int>(std::lround(*number)));
+  }
+  return out;
+}
+
+/// Each code that the machine lacks is told once, where it stands first.
+void Interpreter::known_codes(const BlockWords& s) {
+  if (ways_.codes.all) return;
+  const auto lacks = [&](const std::string& code) {
+    fault(33, "CHK-CODE",
+          "the machine's list of codes has no " + code +
+              ": write the block without it, or add it to 'codes' under the machine's control if it has it");
+  };
+  for (int i = 0; i < s.g_count; ++i) {
+    if (ways_.codes.g.insert(s.g[i]).second) lacks("G" + plain(0.1 * s.g[i]));
+  }
+  for (int i = 0; i < s.m_count; ++i) {
+    if (ways_.codes.m.insert(s.m[i]).second) lacks("M" + std::to_string(s.m[i]));
+  }
+}
+
+/// FANUC B-63844EN/02, 4.4 and 4.5.
+void Interpreter::arc_rules(const Block& b) {
+  const double radius_mm = std::max(b.radius_start, b.radius_end);
+  if (!ways_.helices && b.from.z != b.to.z)
+    fault(23, "CHK-ARC", "the arc goes up or down, and this machine's control takes no helices");
+  if (ways_.largest_radius_mm > 0.0 && radius_mm > ways_.largest_radius_mm)
+    fault(23, "CHK-ARC",
+          "the arc has a radius of " + mm(radius_mm) + "; this machine's control takes " +
+              mm(ways_.largest_radius_mm) + " at most");
+  if (!ways_.quadrants || !(b.radius_start > 0.0)) return;
+  // At either end its radii differ by as much as the control takes, or by what the last decimal rounds of end
+  // and centre.
+  const double slack_rad = 2.0 * std::max(kClosureMm, 2.0 * ways_.last_decimal_mm) / b.radius_start;
+  const double way = b.move == MoveKind::kArcCw ? -1.0 : 1.0;
+  const auto angle = [&](const geometry::Vec3& p) {
+    return way * std::atan2(p.y - b.centre.y, p.x - b.centre.x);
+  };
+  constexpr double kQuadrant = 0.5 * std::numbers::pi;
+  const double first = angle(b.from);
+  double sweep = angle(b.to) - first;
+  while (sweep <= 0.0) sweep += 4.0 * kQuadrant;
+  double next = kQuadrant * std::ceil(first / kQuadrant) - first;  // to where the quadrant ends
+  if (next <= slack_rad) next += kQuadrant;
+  if (sweep > next + slack_rad)
+    fault(23, "CHK-ARC",
+          "the arc goes on over the end of a quadrant; this machine's control takes arcs of one quadrant");
 }
 
 }  // namespace capstan::verify::fanuc

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "planner/model/plan/resources/control_options.h"
 #include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/program/fanuc/options.h"
 
 // One block after another: the frame of the tape, words, codes before the move, the move, codes behind it.
 // FANUC B-63844EN/02, 11: M00, M01, M02, M05, M09 and M30 act when the block's move has ended.
@@ -29,15 +29,19 @@ bool Interpreter::BlockWords::m_code(int code) const {
 }
 
 Interpreter::Interpreter(const model::Machine& machine) {
-  const auto is = [&](const char* name, std::string_view value) {
-    return model::control_option(machine, name) == value;
-  };
+  const auto is = [&](const char* name, std::string_view value) { return option(machine, name) == value; };
   ways_.haas = machine.control.dialect == "haas";
   ways_.seconds = is("dwell", "seconds");
   ways_.m29 = is("tap", "m29");
   ways_.proves_out = is("prove_out", "m1") || is("prove_out", "skip_m0");
-  ways_.extended_offsets = static_cast<int>(model::control_number(machine, "extended_offsets", 0.0));
-  ways_.peck_clearance_mm = model::control_number(machine, "peck_clearance_mm", 0.0);
+  ways_.quadrants = is("arcs", "quadrant");
+  ways_.helices = is("helices", "yes");
+  ways_.codes = listed_codes(option(machine, "codes"));
+  ways_.longest_block = static_cast<std::size_t>(option_number(machine, "line_length"));
+  ways_.largest_radius_mm = option_number(machine, "largest_radius_mm");
+  ways_.last_decimal_mm = std::pow(10.0, -machine.control.decimals);
+  ways_.extended_offsets = static_cast<int>(option_number(machine, "extended_offsets"));
+  ways_.peck_clearance_mm = option_number(machine, "peck_clearance_mm");
   ways_.tolerance_mm = std::max(0.0, machine.control.path_tolerance_mm);
   const model::LinearAxis& z = machine.axes[2];
   ways_.top_mm = z.travel_max_mm > z.travel_min_mm ? z.travel_max_mm : 0.0;
@@ -238,7 +242,12 @@ void Interpreter::motion(const BlockWords& s) {
     return;
   }
   if (motion_ == 0 || motion_ == 10) return straight(s, motion_ / 10, false);
-  if (motion_ == 20 || motion_ == 30) return arc(s, motion_ == 20);
+  if (motion_ == 20 || motion_ == 30) {
+    const std::size_t before = out_.blocks.size();
+    arc(s, motion_ == 20);
+    if (out_.blocks.size() > before) arc_rules(out_.blocks.back());
+    return;
+  }
   if (motion_ < 0)
     return fault(33, "CHK-UNVERIFIABLE",
                  "the words of axes have no motion: state G0, G1 or another before them");
@@ -273,6 +282,11 @@ void Interpreter::line(const Line& l, long number) {
   if (l.skipped && only_stop) return optional_stop();
   if (l.skipped)
     fault(33, "CHK-UNVERIFIABLE", "a block that may be skipped (/) is taken as not skipped", true);
+  if (l.length > ways_.longest_block)
+    fault(33, "CHK-SYNTAX",
+          "the block has " + std::to_string(l.length) + " characters; this machine's have " +
+              std::to_string(ways_.longest_block) + " at most: write it as several");
+  known_codes(s);
   word_rules(s);
   code_rules(s);
   point_rules(s);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -30,11 +31,23 @@ class Interpreter : private BlockState {
     [[nodiscard]] bool axes() const { return is('X') || is('Y') || is('Z'); }
   };
 
-  /// What the machine's file says (ground/vocabulary/control_options.h).
+  /// The codes that the machine has; `all` where its file lists none.
+  struct ListedCodes {
+    bool all = true;
+    std::set<int> g;  ///< times ten
+    std::set<int> m;
+  };
+  [[nodiscard]] static ListedCodes listed_codes(std::string_view text);
+
+  /// What the machine's file says (options.h).
   struct Ways {
     bool haas = false, seconds = false, m29 = false, proves_out = false;
     int extended_offsets = 0;
     double peck_clearance_mm = 0.0, tolerance_mm = 0.0, top_mm = 0.0;
+    bool quadrants = false, helices = true;
+    double largest_radius_mm = 0.0, last_decimal_mm = 0.0;
+    std::size_t longest_block = 0;  ///< characters
+    ListedCodes codes;
   };
 
   bool frame(const Line& l);
@@ -43,6 +56,8 @@ class Interpreter : private BlockState {
   void word_rules(const BlockWords& s);
   void code_rules(const BlockWords& s);
   void point_rules(const BlockWords& s);
+  void known_codes(const BlockWords& s);
+  void arc_rules(const Block& b);
   void set_words(const BlockWords& s);
   void state_code(int g, const BlockWords& s);
   void unit_code(bool inch, const BlockWords& s);

@@ -20,7 +20,10 @@ bool strip(std::string_view text, std::string& code, Line& out) {
       if (out.comments.back().find_first_of("%(") != std::string::npos)
         out.fault = "a comment with % or ( in it: % ends the tape wherever it stands";
       i = end;
-    } else if (text[i] != ' ' && text[i] != '\t' && text[i] != '\r') {
+      continue;
+    }
+    if (text[i] != '\r') ++out.length;
+    if (text[i] != ' ' && text[i] != '\t' && text[i] != '\r') {
       code.push_back(text[i]);
     }
   }
@@ -64,6 +67,7 @@ void split_line(std::string_view text, Line& out) {
   out.words.clear();
   out.comments.clear();
   out.fault.clear();
+  out.length = 0;
   out.percent = out.skipped = out.unverifiable = out.no_number = false;
   std::string code;
   if (!strip(text, code, out)) {

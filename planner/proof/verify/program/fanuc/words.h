@@ -16,9 +16,10 @@ struct Word {
 struct Line {
   std::vector<Word> words;
   std::vector<std::string> comments;
-  bool percent = false;  ///< the end of the tape
-  bool skipped = false;  ///< "/": passed over where the operator says so
-  std::string fault;     ///< why the rest was not read; empty when all was
+  std::size_t length = 0;  ///< characters without comments and the line's end
+  bool percent = false;    ///< the end of the tape
+  bool skipped = false;    ///< "/": passed over where the operator says so
+  std::string fault;       ///< why the rest was not read; empty when all was
   bool unverifiable = false, no_number = false;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "tests/proof/verify/plans.h"
@@ -250,6 +251,65 @@ TEST(FanucReader, ABlockWithMoreCodesThanItKeepsIsAFault) {
   EXPECT_TRUE(finds(read(block("M8", kMostM + 1)), "CHK-CODE"));
 }
 
+// What the machine's file says that its control does not take: the writer refuses it, and programs are
+// edited.
+TEST(FanucReader, ACodeThatIsNotInTheMachinesListIsAFaultOnce) {
+  const std::string listed = "G0 G01 G17 G21 G40 G43 G54 G80 G90 G94 M3 M06 M30";
+  const auto program = [&](const std::string& codes) {
+    return read("G1 X9. F100.\nM8\nM9\nM8\nG54.1 P1\n", "fanuc",
+                {{"codes", codes}, {"extended_offsets", "48"}});
+  };
+  EXPECT_EQ(faults(program("")), "");
+  EXPECT_EQ(faults(program(listed + " M8 M9 G54.1")), "");
+  const auto p = program(listed);
+  ASSERT_EQ(p.faults.size(), 3u) << faults(p);  // M8, M9 and G54.1
+  for (const auto& f : p.faults) EXPECT_EQ(f.code, "CHK-CODE");
+  EXPECT_NE(p.faults[0].message.find("no M8"), std::string::npos);
+  EXPECT_NE(p.faults[2].message.find("no G54.1"), std::string::npos);
+}
+
+// 4.5: helical interpolation is an option.
+TEST(FanucReader, AHelixIsAFaultWhereTheMachineHasNone) {
+  const std::string helix = "G1 Z0. F100.\nG2 X7. Y6. Z-1. I1. J0.\n", level = "G2 X7. Y6. I1. J0. F100.\n";
+  EXPECT_EQ(faults(read(helix)), "");
+  EXPECT_TRUE(finds(read(helix, "fanuc", {{"helices", "no"}}), "CHK-ARC"));
+  EXPECT_EQ(faults(read(level, "fanuc", {{"helices", "no"}})), "");
+}
+
+TEST(FanucReader, AnArcLargerThanTheMachineTakesIsAFault) {
+  const std::string arc = "G2 X25. Y6. I10. J0. F100.\n";  // of radius 10 mm
+  EXPECT_EQ(faults(read(arc, "fanuc", {{"largest_radius_mm", "10"}})), "");
+  EXPECT_TRUE(finds(read(arc, "fanuc", {{"largest_radius_mm", "9.999"}}), "CHK-ARC"));
+  const std::string huge = "G2 X15405. Y-15394. I0. J-15400. F100.\n";
+  EXPECT_EQ(faults(read(huge, "haas")), "");
+  EXPECT_TRUE(finds(read("G2 X15415. Y-15404. I0. J-15410. F100.\n", "haas"), "CHK-ARC"));
+}
+
+// From (5, 6): arcs about (6, 6), clockwise by way of (6, 7), and against it by way of (6, 5).
+TEST(FanucReader, AnArcOverAQuadrantsEndIsAFaultWhereTheMachineStopsThere) {
+  const std::vector<model::ControlOption> stops = {{"arcs", "quadrant"}};
+  for (const char* within :
+       {"G2 X6. Y7. I1. J0. F100.\nG2 X7. Y6. I0. J-1.\n", "G3 X6. Y5. I1. J0. F100.\nG3 X7. Y6. I0. J1.\n",
+        "G2 X5.293 Y6.707 I1. J0. F100.\nG2 X6. Y7. I0.707 J-0.707\n"})
+    EXPECT_EQ(faults(read(within, "fanuc", stops)), "") << within;
+  for (const char* over :
+       {"G2 X7. Y6. I1. J0. F100.\n", "G3 X7. Y6. I1. J0. F100.\n", "G2 X5. Y6. I1. J0. F100.\n",
+        "G2 X6.707 Y6.707 I1. J0. F100.\n", "G3 X6.707 Y5.293 I1. J0. F100.\n"}) {
+    EXPECT_TRUE(finds(read(over, "fanuc", stops), "CHK-ARC")) << over;
+    EXPECT_EQ(faults(read(over)), "") << over;
+  }
+}
+
+TEST(FanucReader, ABlockLongerThanTheMachineTakesIsAFaultAndItsCommentIsNotCounted) {
+  const std::vector<model::ControlOption> least = {{"line_length", "72"}};
+  const std::string block = "G1 X9. F100.";
+  const std::string full = block + std::string(72 - block.size(), ' ');
+  EXPECT_EQ(faults(read(full + "\n", "fanuc", least)), "");
+  EXPECT_EQ(faults(read(full + "(" + std::string(80, 'A') + ")\r\n", "fanuc", least)), "");
+  EXPECT_TRUE(finds(read(full + " \n", "fanuc", least), "CHK-SYNTAX"));
+  EXPECT_EQ(faults(read(full + " \n")), "");
+}
+
 TEST(FanucReader, TheTapeBeginsAndEndsWithPercent) {
   EXPECT_EQ(faults(read("")), "");
   const model::Machine m = machine("fanuc");
@@ -265,13 +325,32 @@ TEST(FanucReader, ContourControlEndsBeforeCyclesToolsAndTheEnd) {
   EXPECT_TRUE(finds(read("G5.1 Q1\n"), "CHK-END"));
 }
 
-TEST(FanucReader, ReadsAnyBytesToTheirEnd) {
+/// Faults and blocks are of lines that the text has, blocks stand in its order, and all numbers are finite.
+bool all_in_place(const Program& p) {
+  long before = 1;
+  for (const Block& b : p.blocks) {
+    if (b.line < before || b.line > p.lines) return false;
+    before = b.line;
+    for (const double v : {b.to.x, b.to.y, b.to.z, b.feed_mm_min, b.spindle_rpm, b.dwell_s})
+      if (!std::isfinite(v)) return false;
+  }
+  return std::all_of(p.faults.begin(), p.faults.end(), [&](const auto& f) {
+    return f.line >= 1 && f.line <= p.lines && !f.code.empty() && !f.message.empty();
+  });
+}
+
+TEST(FanucReader, ReadsAnyBytesToTheirEndAndSaysWhatItDoesNotFollow) {
+  constexpr int kTexts = 4000;
   const std::string whole =
       std::string(kStart) +
-      "G98 G83 X5. Y6. Z-6. R2. Q4. K2 F100.\nG80\nM29 S400\nG84 X5. Y6. Z-8. R5. F500.\nG80\n"
-      "G2 X7. Y6. I1. J0.\nG91 G28 Z0.\nG90 G49\nG4 P100\n(CAPSTAN STEP ID=\"<A>$20\" N=1)\nM30\n%\n";
+      "G98 G83 X5. Y6. Z-6. R2. Q4. F100.\nG80\nM29 S400\nG84 X5. Y6. Z-8. R5. F500.\nG80\n"
+      "G2 X7. Y6. I1. J0.\nG0 Z20.\nG91 G28 Z0.\nG90 G49\nG4 P100\n(CAPSTAN STEP ID=\"<A>$20\" N=1)\nM30\n%\n";
   std::mt19937 random(3);
-  for (int i = 0; i < 4000; ++i) {
+  const Program unspoilt = read_program(whole, machine("fanuc"));
+  ASSERT_EQ(faults(unspoilt), "");
+  const auto whole_moves = moves(unspoilt);
+  int changed = 0, changed_unsaid = 0;
+  for (int i = 0; i < kTexts; ++i) {
     std::string text = whole;
     for (int k = 0; k < 6; ++k) {
       const std::size_t at = random() % text.size();
@@ -279,8 +358,16 @@ TEST(FanucReader, ReadsAnyBytesToTheirEnd) {
       text.insert(std::min(at, text.size()), 1, static_cast<char>(random() % 256));
     }
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.back() == '\n' ? 0 : 1);
-    EXPECT_EQ(read_program(text, machine(i % 2 == 0 ? "fanuc" : "haas")).lines, lines) << text;
+    const Program p = read_program(text, machine(i % 2 == 0 ? "fanuc" : "haas"));
+    ASSERT_EQ(p.lines, lines) << text;
+    ASSERT_TRUE(all_in_place(p)) << text;
+    if (i % 2 != 0 || moves(p) == whole_moves) continue;  // of Fanuc's: Haas has no M29
+    ++changed;
+    changed_unsaid += p.faults.empty() ? 1 : 0;
   }
+  // Six bytes at random leave few programs that move otherwise and have no fault of their own.
+  EXPECT_GT(changed, kTexts / 4);
+  EXPECT_LT(changed_unsaid, changed / 10);
 }
 
 TEST(FanucComments, InCapitalsSayWhatTheySaidInSmallLetters) {
