@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "planner/controls/suitability.h"
 #include "planner/door/late/late.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
@@ -103,6 +104,10 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     policy.bind = request.bind;
     auto bound = pipeline::bind_checked(*read_part, *inputs, policy, job);
     if (!bound) return failed(bound.error(), code_of(bound.error(), Code::kImpossible));
+    // What its control is unable to do of the plan as a whole, which concerns no single step.
+    for (model::Finding& f : controls::suitability(bound->plan)) {
+      if (f.step.empty()) bound->findings.push_back(std::move(f));
+    }
     return Planned{std::move(bound->plan), std::move(bound->findings), policy.bind != pipeline::Bind::kAll};
   });
 }

@@ -1,13 +1,15 @@
-// Plans held against a control's profile by the check.
+// Plans held against a control's profile by the check, and by planning.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "planner/door/service/check.h"
 #include "planner/door/service/options.h"
+#include "planner/door/service/planning.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::service {
@@ -36,6 +38,22 @@ TEST(CheckProfile, AnUnknownControlIsWrongUsage) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, Code::kUsage);
   EXPECT_THAT(to_text(result.error().what), HasSubstr("grbl"));
+}
+
+// The figure of the machine's file is LinuxCNC's; no word of a program of Fanuc states it, one of Haas's
+// does.
+TEST(PlanForAControl, ThatCannotStateItsToleranceIsWarnedOfOnce) {
+  for (const char* control : {"fanuc", "haas"}) {
+    Request request;
+    EXPECT_TRUE(set(request, "control", control));
+    Job job;
+    const auto planned =
+        plan(request, {.name = testing::source_dir() + "/examples/reference_pocket.p21"}, job);
+    ASSERT_TRUE(planned) << to_text(planned.error().what);
+    const auto assumed = std::count_if(planned->findings.begin(), planned->findings.end(),
+                                       [](const model::Finding& f) { return f.code == "FIT-TOLERANCE"; });
+    EXPECT_EQ(assumed, std::string(control) == "fanuc" ? 1 : 0) << control;
+  }
 }
 
 }  // namespace

@@ -344,7 +344,8 @@ TEST(FanucReader, ReadsAnyBytesToTheirEndAndSaysWhatItDoesNotFollow) {
   const std::string whole =
       std::string(kStart) +
       "G98 G83 X5. Y6. Z-6. R2. Q4. F100.\nG80\nM29 S400\nG84 X5. Y6. Z-8. R5. F500.\nG80\n"
-      "G2 X7. Y6. I1. J0.\nG0 Z20.\nG91 G28 Z0.\nG90 G49\nG4 P100\n(CAPSTAN STEP ID=\"<A>$20\" N=1)\nM30\n%\n";
+      "G2 X7. Y6. I1. J0.\nG0 Z20.\nG91 G28 Z0.\nG90 G49\nG4 P100\n(CAPSTAN STEP ID=\"<A>$20\" "
+      "N=1)\nM30\n%\n";
   std::mt19937 random(3);
   const Program unspoilt = read_program(whole, machine("fanuc"));
   ASSERT_EQ(faults(unspoilt), "");
