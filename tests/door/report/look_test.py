@@ -108,6 +108,19 @@ class Report(unittest.TestCase):
         removed = sum(sum(s['removed_mm3']) for s in self.reports['pocket'][1]['sections'])
         self.assertAlmostEqual(pocket / removed, 1.0, delta=0.02)
 
+    def test_shows_a_path_of_any_length(self):
+        page = self.reports['pocket'][0].read_text()
+        data = json.loads(page[page.index('id="data">') + 10:].split('</script>')[0])
+        path = data['steps'][0]['path']
+        for column in path.values():
+            column.extend(column[-1:] * 200_000)
+        long = SCRATCH / 'long.html'
+        at = page.index('id="data">') + 10
+        long.write_text(page[:at] + json.dumps(data).replace('<', '\\u003c') + page[page.index('</script>', at):])
+        self.window.open(long)
+        self.assertEqual(self.window.said(), [])
+        self.assertEqual(self.window.run('return document.querySelectorAll("#tools tbody tr").length'), len(data['tools']))
+
     def test_shows_the_loads_of_a_step_below_their_limits(self):
         plan = self.opened('pocket')
         self.window.run('pick(0)')
