@@ -108,6 +108,16 @@ class Report(unittest.TestCase):
         removed = sum(sum(s['removed_mm3']) for s in self.reports['pocket'][1]['sections'])
         self.assertAlmostEqual(pocket / removed, 1.0, delta=0.02)
 
+    def test_says_what_the_command_says_of_a_part_of_the_plan_too(self):
+        plan, page = SCRATCH / 'open.json', SCRATCH / 'part.html'
+        calls = [('plan', PARTS['bracket'], '--may', 'all', '-o', plan), ('bind', plan, '--next', '2', '--from', '4', '-o', page)]
+        for call in calls:
+            done = subprocess.run([CAPSTAN, *call], capture_output=True, text=True, cwd=EXAMPLES)
+        self.window.open(page)
+        verdict = self.window.run('return by("verdict").textContent')
+        self.assertTrue(done.stderr.splitlines()[-1].startswith(verdict), (verdict, done.stderr))
+        self.assertEqual(self.window.run('return DATA.steps.length'), 2)
+
     def test_shows_a_path_of_any_length(self):
         page = self.reports['pocket'][0].read_text()
         data = json.loads(page[page.index('id="data">') + 10:].split('</script>')[0])

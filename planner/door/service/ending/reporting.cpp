@@ -26,7 +26,7 @@ report::About explained(const model::Plan& plan) {
 
 std::string report_of(const Planned& planned, const Verdict& verdict, const std::vector<Output>& outputs,
                       const Job& job) {
-  const model::Plan& plan = planned.plan;
+  const model::Plan& plan = planned.part ? *planned.part : planned.plan;
   report::About about = explained(plan);
   Ending end{.verb = Verb::kPlan,
              .late = planned.late,
