@@ -160,12 +160,12 @@ Code Session::bind_as(std::string plan, Request request) {
       }
     } const running(*this, job);
     if (const Code code = opened(job); code != Code::kDone) return code;
+    std::size_t heard = 0;
     const auto at_hand = [&]() -> Outcome<const model::Plan*> {
       if (plan.empty()) {
-        // What reading said of it holds still: an edited step is not bound.
-        if (read_) {
-          for (const Diagnostic& d : read_->said) job.report(d);
-        }
+        // What reading said of it holds still, so that an edited step is not bound; the caller has heard it.
+        for (const Diagnostic& d : read_ ? read_->said : std::vector<Diagnostic>{}) job.report(d);
+        heard = job.diagnostics().size();
         return &*last_;
       }
       return stoppable(
@@ -175,7 +175,8 @@ Code Session::bind_as(std::string plan, Request request) {
     if (at_hand && request.next && !last_) last_ = **at_hand;
     auto bound = at_hand ? bind_in(*shop_, request, **at_hand, began, job)
                          : Outcome<Planned>(tl::unexpected(at_hand.error()));
-    for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
+    const auto said = job.take_diagnostics();
+    for (std::size_t i = heard; i < said.size(); ++i) message_ += to_text(said[i]) + "\n";
     if (!bound) return end(bound.error().code, to_text(bound.error().what));
     bound_ = *std::move(bound);
     return end(bound_->late ? Code::kLate : Code::kDone);
