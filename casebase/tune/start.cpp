@@ -13,10 +13,12 @@
 namespace capstan::casebase::tune {
 namespace {
 
-/// A cut within a fiftieth of the depth or width asked is as deep and wide: as `same_setting`.
+/// Share of the depth or width asked from which on a cut counts as deep and as wide: within a fiftieth, as
+/// settings do (`same_setting`).
 constexpr double kAsMuch = 0.98;
 
-bool as_much(double cut, double asked) { return !(cut > 0.0) || !(asked > 0.0) || cut >= kAsMuch * asked; }
+/// A cut of unknown depth or width is not as deep or as wide as one that is asked.
+bool as_much(double cut, double asked) { return !(asked > 0.0) || cut >= kAsMuch * asked; }
 
 }  // namespace
 
@@ -37,7 +39,12 @@ std::optional<ProvenStart> proven_start(std::span<const Neighbour> near,
     if (!e.told.empty() && !observed.insert(e.told).second) continue;
     const bool bad = e.verdict == Verdict::kBad;
     if (!bad && !(as_much(e.cut.ap_mm, asked.ap_mm) && as_much(e.cut.ae_mm, asked.ae_mm))) continue;
+    // A cut of no named edge is no repeat on another one, and two edges of one tool share its spindle and its
+    // day.
+    const std::string& tool = near[i].found.from.tool_instance;
+    if (!bad && tool.empty()) continue;
     Evidence one = evidence_of(near[i].found, step);
+    one.edge = tool;
     one.at = {std::log(e.cut.vc_m_min / asked.vc_m_min), std::log(e.cut.fz_mm / asked.fz_mm)};
     one.source = e.run;
     one.day.reset();

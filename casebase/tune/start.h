@@ -22,9 +22,10 @@ struct ProvenStart {
 /// slower than `than`.
 ///
 /// `near` and `told` are the same cases in the same order, `told` at the terms of `asked`. A cut less deep or
-/// less wide than what is asked proves nothing. Repeats count by the edges that they were made on, never by
-/// their days, so that no clock decides; copies of one observation are one. The limits of the mechanics are
-/// not asked here: whoever takes the values holds them against those.
+/// less wide than what is asked, or of unknown depth or width, proves nothing; nor does one of an unnamed
+/// tool. Repeats count by the tools (tool_instance) that they were made with, never by their days, so that no
+/// clock decides; copies of one observation are one. The limits of the mechanics are not asked here: whoever
+/// takes the values holds them against those.
 [[nodiscard]] std::optional<ProvenStart> proven_start(std::span<const Neighbour> near,
                                                       std::span<const casebase::Evidence> told,
                                                       const Question& question, const Values& asked,

@@ -45,7 +45,8 @@ struct Held {
 
 class Conditions {
  public:
-  Conditions(const Model& m, const Measured& measured) : m_(m), measured_(measured) {}
+  Conditions(const Model& m, const Measured& measured, bool reached)
+      : m_(m), measured_(measured), reached_(reached) {}
 
   /// Nothing where a value is not known.
   [[nodiscard]] std::optional<Held> value(AnyRef condition, int depth = 0) const {
@@ -86,7 +87,8 @@ class Conditions {
     const std::string name = v->its_name.value_or("");
     if (const auto at = measured_.find(name); at != measured_.end())
       return Side{at->second, name + " (" + shortest(at->second) + ")"};
-    if (!v->initial_value) return std::nullopt;
+    // What a variable has at the beginning says nothing of what is measured until the statement is reached.
+    if (!reached_ || !v->initial_value) return std::nullopt;
     return Side{*v->initial_value, name + " (" + shortest(*v->initial_value) + " at the beginning)"};
   }
 
@@ -107,6 +109,7 @@ class Conditions {
 
   const Model& m_;
   const Measured& measured_;
+  bool reached_ = false;
 };
 
 class Branches {
@@ -157,7 +160,7 @@ class Branches {
   /// Adds what is executed in place of one element.
   Status taken(AnyRef item, int depth, Items& out) {
     Model& m = plan_.model;
-    const Conditions conditions(m, measured_);
+    const Conditions conditions(m, measured_, passed_ == bound_);
     if (depth <= kDeepest && m.holds<model::IfStatement>(item)) {
       const model::IfStatement s = m.at<model::IfStatement>(item);
       const auto held = conditions.value(s.condition);

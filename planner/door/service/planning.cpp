@@ -223,7 +223,7 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
     if (f.finding.severity != Severity::kNote) ++v.count;
   }
   for (Output& o : outputs) {
-    if (o.format->holds == Holds::kReport) o.bytes = report_of(planned, v, outputs);
+    if (o.format->holds == Holds::kReport) o.bytes = report_of(planned, v, outputs, job);
   }
   poll();  // what a stopped check did not find is not allowed by --allow-findings
   return v;

@@ -133,8 +133,9 @@ Code Session::bind_next(std::string plan, std::size_t from, std::size_t count,
 Code Session::bind_as(std::string plan, Request request) {
   const auto began = std::chrono::steady_clock::now();
   return guarded([&] {
-    // The plan that the last bind gave is what the next one goes on with.
-    if (plan.empty() && bound_ && bound_->part) last_ = std::move(bound_->plan);
+    // The plan that the last bind gave is what the next one goes on with; after a late one, whose steps
+    // nobody may have cut, that which it began with.
+    if (plan.empty() && bound_ && bound_->part && !bound_->late) last_ = std::move(bound_->plan);
     bound_.reset();
     outputs_.clear();
     message_.clear();
@@ -159,15 +160,23 @@ Code Session::bind_as(std::string plan, Request request) {
       }
     } const running(*this, job);
     if (const Code code = opened(job); code != Code::kDone) return code;
+    std::size_t heard = 0;
     const auto at_hand = [&]() -> Outcome<const model::Plan*> {
-      if (plan.empty()) return &*last_;
+      if (plan.empty()) {
+        // What reading said of it holds still, so that an edited step is not bound; the caller has heard it.
+        for (const Diagnostic& d : read_ ? read_->said : std::vector<Diagnostic>{}) job.report(d);
+        heard = job.diagnostics().size();
+        return &*last_;
+      }
       return stoppable(
           job, [&] { return read(std::move(plan), job); },
           [&]() -> Outcome<const model::Plan*> { return failed(stopped_call("plan"), Code::kImpossible); });
     }();
+    if (at_hand && request.next && !last_) last_ = **at_hand;
     auto bound = at_hand ? bind_in(*shop_, request, **at_hand, began, job)
                          : Outcome<Planned>(tl::unexpected(at_hand.error()));
-    for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
+    const auto said = job.take_diagnostics();
+    for (std::size_t i = heard; i < said.size(); ++i) message_ += to_text(said[i]) + "\n";
     if (!bound) return end(bound.error().code, to_text(bound.error().what));
     bound_ = *std::move(bound);
     return end(bound_->late ? Code::kLate : Code::kDone);

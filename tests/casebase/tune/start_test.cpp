@@ -118,6 +118,26 @@ TEST(ProvenStart, CutsLessDeepThanWhatIsAskedProveNothing) {
   EXPECT_FALSE(shop.proven());
 }
 
+TEST(ProvenStart, CutsOfUnknownDepthProveNothingWhereOneIsAsked) {
+  Shop shop;
+  shop.cuts(5, "E1", 1.0);
+  for (const char* edge : {"E1", "E1", "E2", "E2"}) shop.cut(edge, 1.1).bound.ap_mm = 0.0;
+  EXPECT_FALSE(shop.proven());
+}
+
+TEST(ProvenStart, CutsOfUnnamedToolsAndOtherEdgesOfOneToolAreNoRepeats) {
+  Shop unnamed;
+  unnamed.cuts(5, "E1", 1.0);
+  unnamed.cuts(2, "E1", 1.1);
+  unnamed.cuts(4, "", 1.1);
+  EXPECT_FALSE(unnamed.proven());
+  Shop one_tool;
+  one_tool.cuts(5, "E1", 1.0);
+  one_tool.cuts(2, "E1", 1.1);
+  for (int i = 0; i < 4; ++i) one_tool.cut("E1", 1.1).from.tool_edge = "1";
+  EXPECT_FALSE(one_tool.proven());
+}
+
 TEST(ProvenStart, FailuresAtThatSettingForbidIt) {
   Shop shop = tuned();
   for (int i = 0; i < 2; ++i) shop.cut("E2", 1.1).observed.verdict = Verdict::kBad;

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <string>
 
 #include "capstan/capstan_late.h"
 #include "planner/door/late/late.h"
+#include "planner/door/service/session.h"
 #include "planner/files/json/json.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/proof/verify/verify.h"
@@ -243,6 +245,21 @@ TEST(LateNext, WhatIsNotCheckedByTheDeadlineIsGivenUpInTimeWhereThatIsWanted) {
   const auto bound = bind(part.plan, shop_of(part.table), policy, job);
   ASSERT_FALSE(bound);
   EXPECT_EQ(bound.error().code, "LATE-NONE");
+}
+
+TEST(LateNext, AfterALateAnswerTheSameStepIsBoundAgain) {
+  const Open part = open(kBracket);
+  const std::string table = ::testing::TempDir() + "late_again.tbl";
+  std::ofstream(table) << part.table;
+  const std::string json = json::write_json(part.plan);
+  service::Session session, fresh;
+  for (service::Session* s : {&session, &fresh}) ASSERT_EQ(s->set("tools", table), service::Code::kDone);
+  ASSERT_EQ(session.take(json), service::Code::kDone);
+  ASSERT_EQ(session.bind_next({}, 0, 1, std::chrono::milliseconds(0)), service::Code::kLate)
+      << session.message();
+  ASSERT_EQ(session.bind_next({}, 0, 1, std::nullopt), service::Code::kDone) << session.message();
+  ASSERT_EQ(fresh.bind_next(json, 1, 1, std::nullopt), service::Code::kDone) << fresh.message();
+  EXPECT_EQ(*session.output("linuxcnc"), *fresh.output("linuxcnc"));
 }
 
 TEST(LateInterface, BindsTheNextWorkingstepsOfThePlanThatItHas) {

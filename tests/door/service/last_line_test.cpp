@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace capstan::service {
 namespace {
@@ -107,6 +108,22 @@ TEST(LastLine, ALatePlanIsCalledThat) {
 
 TEST(LastLine, APlanWithoutStepsIsNotCalledSafe) {
   EXPECT_EQ(last_line({}), "Nothing to machine: no step, no tool");
+}
+
+TEST(LastLine, IsCalledSafeOnlyWhereItSaysSo) {
+  std::vector<Ending> all(11, planned());
+  all[1].condemned = 1;
+  all[2].open = true;
+  all[3].stopped = true;
+  all[4].unproved = 1;
+  all[5].unread = 1;
+  all[6].steps = 0;
+  all[7].warned = 1;
+  all[8].unplanned = 1;
+  all[9].late = true;
+  all[10].done = false;
+  for (const Ending& end : all)
+    EXPECT_EQ(calls_safe(end), last_line(end).starts_with("Safe")) << last_line(end);
 }
 
 TEST(LastLine, OfACheckCountsFiles) {

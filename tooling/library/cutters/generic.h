@@ -12,7 +12,7 @@
 
 namespace capstan::tooling {
 
-/// The generic library: tooling/data/cutters.yaml and series/*.yaml there expanded, some 800 sizes, ids
+/// The generic library: tooling/data/cutters.yaml and series/*.yaml there expanded, some 900 sizes, ids
 /// "generic/<series>/<size>".
 /// None can be bought by this name; every number says "default: ..." in Cutter::sources.
 /// Presets: one per shipped material, and one per ISO 513 group for materials of other tables.

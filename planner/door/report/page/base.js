@@ -19,6 +19,9 @@ function svg(name, attributes, ...children) { return fill(document.createElement
 function by(id) { return document.getElementById(id); }
 function drop(element) { while (element.firstChild) element.removeChild(element.firstChild); return element; }
 
+// Of lists of any length; a call may have only so many arguments.
+function most(values, least = 0) { return values.reduce((a, b) => (b > a ? b : a), least); }
+function least(values, most = Infinity) { return values.reduce((a, b) => (b < a ? b : a), most); }
 function number(value, digits) {
   if (value === null || value === undefined || !isFinite(value)) return '-';
   return String(Number(Number(value).toFixed(digits)));

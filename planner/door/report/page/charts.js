@@ -30,8 +30,8 @@ const CHARTS = [['feed', 'mm/min'], ['depth', 'mm'], ['width', 'mm'], ['force', 
 function chart(step, name, unit) {
   const l = step.loads, values = l.columns[name], stated = l.limits[name];
   const limits = values.map((v, i) => (Array.isArray(stated) ? stated[i] : stated || 0) / l.margin);
-  const most = Math.max(...values, 0), least = Math.min(...limits.filter(v => v > 0)), near = least < 4 * most;
-  const top = 1.08 * Math.max(most, near ? Math.min(Math.max(...limits), 2 * most) : 0) || 1, w = 480, h = 150, left = 46, bottom = 18;
+  const peak = most(values), low = least(limits.filter(v => v > 0)), near = low < 4 * peak;
+  const top = 1.08 * Math.max(peak, near ? Math.min(most(limits), 2 * peak) : 0) || 1, w = 480, h = 150, left = 46, bottom = 18;
   const length = Math.max(l.at[l.at.length - 1], 1e-9), x = at => left + (w - left - 6) * at / length, y = v => h - bottom - (h - bottom - 8) * Math.min(v, top) / top;
   const line = column => column.map((v, i) => (i ? 'L' : 'M') + number(x(l.at[i]), 1) + ' ' + number(y(v), 1)).join('');
   const root = svg('svg', {viewBox: `0 0 ${w} ${h}`, role: 'img', 'aria-label': name + ' along the path'});
@@ -39,8 +39,8 @@ function chart(step, name, unit) {
   root.append(svg('path', {d: line(values), fill: 'none', stroke: '#3b6ea5', 'stroke-width': 1.2}));
   if (near) root.append(svg('path', {d: line(limits), fill: 'none', stroke: '#c0392b', 'stroke-dasharray': '5 3'}));
   root.append(svg('text', {x: left, y: h - 4}, '0'), svg('text', {x: w - 60, y: h - 4}, number(length, 0) + ' mm'));
-  const said = isFinite(least) ? '; limit of the expected load ' + number(least, least < 1 ? 3 : 1) : '';
-  return el('figure', {}, root, el('figcaption', {}, name + ', ' + unit + ': at most ' + number(most, most < 1 ? 4 : 1) + said));
+  const said = isFinite(low) ? '; limit of the expected load ' + number(low, low < 1 ? 3 : 1) : '';
+  return el('figure', {}, root, el('figcaption', {}, name + ', ' + unit + ': at most ' + number(peak, peak < 1 ? 4 : 1) + said));
 }
 
 function chartsOf(step) {

@@ -49,12 +49,12 @@ function byMove(step, column) {
 const COLOURS = {
   step: {title: 'step', legend: () => 'each step its own colour'},
   feed: {title: 'feed', legend: top => 'feed from 0 to ' + number(top, 0) + ' mm/min',
-    top: steps => Math.max(1, ...steps.map(s => Math.max(0, ...pointsOf(s).feed.filter((f, i) => !pointsOf(s).rapid[i])))),
+    top: steps => most(steps.map(s => most(pointsOf(s).feed.filter((f, i) => !pointsOf(s).rapid[i]))), 1),
     of: step => { const p = pointsOf(step); return i => p.feed[i]; }},
 };
 for (const [name, unit] of [['power', 'W'], ['torque', 'Nm'], ['force', 'N'], ['width', 'mm'], ['depth', 'mm']]) {
   COLOURS[name] = {title: name, legend: top => name + ' from 0 to ' + number(top, 2) + ' ' + unit,
-    top: steps => Math.max(1e-9, ...steps.map(s => (s.loads && s.loads.columns ? Math.max(0, ...s.loads.columns[name]) : 0))),
+    top: steps => most(steps.map(s => (s.loads && s.loads.columns ? most(s.loads.columns[name]) : 0)), 1e-9),
     of: step => { const m = byMove(step, name), p = pointsOf(step); return i => m.get(p.move[i]) || 0; }};
 }
 function stepColour(i) {

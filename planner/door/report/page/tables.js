@@ -25,7 +25,7 @@ function findingsList(pick) {
 }
 
 function operationsTable(pick) {
-  const longest = Math.max(...DATA.steps.map(stepTime), 1e-9);
+  const longest = most(DATA.steps.map(stepTime), 1e-9);
   const bar = s => el('span', {class: 'timebar', style: 'width:' + number(100 * stepTime(s) / longest, 1) + '%'});
   return table([['', true, (s, i) => i + 1], ['step', false, s => s.id], ['feature', false, s => s.feature], ['operation', false, s => plain(s.operation)],
     ['tool', false, s => toolName(toolOf(s))], ['D', true, s => (toolOf(s) ? number(toolOf(s).diameter, 3) : '-')],
@@ -62,7 +62,7 @@ function setupFigure(setup, n) {
   const hold = setup.holding, rows = [['zero', setup.offset + (setup.zero ? ': ' + setup.zero : '')], ['lies', setup.up + ' up, ' + setup.right + ' to the right' + (setup.turn ? '; ' + setup.turn : '')],
     ['pick-up', hold.pickup_text || '-'], ['held by', hold.id ? hold.id + (hold.text ? ', ' + hold.text : '') : 'not stated: fixtures and clamps are not checked'],
     ['security plane', 'Z ' + number(setup.security, 3)], ['steps', String(steps.length)],
-    ['least Z', number(Math.min(...steps.flatMap(s => (s.step.path ? s.step.path.z : [])), Infinity) / 1000, 3)]];
+    ['least Z', number(least(steps.map(s => (s.step.path ? least(s.step.path.z) : Infinity))) / 1000, 3)]];
   return el('div', {class: 'flat'}, el('div', {}, el('h3', {}, 'Set-up ' + (n + 1)), el('dl', {}, ...rows.flatMap(([a, b]) => [el('dt', {}, a), el('dd', {}, b)]))),
     el('figure', {}, flatView(setup, steps.map(s => ({step: s.step, colour: css(stepColour(s.i)), upTo: Infinity})), 'set-up ' + (n + 1)), el('figcaption', {}, 'from above; rapids dashed')));
 }

@@ -81,6 +81,11 @@ std::string_view program_text(const Ending& end) {
 
 }  // namespace
 
+bool calls_safe(const Ending& end) {
+  return end.done && end.condemned == 0 && !end.stopped && !end.open && doubts(end).empty() &&
+         (end.steps > 0 || end.verb == Verb::kCheck);
+}
+
 std::string last_line(const Ending& end) {
   if (!end.done) return nothing_done(end);
   std::string head;

@@ -60,6 +60,9 @@ struct Ending {
 /// and nothing condemns the plan or its program.
 [[nodiscard]] std::string last_line(const Ending& end);
 
+/// True if that line says "Safe", whole or not.
+[[nodiscard]] bool calls_safe(const Ending& end);
+
 /// Number of errors from that index on, without those of planning, which lists unplanned features itself
 /// (Plan::unplanned).
 [[nodiscard]] std::size_t reading_errors(const std::vector<Diagnostic>& said, std::size_t from = 0);

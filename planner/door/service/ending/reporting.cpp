@@ -24,16 +24,20 @@ report::About explained(const model::Plan& plan) {
 
 }  // namespace
 
-std::string report_of(const Planned& planned, const Verdict& verdict, const std::vector<Output>& outputs) {
-  const model::Plan& plan = planned.plan;
+std::string report_of(const Planned& planned, const Verdict& verdict, const std::vector<Output>& outputs,
+                      const Job& job) {
+  const model::Plan& plan = planned.part ? *planned.part : planned.plan;
   report::About about = explained(plan);
-  Ending end{.verb = Verb::kPlan, .open = planned.open};
+  Ending end{.verb = Verb::kPlan,
+             .late = planned.late,
+             .open = planned.open,
+             .unread = reading_errors(job.diagnostics())};
   take_plan(plan, end);
   take_verdict(plan, verdict, end);
   about.verdict = last_line(end);
-  about.judged = !verdict.condemned.empty()          ? report::Judged::kNotSafe
-                 : about.verdict.starts_with("Safe") ? report::Judged::kSafe
-                                                     : report::Judged::kNotChecked;
+  about.judged = !verdict.condemned.empty() ? report::Judged::kNotSafe
+                 : calls_safe(end)          ? report::Judged::kSafe
+                                            : report::Judged::kNotChecked;
   for (const model::Condemnation& c : verdict.condemned) about.condemned.push_back(model::text_of(plan, c));
   for (const FileFinding& f : verdict.findings) about.findings.push_back({f.file, f.program, f.finding});
   const auto program = std::find_if(outputs.begin(), outputs.end(), is_program);

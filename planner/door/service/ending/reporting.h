@@ -7,10 +7,11 @@
 
 namespace capstan::service {
 
-/// The report of a plan that was judged: with the verdict, findings and decisions, and the program among the
-/// outputs, if it is given. Needs the outputs' bytes.
+/// The report of a plan that was judged, of the workingsteps bound now where only some were: with the
+/// verdict, findings and decisions, and the program among the outputs, if it is given. Needs the outputs'
+/// bytes; errors in reading are among the job's diagnostics.
 [[nodiscard]] std::string report_of(const Planned& planned, const Verdict& verdict,
-                                    const std::vector<Output>& outputs);
+                                    const std::vector<Output>& outputs, const Job& job);
 /// The same of a plan that nobody judged here.
 [[nodiscard]] std::string report_of(const model::Plan& plan);
 

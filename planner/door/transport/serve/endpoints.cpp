@@ -254,7 +254,7 @@ HttpReply Endpoints::bind(const HttpRequest& request, const Words& words, const 
     const auto gone = std::chrono::ceil<std::chrono::milliseconds>(Clock::now() - caller.arrived);
     const auto left = std::max(std::chrono::milliseconds(asked->second) - gone, std::chrono::milliseconds(0));
     // Steps are bound further in the plan that the session has: the one that was brought, or bound so far.
-    const Code code = whole("next") + whole("from") > 0
+    const Code code = whole("next") > 0 || whole("from") > 0
                           ? s.session.bind_next({}, whole("from"), whole("next"), left)
                           : s.session.bind(s.plan, left);
     metrics_.bound(status_of(code));

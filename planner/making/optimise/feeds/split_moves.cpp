@@ -21,6 +21,10 @@ constexpr double kLeastPiece = 0.2;
 /// A cut has to save this much, s: it costs a block of program. Default, unsourced.
 constexpr double kWorthS = 0.005;
 
+/// By how much of its slope a piece may be steeper than its move, rounded to the program's digits: what the
+/// check allows beyond a ramp's angle, rad.
+constexpr double kSlopeToSpare = 1e-4;
+
 /// A stretch of a move and its largest feed.
 struct Piece {
   double end_mm = 0.0, length_mm = 0.0, feed = 0.0;
@@ -119,6 +123,29 @@ void join(std::vector<Piece>& p, double least_mm) {
     }
     if (lost_s(p[cheapest], p[cheapest + 1]) >= kWorthS) break;
     merge(p, cheapest);
+  }
+}
+
+/// On a slope, each end between two pieces goes to a whole number of the program's digits from an end of the
+/// move: rounded, a short piece would be steeper than its move, which may be as steep as the cutter bears.
+/// What the move's own ends are rounded by stays in its longest piece. The slower of both pieces grows.
+void end_on_digits(std::vector<Piece>& p, double drop_mm, double length_mm, double digit_mm) {
+  if (drop_mm == 0.0 || p.size() < 2) return;
+  const auto by_length = [](const Piece& a, const Piece& b) { return a.length_mm < b.length_mm; };
+  const auto longest = static_cast<std::size_t>(std::max_element(p.begin(), p.end(), by_length) - p.begin());
+  const double each =
+      digit_mm * length_mm / std::abs(drop_mm);  // length of path in which the height changes by a digit
+  for (std::size_t k = 0; k + 1 < p.size(); ++k) {
+    const double shortest = std::min(p[k].length_mm, p[k + 1].length_mm);
+    if (digit_mm <= kSlopeToSpare * shortest) continue;
+    const double from = k < longest ? 0.0 : length_mm;
+    const double digits = (p[k].end_mm - from) / each;
+    const bool later = p[k].feed <= p[k + 1].feed;
+    const double by = from + each * (later ? std::ceil(digits) : std::floor(digits)) - p[k].end_mm;
+    if (!(std::abs(by) < 0.5 * shortest)) continue;  // all but level: a digit is far away
+    p[k].end_mm += by;
+    p[k].length_mm += by;
+    p[k + 1].length_mm -= by;
   }
 }
 
@@ -246,6 +273,8 @@ void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s) {
     if (may_be_cut(q, path, i) && first < next && length > least) {
       pieces = pieces_of.of(i, first, next, length, least);
       join(pieces, least);
+      end_on_digits(pieces, path.z[i] - path.z[i - 1], length,
+                    std::pow(10.0, -q.cut.machine.control.decimals));
     }
     if (pieces.empty()) pieces.push_back({length, length, 0.0});
     renumber(

@@ -72,6 +72,20 @@ Result<Near> near_of(const PlanSoFar& p, const StepDraft& step, const model::Fea
   return out;
 }
 
+/// As the table's values, with the deepest and the widest cut that may be chosen where depth or width are
+/// open: what was proven in a lighter cut is not proven for that one.
+Values heaviest(Values table, const optimise::CutQuestion& q) {
+  if (!mills(q)) return table;
+  const auto least_of = [](double a, double b) { return b > 0.0 ? std::min(a, b) : a; };
+  if (!(table.ap_mm > 0.0))
+    table.ap_mm = least_of(least_of(q.depth_mm, q.cutter.maximum_depth_of_cut_mm), q.ap_most_mm);
+  if (!(table.ae_mm > 0.0)) {
+    const double d = q.cutter.cutting_diameter_mm;
+    table.ae_mm = q.slot ? d : least_of(optimise::kRoughWidthRatio * d, q.width_mm);
+  }
+  return table;
+}
+
 /// Starts from tuned values where there are some that are faster and likely enough to go well.
 void take_proven(FromCases& out, const Near& near, const Values& table, double least_fz_mm) {
   Advice& a = out.advice;
@@ -107,7 +121,7 @@ std::optional<FromCases> start_from_cases(const PlanSoFar& p, const StepDraft& s
   const auto near = near_of(p, step, shape, q, table.fz_mm);
   if (!near) out.why_unasked = near.error().message;
   out.advice = casebase::advise(near ? near->told : std::vector<Evidence>{}, table, least_fz_mm);
-  if (near) take_proven(out, *near, table, least_fz_mm);
+  if (near) take_proven(out, *near, heaviest(table, q), least_fz_mm);
   if (!out.bind()) return out;
   Values& start = out.advice.start;
   if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)

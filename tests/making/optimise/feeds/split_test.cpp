@@ -33,6 +33,29 @@ TEST(SplitMoves, SeparatesAHeavyEndFromALightMove) {
   for (const CutSample& s : q.samples) EXPECT_EQ(s.move, s.ap_mm > 4.0 ? 2U : 1U);
 }
 
+TEST(SplitMoves, MakesNoPieceOfARampSteeperThanItIsByTheProgramsDigits) {
+  FeedQuestion q = question();
+  q.cut.machine.control.decimals = 3;
+  const auto written = [](double v) { return std::round(1000.0 * v) / 1000.0; };
+  const double slope = std::tan(3.0 * pi / 180.0);
+  for (int i = 0; i < 200; ++i) {
+    q.cut.peak_force_limit_n = 500.0;
+    q.samples.clear();
+    const double from = -1.0 - 0.000137 * i;
+    CutterPath p;
+    p.start({0, 0, from});
+    p.line({20, 0, from - slope * (20.0 - 0.005) + 0.001}, MoveRole::kRamp);
+    cut_along(q, p, 1, 8.0, 8.0, 0.0, 2.2 + 0.003 * i);
+    cut_along(q, p, 1, 1.0, 1.0, 2.2 + 0.003 * i);
+    split_moves(q, p, nullptr);
+    ASSERT_EQ(p.size(), 3U);
+    for (std::size_t k = 1; k < p.size(); ++k) {
+      const double along = written(p.x[k]) - written(p.x[k - 1]);
+      EXPECT_LE(std::atan((written(p.z[k - 1]) - written(p.z[k])) / along), std::atan(slope) + 1e-4) << i;
+    }
+  }
+}
+
 TEST(SplitMoves, CutsAFullCircleWhereItsEntryEnds) {
   FeedQuestion q = question();
   q.cut.peak_force_limit_n = 500.0;

@@ -67,8 +67,9 @@ RequestReader::State RequestReader::take(std::string_view bytes) {
     const std::size_t used = p.message->put(boost::asio::buffer(p.pending), ec);
     p.pending.erase(0, used);
     if (ec == http::error::need_more) {
-      // Beast looks at its limit when the header's end is there; a peer may never send it.
-      if (p.message->is_header_done() || p.pending.size() <= p.header_bytes) return State::kMore;
+      // Beast looks at its limit when the end of the header, or of a chunk's first line, is there; a peer may
+      // never send it.
+      if (p.pending.size() <= p.header_bytes) return State::kMore;
       ec = http::error::header_limit;
     }
     if (ec) {

@@ -65,6 +65,15 @@ TEST_F(Http, RefusesWhatIsTooLongWithoutKeepingIt) {
   EXPECT_EQ(most.take("POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\n0123456789"), State::kWhole);
 }
 
+TEST_F(Http, TheFirstLineOfAChunkHasAnEnd) {
+  RequestReader reader(200, 1000);
+  auto state = reader.take("PUT /v1/sessions/s1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n");
+  std::size_t sent = 0;
+  for (; state == State::kMore && sent < 10'000; ++sent) state = reader.take("1");
+  EXPECT_EQ(state, State::kWrong);
+  EXPECT_LT(sent, 1000u);
+}
+
 TEST_F(Http, RefusesALongHeaderAs431) {
   RequestReader reader(100, 1000);
   ASSERT_EQ(reader.take("GET / HTTP/1.1\r\nX: " + std::string(200, 'a') + "\r\n\r\n"), State::kWrong);
