@@ -2,30 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
+#include "planner/ground/base/text.h"
+
 namespace capstan::casebase {
 namespace {
 
+/// What XML does not take, control characters, as blanks.
 std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
+  std::string plain(text);
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return xml_escaped(plain);
 }
 
 }  // namespace

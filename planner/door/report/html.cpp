@@ -5,6 +5,7 @@
 
 #include "planner/door/report/data.h"
 #include "planner/door/report/report.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::report {
 
@@ -23,23 +24,6 @@ std::string_view ending(std::string_view end) {
   return {};
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string_view class_of(Judged j) {
   return j == Judged::kSafe ? "safe" : j == Judged::kNotSafe ? "unsafe" : "unchecked";
 }
@@ -56,9 +40,9 @@ std::string scripts() {
 
 /// `{{name}}` of the template.
 std::string part(std::string_view name, const model::Plan& plan, const About& about) {
-  if (name == "title") return escaped(plan.file_name);
+  if (name == "title") return xml_escaped(plan.file_name);
   if (name == "judged") return std::string(class_of(about.judged));
-  if (name == "verdict") return escaped(about.verdict);
+  if (name == "verdict") return xml_escaped(about.verdict);
   if (name == "style") return std::string(embedded_file("style.css"));
   if (name == "data") return data_of(plan, about);
   if (name == "library") return draws_in_three_dimensions() ? library() : std::string();

@@ -25,5 +25,9 @@ TEST(DegText, IsInDegrees) {
   EXPECT_EQ(deg_text(0.1, 2), "5.73 deg");
 }
 
+TEST(Text, IsEscapedWithWhatXmlReadsAsMarkup) {
+  EXPECT_EQ(xml_escaped("a <b> & \"c\" 'd'"), "a &lt;b&gt; &amp; &quot;c&quot; 'd'");
+}
+
 }  // namespace
 }  // namespace capstan

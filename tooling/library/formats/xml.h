@@ -29,7 +29,4 @@ struct XmlNode {
 /// Fails  XML-SYNTAX, XML-DEPTH, FILE-TOO-LARGE, with file and line.
 [[nodiscard]] Result<XmlNode> parse_xml(std::string_view bytes, const std::string& file);
 
-/// The text with & < > " as entities.
-[[nodiscard]] std::string xml_escaped(std::string_view text);
-
 }  // namespace capstan::tooling

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/item/item.h"
 #include "tooling/library/formats/mtconnect/mtconnect.h"
