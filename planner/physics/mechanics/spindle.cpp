@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/machine.h"
 
 namespace capstan::mechanics {
 namespace {
@@ -53,6 +54,13 @@ Result<SpindleCapacity> SpindleCurve::at(double rpm) const {
   const double t = (rpm - below->rpm) / (above->rpm - below->rpm);
   return capacity(below->power_w + t * (above->power_w - below->power_w),
                   below->torque_nm + t * (above->torque_nm - below->torque_nm), rpm);
+}
+
+Result<SpindleCurve> curve_of(const model::Spindle& spindle) {
+  std::vector<SpindlePoint> points;
+  points.reserve(spindle.curve.size());
+  for (const model::SpindlePoint& p : spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
+  return SpindleCurve::make(std::move(points));
 }
 
 }  // namespace capstan::mechanics

@@ -4,6 +4,10 @@
 
 #include "planner/ground/base/result.h"
 
+namespace capstan::model {
+struct Spindle;
+}
+
 /// Power and torque of a spindle at a speed.
 namespace capstan::mechanics {
 
@@ -42,5 +46,9 @@ class SpindleCurve {
   explicit SpindleCurve(std::vector<SpindlePoint> points) : points_(std::move(points)) {}
   std::vector<SpindlePoint> points_;
 };
+
+/// The curve of a machine's spindle, of the gear in use.
+/// Fails     SPINDLE-CURVE.
+[[nodiscard]] Result<SpindleCurve> curve_of(const model::Spindle& spindle);
 
 }  // namespace capstan::mechanics

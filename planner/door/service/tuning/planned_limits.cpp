@@ -38,9 +38,7 @@ constexpr double kBeyond = 2.0;  // of a limit: no speed or feed there may be pr
 
 /// The power of the spindle at a speed; 0: not known.
 double power_at(const model::Machine& machine, double rpm) {
-  std::vector<mechanics::SpindlePoint> points;
-  for (const auto& p : machine.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
-  const auto curve = mechanics::SpindleCurve::make(std::move(points));
+  const auto curve = mechanics::curve_of(machine.spindle);
   if (!curve) return 0.0;
   const auto capacity = curve->at(rpm);
   return capacity ? capacity->power_w : 0.0;

@@ -63,11 +63,7 @@ Range speeds(const CutQuestion& q) {
 }
 
 std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q) {
-  if (q.machine.spindle.curve.empty()) return std::nullopt;
-  std::vector<mechanics::SpindlePoint> points;
-  points.reserve(q.machine.spindle.curve.size());
-  for (const auto& p : q.machine.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
-  auto curve = mechanics::SpindleCurve::make(std::move(points));
+  auto curve = mechanics::curve_of(q.machine.spindle);
   if (!curve) return std::nullopt;
   return *std::move(curve);
 }
