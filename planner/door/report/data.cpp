@@ -81,9 +81,7 @@ Json setup_of(const model::Plan& plan, std::size_t n) {
           {"holding",
            {{"id", s.holding.id},
             {"text", s.holding.description},
-            {"pickup", point(s.holding.pickup)},
             {"pickup_text", s.holding.pickup_text},
-            {"clearance", s.holding.clearance_mm},
             {"force", s.holding.holding_force_n},
             {"solids", solids}}}};
 }
@@ -131,7 +129,6 @@ Json tool_of(const model::Plan& plan, const model::Cutter& c) {
           {"out", c.stick_out_mm},
           {"length", c.functional_length_mm},
           {"shank", c.shank_diameter_mm},
-          {"neck", {c.neck_diameter_mm, c.neck_length_mm}},
           {"holder", holder},
           {"holder_diameter", c.holder_diameter_mm},
           {"outline", outline_of(c)},
@@ -182,11 +179,9 @@ Json step_of(const model::Plan& plan, std::size_t n, const std::string& id, cons
       feature = f->its_id.value_or("");
     if (ws->its_operation.set()) operation = model::noun_type(ws->its_operation.type).keyword;
   }
-  Json held = Json::array(), exceeded = Json::array();
+  Json held = Json::array();
   for (const model::LimitAlongPath& h : s.held_by)
-    held.push_back({{"name", h.name}, {"share", short_of(h.share, 3)}, {"saves", short_of(h.saves_s, 3)}});
-  for (const model::ExceededLimit& e : s.exceeded)
-    exceeded.push_back({{"name", e.name}, {"value", e.value}, {"limit", e.limit}, {"unit", e.unit}});
+    held.push_back({{"name", h.name}, {"share", short_of(h.share, 3)}});
   const model::Cutter* cutter = model::find_cutter(plan, s.cutter_id);
   return {{"id", id},
           {"feature", feature},
@@ -206,7 +201,6 @@ Json step_of(const model::Plan& plan, std::size_t n, const std::string& id, cons
           {"cutting_s", short_of(s.cutting_s, 6)},
           {"rapid_s", short_of(s.rapid_s, 6)},
           {"held_by", held},
-          {"exceeded", exceeded},
           {"path", path_of(s)},
           {"loads", loads_of(loads_along(plan, s))},
           {"explained", n < about.explained_steps.size() ? about.explained_steps[n] : std::string()}};

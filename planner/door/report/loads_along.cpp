@@ -41,13 +41,14 @@ class Loads {
     question_.feed_mm_min = step.feed_mm_min;
   }
 
-  [[nodiscard]] Load at(const optimise::CutSample& s, double feed, double rpm) const {
+  [[nodiscard]] Load at(const optimise::CutSample& s, double feed, double rpm) {
     if (!(s.csa_mm2 > 0.0) || !(feed > 0.0) || rpm == 0.0) return {};
     if (!milled_)
       return {step_.loads.peak_force_n / margin_, step_.loads.torque_nm / margin_,
               step_.loads.power_w / margin_, step_.loads.deflection_mm / margin_};
     using model::Limit;
-    const optimise::feed::CutLoads loads(question_, rpm);
+    if (!loads_ || rpm_ != rpm) loads_.emplace(question_, rpm_ = rpm);
+    const optimise::feed::CutLoads& loads = *loads_;
     Load out;
     const auto take = [&](const std::optional<optimise::feed::State>& state) {
       if (!state) return;
@@ -70,18 +71,16 @@ class Loads {
   bool milled_ = true;
   double margin_ = 1.0;
   optimise::FeedQuestion question_;
+  std::optional<optimise::feed::CutLoads> loads_;  ///< at rpm_: cutter, law and limits are worked out once
+  double rpm_ = 0.0;
 };
 
 /// What the spindle gives to the cut at a speed.
 class Spindle {
  public:
   explicit Spindle(const model::Machine& machine)
-      : share_(mechanics::spindle_efficiency(machine.spindle.efficiency)) {
-    std::vector<mechanics::SpindlePoint> points;
-    for (const model::SpindlePoint& p : machine.spindle.curve)
-      points.push_back({p.rpm, p.power_w, p.torque_nm});
-    if (auto curve = mechanics::SpindleCurve::make(std::move(points))) curve_ = *std::move(curve);
-  }
+      : share_(mechanics::spindle_efficiency(machine.spindle.efficiency)),
+        curve_(mechanics::curve_of(machine.spindle)) {}
   [[nodiscard]] mechanics::SpindleCapacity at(double rpm) const {
     if (!curve_) return {};
     const auto there = curve_->at(std::abs(rpm));
@@ -91,7 +90,7 @@ class Spindle {
 
  private:
   double share_ = 1.0;
-  std::optional<mechanics::SpindleCurve> curve_;
+  Result<mechanics::SpindleCurve> curve_;
 };
 
 /// A section as a sample of its own. Between two sections the feed schedule counts the larger; a chart shows
@@ -113,9 +112,9 @@ optimise::CutSample sample_at(const model::SectionSeries& s, std::size_t i, cons
 }
 
 using Column = std::vector<double> LoadsAlong::*;
-constexpr std::array<Column, 8> kColumns = {
-    &LoadsAlong::feed_mm_min, &LoadsAlong::depth_mm,  &LoadsAlong::width_mm, &LoadsAlong::area_mm2,
-    &LoadsAlong::force_n,     &LoadsAlong::torque_nm, &LoadsAlong::power_w,  &LoadsAlong::deflection_mm};
+constexpr std::array<Column, 7> kColumns = {
+    &LoadsAlong::feed_mm_min, &LoadsAlong::depth_mm, &LoadsAlong::width_mm,     &LoadsAlong::force_n,
+    &LoadsAlong::torque_nm,   &LoadsAlong::power_w,  &LoadsAlong::deflection_mm};
 constexpr std::array<Column, 2> kLimits = {&LoadsAlong::torque_limit_nm, &LoadsAlong::power_limit_w};
 
 LoadsAlong thinned(LoadsAlong all) {
@@ -157,8 +156,7 @@ LoadsAlong loads_along(const model::Plan& plan, const model::StepResult& step) {
   const model::CutterPath& path = *step.path;
   const model::FeedSchedule schedule = motion::schedule_of(step);
   const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step);
-  const Loads loads(plan, step, *cutter,
-                    ws == nullptr || mechanics::is_milled(ws->its_operation.type, *cutter));
+  Loads loads(plan, step, *cutter, ws == nullptr || mechanics::is_milled(ws->its_operation.type, *cutter));
   const Spindle spindle(plan.machine);
   std::vector<double> before(path.size() + 1, 0.0);  // length of path before each move
   for (std::size_t i = 0; i < path.size(); ++i) before[i + 1] = before[i] + model::move_length(path, i);
@@ -174,7 +172,6 @@ LoadsAlong loads_along(const model::Plan& plan, const model::StepResult& step) {
     out.feed_mm_min.push_back(feed);
     out.depth_mm.push_back(s.ap_mm);
     out.width_mm.push_back(s.ae_mm);
-    out.area_mm2.push_back(s.csa_mm2);
     out.force_n.push_back(load.force_n);
     out.torque_nm.push_back(load.torque_nm);
     out.power_w.push_back(load.power_w);

@@ -12,7 +12,7 @@ namespace capstan::report {
 struct LoadsAlong {
   std::vector<std::uint32_t> move;  ///< of the path
   std::vector<double> at_mm;        ///< from the start of the path, along it, rapids included
-  std::vector<double> feed_mm_min, depth_mm, width_mm, area_mm2;
+  std::vector<double> feed_mm_min, depth_mm, width_mm;
   std::vector<double> force_n, torque_nm, power_w,
       deflection_mm;    ///< expected: sharp edge, mean coefficients
   double margin = 1.0;  ///< what is compared with a limit is the expected load times this

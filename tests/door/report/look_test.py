@@ -33,9 +33,9 @@ return [seen.size, sum];
 '''
 
 
-def planned(part, out, options):
+def planned(part, out, options, program='.ngc'):
     """The report of a part, with its plan and program beside it."""
-    files = [out.with_suffix(end) for end in ('.html', '.json', '.ngc')]
+    files = [out.with_suffix(end) for end in ('.html', '.json', program)]
     call = [CAPSTAN, 'plan', part, *options, *(word for f in files for word in ('-o', str(f)))]
     done = subprocess.run(call, capture_output=True, text=True, cwd=EXAMPLES)
     if done.returncode not in (0, 1):
@@ -149,6 +149,12 @@ class Report(unittest.TestCase):
             const line = [...document.querySelectorAll('.line')].find(l => l.textContent.includes('CAPSTAN STEP') && l.textContent.includes('n=3 '));
             line.click();
             return document.querySelector('#operations tr.picked').rowIndex'''), 3)
+
+    def test_knows_the_step_of_each_line_in_capitals_too(self):
+        report, plan = planned(PARTS['bracket'], SCRATCH / 'fanuc', ['--control', 'fanuc'], '.nc')
+        self.window.open(report)
+        steps = self.window.run('return [...new Set(programSteps())].filter(s => s >= 0)')
+        self.assertEqual(steps, list(range(len(plan['steps']))))
 
     def test_is_no_wider_than_the_window(self):
         for width in WIDTHS:

@@ -72,20 +72,20 @@ function decisionsList() {
   return [whole, ...DATA.steps.map((s, i) => el('details', {id: 'why' + i}, el('summary', {}, stepTitle(s, i)), el('pre', {}, s.explained)))];
 }
 
-// Lines of the program with the step that they belong to: a marker opens each.
+// Lines of the program with the step that they belong to: a marker opens each, in capitals where the control has no others.
 function programSteps() {
   let step = -1;
   return DATA.program.lines.map(line => {
-    const marker = /CAPSTAN STEP .*\bn=(\d+)/.exec(line);
+    const marker = /CAPSTAN STEP .*\bn=(\d+)/i.exec(line);
     if (marker) step = Number(marker[1]) - 1;
     return step;
   });
 }
 function programText(pick) {
   if (!DATA.program.lines.length) return [el('p', {}, 'No program was written with this report.')];
-  const steps = programSteps(), ends = DATA.program.lines.map(line => /CAPSTAN (END|STEP)/.test(line));
+  const steps = programSteps();
   const rows = DATA.program.lines.map((line, i) => el('div', {class: 'line', 'data-n': i + 1, 'data-step': steps[i], onclick: () => { if (steps[i] >= 0) pick(steps[i]); }}, line));
-  return [el('p', {}, DATA.program.name), el('pre', {}, ...rows)].filter(() => ends.length);
+  return [el('p', {}, DATA.program.name), el('pre', {}, ...rows)];
 }
 function inputsTable() {
   return table([['what', false, p => p.what], ['value', false, p => p.value], ['from', false, p => p.source]], DATA.inputs);
