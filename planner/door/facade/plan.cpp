@@ -59,7 +59,9 @@ std::vector<service::Output> forms_of(const service::Planned& planned, Job& job)
     // Only the machine's own control runs a program of the plan.
     if (f.of_program() && (!runs || !f.is_read_by(plan.machine.control.dialect))) continue;
     if (without.count(f.control) != 0) continue;
-    auto written = service::write(plan, f, job);
+    // Of a report that the check has a say in, `judge` makes the only one.
+    auto written = f.holds == service::Holds::kReport && !planned.open ? service::Written{}
+                                                                       : service::write(plan, f, job);
     if (written) {
       out.push_back({f.holds == service::Holds::kProgram ? "program" : std::string(f.name), &f,
                      std::move(written->bytes), written->losses});
@@ -102,6 +104,7 @@ void finish(const service::Request& request, const service::Planned& planned, Pl
     } else {
       job.report(judged.error());
       verdict.written = false;
+      std::erase_if(made, [](const auto& o) { return o.format->holds == service::Holds::kReport; });
     }
   }
   for (const service::FileFinding& t : verdict.findings) out.findings.push_back(message(t, false));

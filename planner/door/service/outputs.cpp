@@ -60,13 +60,18 @@ Diagnostic stopped_call(const std::string& file) {
   return {.code = "APP-STOPPED", .message = "stopped before its end; nothing is given", .file = file};
 }
 
-Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job, const model::Plan* of_program) {
+Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job, const model::Plan* of_program,
+            Reports reports) {
   const auto all = [&]() -> Status {
     // Each writes into a job of its own; the diagnostics are reported in the order of the outputs.
     std::vector<Job> jobs(outputs.size());
     std::vector<std::optional<Result<Written>>> made(outputs.size());
     parallel_for(job, outputs.size(), [&](std::size_t i) {
       const Format& format = *outputs[i].format;
+      if (format.holds == Holds::kReport && reports == Reports::kLeftToJudge) {
+        made[i] = Written{};
+        return;
+      }
       made[i] = write(of_program != nullptr && format.of_program() ? *of_program : plan, format, jobs[i]);
     });
     for (std::size_t i = 0; i < outputs.size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,11 +29,14 @@ struct Output {
 /// What a call ends with that was stopped in another part of it than planning (APP-STOPPED).
 [[nodiscard]] Diagnostic stopped_call(const std::string& file);
 
+/// Whether `make` writes the reports, which then say that nobody checked, or `judge`, which follows it, does.
+enum class Reports : std::uint8_t { kUnjudged, kLeftToJudge };
+
 /// Fills `bytes` and `losses`, on the job's threads. Things that ISO 14649 or AP238 cannot hold are noted
 /// (EXC-LOSS). `of_program`: the plan that programs and tool tables are written of, where that is another.
 /// Fails  as the writers; APP-STOPPED.
 [[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job,
-                          const model::Plan* of_program = nullptr);
+                          const model::Plan* of_program = nullptr, Reports reports = Reports::kUnjudged);
 
 /// " (without 3 things)", or nothing when the file holds all of the plan.
 [[nodiscard]] std::string losses_text(const Output& output);

@@ -90,7 +90,10 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
                   .file = plan.file_name},
                  kImpossible);
   }
-  if (auto ok = service::make(plan, outputs, s.job, planned.part ? &*planned.part : nullptr); !ok)
+  using service::Reports;
+  if (auto ok = service::make(plan, outputs, s.job, planned.part ? &*planned.part : nullptr,
+                              planned.open ? Reports::kUnjudged : Reports::kLeftToJudge);
+      !ok)
     return s.end(ok.error(), kImpossible);
   // Open decisions have no path yet, so there is nothing to check.
   service::Verdict verdict;
