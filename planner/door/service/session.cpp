@@ -93,13 +93,14 @@ Code Session::open() {
 Code Session::take(std::string plan) {
   return guarded([&] {
     last_.reset();
+    goes_on_ = false;
     message_.clear();
     if (plan.empty()) return end(Code::kUsage, "error: there is no plan");
     Job job;
     const auto at_hand = read(std::move(plan), job);
     for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
     if (!at_hand) return end(at_hand.error().code, to_text(at_hand.error().what));
-    last_ = **at_hand;
+    goes_on_ = true;
     return end(Code::kDone);
   });
 }
@@ -112,6 +113,7 @@ std::vector<std::string> Session::left_open() const {
 Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> deadline) {
   return guarded([&] {
     last_.reset();
+    goes_on_ = false;
     Request request = request_;
     if (deadline) request.deadline = deadline;
     return bind_as(std::move(plan), std::move(request));
@@ -121,7 +123,10 @@ Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> de
 Code Session::bind_next(std::string plan, std::size_t from, std::size_t count,
                         std::optional<std::chrono::milliseconds> deadline) {
   return guarded([&] {
-    if (!plan.empty()) last_.reset();
+    if (!plan.empty()) {
+      last_.reset();
+      goes_on_ = false;
+    }
     Request request = request_;
     if (deadline) request.deadline = deadline;
     request.next = std::max<std::size_t>(1, count);
@@ -139,7 +144,8 @@ Code Session::bind_as(std::string plan, Request request) {
     bound_.reset();
     outputs_.clear();
     message_.clear();
-    if ((plan.empty() && !last_) || failed_)
+    const model::Plan* so_far = last_ ? &*last_ : goes_on_ && read_ ? &read_->plan : nullptr;
+    if ((plan.empty() && so_far == nullptr) || failed_)
       return end(Code::kUsage, "error: there is no plan, or the session did not open");
     Job job;
     job.threads = request_.threads;
@@ -164,15 +170,17 @@ Code Session::bind_as(std::string plan, Request request) {
     const auto at_hand = [&]() -> Outcome<const model::Plan*> {
       if (plan.empty()) {
         // What reading said of it holds still, so that an edited step is not bound; the caller has heard it.
-        for (const Diagnostic& d : read_ ? read_->said : std::vector<Diagnostic>{}) job.report(d);
+        if (read_) {
+          for (const Diagnostic& d : read_->said) job.report(d);
+        }
         heard = job.diagnostics().size();
-        return &*last_;
+        return so_far;
       }
       return stoppable(
           job, [&] { return read(std::move(plan), job); },
           [&]() -> Outcome<const model::Plan*> { return failed(stopped_call("plan"), Code::kImpossible); });
     }();
-    if (at_hand && request.next && !last_) last_ = **at_hand;
+    if (at_hand && request.next) goes_on_ = true;
     auto bound = at_hand ? bind_in(*shop_, request, **at_hand, began, job)
                          : Outcome<Planned>(tl::unexpected(at_hand.error()));
     const auto said = job.take_diagnostics();

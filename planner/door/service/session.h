@@ -92,7 +92,10 @@ class Session {
   std::optional<Read> read_;
   bool failed_ = false;  ///< the shop did not open, and no option was set since
   std::optional<Planned> bound_;
-  std::optional<model::Plan> last_;  ///< that `bind_next` goes on with
+  /// The plan that `bind_next` goes on with: as far as it is bound; without one the plan that was read, where
+  /// steps of it are asked for one after the other.
+  std::optional<model::Plan> last_;
+  bool goes_on_ = false;
   std::map<std::string, std::string, std::less<>> outputs_;
   std::string message_;
   Code code_ = Code::kDone;
