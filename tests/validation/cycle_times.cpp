@@ -20,17 +20,9 @@ struct Time {
 
 std::vector<Time> read(const std::string& text) {
   std::vector<Time> out;
-  std::vector<std::string> cells(1);
-  for (const char c : text) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\n') {
-      cells.back() += c;
-    } else {
-      const auto measured = cells.size() == 4 ? parse_double(cells[2]) : std::nullopt;
-      if (measured) out.push_back({cells[0], cells[1], *measured, parse_double(cells[3]).value_or(0.0)});
-      cells.assign(1, {});
-    }
+  for (const auto& cells : cells_of(text)) {
+    const auto measured = cells.size() == 4 ? parse_double(cells[2]) : std::nullopt;
+    if (measured) out.push_back({cells[0], cells[1], *measured, parse_double(cells[3]).value_or(0.0)});
   }
   return out;
 }

@@ -51,6 +51,22 @@ std::string standing(const std::string& document, const std::string& name) {
   return document.substr(start, to - start);
 }
 
+std::vector<std::vector<std::string>> cells_of(const std::string& text) {
+  std::vector<std::vector<std::string>> out;
+  std::vector<std::string> cells(1);
+  for (const char c : text) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else if (c != '\n') {
+      cells.back() += c;
+    } else {
+      out.push_back(std::move(cells));
+      cells.assign(1, {});
+    }
+  }
+  return out;
+}
+
 std::string renewed(const std::string& document, const Comparison& comparison) {
   const auto from = document.find(begin_of(comparison.name));
   const auto to = document.find(end_of(comparison.name));

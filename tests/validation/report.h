@@ -28,6 +28,10 @@ struct Comparison {
 /// Columns for gnuplot: blanks between them, quotes around cells with a blank.
 [[nodiscard]] std::string columns(const Table& table);
 
+/// Cells of a record: rows end with line feeds, commas between cells, no quotes. What follows the last line
+/// feed is no row.
+[[nodiscard]] std::vector<std::vector<std::string>> cells_of(const std::string& text);
+
 /// The document with the comparison's text between its markers; empty when the markers are missing.
 [[nodiscard]] std::string renewed(const std::string& document, const Comparison& comparison);
 

@@ -39,22 +39,6 @@ double at(std::vector<double> values, double share) {
   return values[std::max<std::size_t>(1, rank) - 1];
 }
 
-std::vector<std::vector<std::string>> rows_of(const std::string& text) {
-  std::vector<std::vector<std::string>> out;
-  std::vector<std::string> cells(1);
-  for (const char c : text) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\n') {
-      cells.back() += c;
-    } else {
-      out.push_back(std::move(cells));
-      cells.assign(1, {});
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 Comparison bind_times(const std::string& file) {
@@ -64,7 +48,7 @@ Comparison bind_times(const std::string& file) {
     out.skipped = "no record of late bindings: " + text.error().message;
     return out;
   }
-  const auto rows = rows_of(*text);
+  const auto rows = cells_of(*text);
   std::map<std::string, Times> times;
   for (const auto& row : rows) {
     if (row.size() != 5) continue;
