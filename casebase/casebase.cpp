@@ -63,7 +63,6 @@ struct CaseBase::Impl {
     return out;
   }
 
-  /// Places become cases; those that are not what was stored are left out.
   /// What others wrote meanwhile may have come with what was written: verdicts may be others.
   void forget() { read.clear(); }
 
