@@ -1,6 +1,6 @@
-// capstan_bind_times FOLDER: binds plans as a control does, again and again, and writes bind_times.csv (a
+// capstan_bind_times FOLDER [CASE]: binds plans as a control does, again and again, and writes bind_times.csv (a
 // line of the machine; then case, steps of the plan, points of what was bound, wall_ms, cpu_ms of each
-// binding) into FOLDER. The time of a binding is that of the call, the tool table's change and the program
+// binding) into FOLDER; with CASE that case alone. The time of a binding is that of the call, the tool table's change and the program
 // included. Status 1 when one fails.
 
 #include <sys/resource.h>
@@ -173,10 +173,11 @@ void all_open(Measuring& m, const std::string& name, const Early& plan, int time
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: capstan_bind_times FOLDER\n";
+  if (argc != 2 && argc != 3) {
+    std::cerr << "usage: capstan_bind_times FOLDER [length|diameter|next|bracket|first]\n";
     return 2;
   }
+  const auto wanted = [&](const std::string& name) { return argc == 2 || name == argv[2]; };
   Measuring m;
   const std::string bracket =
       capstan::testing::slurp(capstan::testing::source_dir() + "/examples/bracket.p21");
@@ -188,17 +189,19 @@ int main(int argc, char** argv) {
   };
   const Early plate = early(capstan::testing::plate(kFifty).text, pipeline::Bind::kAll);
   // T2 mills the plate's pockets, T3 drills.
-  changed_tool(m, "length", plate, 3, "Z", 0.01, 200);
+  if (wanted("length")) changed_tool(m, "length", plate, 3, "Z", 0.01, 200);
   write();
-  changed_tool(m, "diameter", plate, 2, "D", -0.0011, 100);
+  if (wanted("diameter")) changed_tool(m, "diameter", plate, 2, "D", -0.0011, 100);
   write();
-  step_by_step(m, "next", early(capstan::testing::plate(kFifty).text, pipeline::Bind::kStrategy), 10, 1000);
+  if (wanted("next"))
+    step_by_step(m, "next", early(capstan::testing::plate(kFifty).text, pipeline::Bind::kStrategy), 10, 1000);
   write();
-  all_open(m, "bracket", early(bracket, pipeline::Bind::kStrategy), 20);
+  if (wanted("bracket")) all_open(m, "bracket", early(bracket, pipeline::Bind::kStrategy), 20);
   write();
-  const Early large =
-      early(capstan::testing::plate(kTenThousand).text, pipeline::Bind::kStrategy, plate.table);
-  step_by_step(m, "first", large, 20, 1);
+  if (wanted("first"))
+    step_by_step(
+        m, "first",
+        early(capstan::testing::plate(kTenThousand).text, pipeline::Bind::kStrategy, plate.table), 20, 1);
   write();
   return m.failed() ? 1 : 0;
 }
