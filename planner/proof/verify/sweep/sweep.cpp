@@ -7,6 +7,7 @@
 #include <set>
 
 #include "planner/model/nouns/all.h"
+#include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/fixtures.h"
 #include "planner/proof/verify/sweep/grid/carry.h"
@@ -26,13 +27,35 @@ struct Scene {
   Grid grid;
   EarlierCuts earlier;
   CutSquares squares;
-  Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell)
+  Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell,
+        const KnownSteps& known, const std::optional<geometry::Box2>& near)
       : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
+    if (near) target.only_near(*near);
+    known.remember(target, grid);
     target.fill(grid);
     earlier.begin(grid);
   }
   [[nodiscard]] SweptSetup swept() { return {target, grid, earlier, squares}; }
 };
+
+/// The area that cutters of the steps in a set-up come near, set-up frame.
+geometry::Box2 near_moves(const model::Plan& plan, const geometry::Placement& frame,
+                          const std::vector<StepMoves>& earlier, const std::vector<StepMoves>& steps) {
+  constexpr double kMoreMm = 5.0;  // tolerances and chords are hundredths; default, unsourced
+  geometry::Box3 out;
+  for (const auto* some : {&earlier, &steps}) {
+    for (const StepMoves& step : *some) {
+      if (step.cutter == nullptr || !(workpiece_in(plan, step.setup) == frame)) continue;
+      const double r = outline_of(*step.cutter).radius_mm + kMoreMm;
+      for (const Move& m : step.moves) {
+        const geometry::Box3 box = box_of(m);
+        out.add(box.lo - geometry::Vec3{r, r, 0.0});
+        out.add(box.hi + geometry::Vec3{r, r, 0.0});
+      }
+    }
+  }
+  return {xy(out.lo), xy(out.hi)};
+}
 
 double cell_of(const model::Plan& plan) {
   const geometry::Vec3 size = plan.stock.box.size();
@@ -114,7 +137,10 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
       if (s->target.frame() == frame) scene = s.get();
     }
     if (scene == nullptr) {
-      scenes.push_back(std::make_unique<Scene>(plan, part, step.setup, cell));
+      // Of a whole plan every place is near; then what is made serves other checks, too.
+      std::optional<geometry::Box2> near;
+      if (before != nullptr) near = near_moves(plan, frame, earlier, steps);
+      scenes.push_back(std::make_unique<Scene>(plan, part, step.setup, cell, known_steps, near));
       scene = scenes.back().get();
     }
     if (scene != last) {

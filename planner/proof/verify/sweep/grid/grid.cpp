@@ -51,7 +51,13 @@ void Grid::find_top() {
 void Grid::find_top_after_cuts() {
   for (int iy = cut_from_; iy < cut_to_; ++iy) {
     const auto row = stock.begin() + static_cast<std::ptrdiff_t>(index(0, iy));
-    row_top_[static_cast<std::size_t>(iy)] = *std::max_element(row, row + nx_);
+    // Four at a time: each waits for its own last comparison only.
+    double top[4] = {kNothing, kNothing, kNothing, kNothing};
+    std::ptrdiff_t i = 0;
+    for (; i + 4 <= nx_; i += 4)
+      for (std::ptrdiff_t k = 0; k < 4; ++k) top[k] = std::max(top[k], row[i + k]);
+    for (; i < nx_; ++i) top[0] = std::max(top[0], row[i]);
+    row_top_[static_cast<std::size_t>(iy)] = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
   }
   cut_from_ = ny_;
   cut_to_ = 0;

@@ -201,16 +201,23 @@ KnownSteps::KnownSteps(const model::Plan& plan, const PartShapes& part, memo::Me
   of_plan_ = memo::key_of(Stage::kSweep, plan.machine, plan.material, plan.target_mesh, part);
 }
 
-void KnownSteps::begin(SweptSetup setup, bool carried) const {
-  if (memo_ == nullptr) return;
-  const Grid& grid = setup.grid;
+Key KnownSteps::key_of_setup(const Target& target, const Grid& grid) const {
   std::string bytes;
   memo::pack(bytes, of_plan_);
-  setup.target.describe(bytes);
+  target.describe(bytes);
   memo::pack(bytes, grid.nx());
   memo::pack(bytes, grid.ny());
   memo::pack(bytes, grid.cell());
-  setup.squares.begin(grid, memo::key_of_bytes(Stage::kSweep, bytes), carried);
+  return memo::key_of_bytes(Stage::kSweep, bytes);
+}
+
+void KnownSteps::remember(Target& target, const Grid& grid) const {
+  if (memo_ != nullptr) target.remember(*memo_, key_of_setup(target, grid));
+}
+
+void KnownSteps::begin(SweptSetup setup, bool carried) const {
+  if (memo_ == nullptr) return;
+  setup.squares.begin(setup.grid, key_of_setup(setup.target, setup.grid), carried);
 }
 
 /// All that StepChecks asks: who adds a question there adds it here.

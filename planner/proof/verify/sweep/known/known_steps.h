@@ -54,6 +54,8 @@ class KnownSteps {
  public:
   /// `memo` may be null: every step is swept. It outlives this, as the others do.
   KnownSteps(const model::Plan& plan, const PartShapes& part, memo::Memo* memo);
+  /// Lets a set-up's finished part be taken from earlier checks: before its grid is filled.
+  void remember(Target& target, const Grid& grid) const;
   /// Where a set-up begins, and where it goes on after another.
   void begin(SweptSetup setup, bool carried) const;
   /// Sweeps one step; `begun`: whether its feature was cut before.
@@ -61,6 +63,8 @@ class KnownSteps {
                                 Findings& findings) const;
 
  private:
+  /// What heights and walls of a set-up are made from.
+  [[nodiscard]] memo::Key key_of_setup(const Target& target, const Grid& grid) const;
   [[nodiscard]] memo::Key key_of(const StepMoves& step, const SweptSetup& setup, bool begun,
                                  double reach_mm) const;
   const model::Plan& plan_;

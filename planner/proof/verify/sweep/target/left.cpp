@@ -99,8 +99,19 @@ double foot_allowed(const Form& s, double corner) {
 }
 
 /// What of a feature no height tells, or no cell.
+/// Whether nothing of an area lies so far from its boundary. Where the middle of its box does, by more than
+/// an offset's arcs may be off, no offset is made.
+bool is_narrower(const Region& area, double ring) {
+  constexpr double kArcMm = 0.01, kSureMm = 5.0 * kArcMm;
+  const auto box = geometry::bounds(area);
+  const Vec2 middle = 0.5 * (box.lo + box.hi);
+  if (geometry::contains(area, middle) && geometry::distance_to_boundary(area, middle) > ring + kSureMm)
+    return false;
+  return geometry::offset(area, -ring, kArcMm).empty();
+}
+
 std::string not_judged(const Form& s, const Asked& a, double ring) {
-  if (s.kind != ShapeKind::kChamfer && geometry::offset(s.area, -ring, 0.01).empty())
+  if (s.kind != ShapeKind::kChamfer && is_narrower(s.area, ring))
     return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances)";
   const auto* bore = s.kind == ShapeKind::kHole ? s.bore() : nullptr;
   const bool cone = bore != nullptr && bore->top_radius_mm - bore->bottom_radius_mm > 5e-7;

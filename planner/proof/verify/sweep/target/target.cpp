@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/mesh_form.h"
 #include "planner/ground/memo/packed.h"
+#include "planner/ground/memo/remembered.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies.h"
 #include "planner/proof/verify/findings.h"
@@ -18,6 +20,8 @@ using geometry::Placement;
 using geometry::Region;
 using geometry::Vec2;
 using geometry::Vec3;
+using memo::Key;
+using memo::Stage;
 using model::ShapeKind;
 using volumes::Form;
 
@@ -37,6 +41,37 @@ Region moved(const Region& r, const Placement& to) {
   }
   return {std::move(loops)};
 }
+
+/// Heights as runs of equal ones: most of a part is level.
+struct Runs {
+  std::vector<std::uint32_t> lengths;
+  std::vector<double> heights;
+
+  static std::string packed(const std::vector<double>& cells) {
+    Runs runs;
+    for (const double z : cells) {
+      if (runs.heights.empty() || runs.heights.back() != z) {
+        runs.heights.push_back(z);
+        runs.lengths.push_back(0);
+      }
+      ++runs.lengths.back();
+    }
+    std::string bytes;
+    memo::pack(bytes, runs);
+    return bytes;
+  }
+  /// False, and nothing is written, where they are not of so many cells.
+  static bool unpacked_into(const std::string& bytes, std::vector<double>& cells) {
+    const auto runs = memo::unpacked<Runs>(bytes);
+    if (!runs || runs->lengths.size() != runs->heights.size()) return false;
+    if (std::accumulate(runs->lengths.begin(), runs->lengths.end(), std::uint64_t{0}) != cells.size())
+      return false;
+    auto to = cells.begin();
+    for (std::size_t i = 0; i < runs->lengths.size(); ++i)
+      to = std::fill_n(to, runs->lengths[i], runs->heights[i]);
+    return true;
+  }
+};
 
 bool representable(const Form& s) {
   switch (s.kind) {
@@ -206,6 +241,23 @@ void Target::fill(Grid& grid) {
       grid.part[grid.index(ix, iy)] = nothing ? Grid::kNothing : part_box_.hi.z;
     }
   }
+  grid.find_top();
+  if (memo_ == nullptr) return fill_part(grid);
+  const Key key = memo::key_of(Stage::kSweep, of_setup_, std::string("part"));
+  if (const auto bytes = memo_->find(Stage::kSweep, key)) {
+    if (Runs::unpacked_into(*bytes, grid.part)) return;
+    memo_->reject(Stage::kSweep);
+  }
+  fill_part(grid);
+  memo_->keep(Stage::kSweep, key, Runs::packed(grid.part));
+}
+
+void Target::remember(memo::Memo& memo, const Key& of_setup) {
+  memo_ = &memo;
+  of_setup_ = of_setup;
+}
+
+void Target::fill_part(Grid& grid) const {
   if (plan_.target_mesh) fill_mesh(grid);
   for (const Cavity& c : cavities_) {
     const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);
@@ -230,7 +282,6 @@ void Target::fill(Grid& grid) {
       }
     }
   }
-  grid.find_top();
 }
 
 void Target::fill_mesh(Grid& grid) const {

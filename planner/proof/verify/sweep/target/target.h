@@ -6,12 +6,14 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "planner/ground/geometry/mesh_corners.h"
 #include "planner/ground/geometry/placement.h"
 #include "planner/ground/geometry/region.h"
+#include "planner/ground/memo/memo.h"
 #include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/proof/verify/findings.h"
@@ -75,6 +77,12 @@ class Target : public GougeJudge {
  public:
   Target(const model::Plan& plan, const PartShapes& part, std::size_t setup);
 
+  /// Walls are asked for within this area only, set-up frame: features beside it need not be combined.
+  void only_near(const geometry::Box2& area) { near_ = area; }
+  /// Heights and walls are taken from the memo where it has them, and kept there. `of_setup` is the key of
+  /// all that they are made from: the part's own reading, machine and mesh (KnownSteps), `describe`, the
+  /// grid.
+  void remember(memo::Memo& memo, const memo::Key& of_setup);
   /// Fills both heights. The grid must outlive this.
   void fill(Grid& grid);
   [[nodiscard]] bool guilty(geometry::Vec2 at, double z_mm) const override;
@@ -111,18 +119,29 @@ class Target : public GougeJudge {
       geometry::Vec2 a, b;
     };
     std::vector<Edge> edges;
+    /// Numbers of edges by the bins that they touch, in one row.
+    struct Bins {
+      std::vector<std::uint32_t> begin, edges;
+      [[nodiscard]] std::size_t size() const { return begin.empty() ? 0 : begin.size() - 1; }
+      [[nodiscard]] std::span<const std::uint32_t> of(std::size_t bin) const {
+        return std::span(edges).subspan(begin[bin], begin[bin + 1] - begin[bin]);
+      }
+    };
     /// Edges by strips of y that they touch: a ray along x meets those of one strip only.
-    std::vector<std::vector<std::uint32_t>> strips;
+    Bins strips;
     double y0_mm = 0.0, strip_mm = 1.0;
+    std::size_t strip_count = 1;
     [[nodiscard]] std::size_t strip(double y) const;
     /// Edges by the squares that their boxes touch, rows of y: a look around a move sees those near it only.
-    std::vector<std::vector<std::uint32_t>> squares;
+    Bins squares;
     std::size_t along = 1;  ///< squares along x, and along y
     double x0_mm = 0.0, square_mm = 1.0;
     /// Number of the square along x or y that a coordinate lies in, from where they begin.
     [[nodiscard]] std::size_t square_at(double at, double begin) const;
     /// Whether the part stands at p: the winding of the edges to its right.
     [[nodiscard]] bool stands(geometry::Vec2 p) const;
+    /// Puts the edges into strips and squares of the part's box.
+    void sort_in(const geometry::Box3& part);
     template <class F>
     void each_near(geometry::Vec2 lo, geometry::Vec2 hi, const F& f) const;
   };
@@ -144,6 +163,10 @@ class Target : public GougeJudge {
   [[nodiscard]] double height(geometry::Vec2 p) const;
   void fill_mesh(Grid& grid) const;
   const Walls& walls(double z_mm);
+  /// The walls at a height, as edges in no order.
+  [[nodiscard]] std::vector<Walls::Edge> edges_at(double z_mm) const;
+  /// The heights of the finished part in every cell.
+  void fill_part(Grid& grid) const;
   /// Whether no wall comes within `reach_mm` of a move whose walls are all those at z, and no part stands
   /// there.
   [[nodiscard]] bool clear_of_walls(const Move& m, double z_mm, double reach_mm);
@@ -161,6 +184,9 @@ class Target : public GougeJudge {
   std::vector<Cavity> cavities_;
   std::vector<double> levels_;
   std::map<std::size_t, Walls> walls_;
+  std::optional<geometry::Box2> near_;
+  memo::Memo* memo_ = nullptr;
+  memo::Key of_setup_;
   /// Whether the part stands at a point that was asked for last.
   struct Stood {
     const Walls* walls = nullptr;

@@ -1,7 +1,9 @@
 // The walls that stand at a height: the finished part's area there, less what the features take that reach so
 // deep. Features that are apart from all others and lie within the part are subtracted by themselves, so that
 // polygons are combined only among those whose boxes meet: n log n in features that are apart. Coordinates
-// are those of one grid (kRegionGrid), whichever are combined together.
+// are those of one grid (kRegionGrid), whichever are combined together. Where only a part of a plan is
+// checked, features that its tools do not come near are left out: their loops do not wind about a place
+// beside them.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +11,8 @@
 #include <utility>
 
 #include "planner/ground/base/stopping.h"
+#include "planner/ground/memo/packed.h"
+#include "planner/ground/memo/remembered.h"
 #include "planner/proof/verify/sweep/target/target.h"
 
 namespace capstan::verify {
@@ -81,7 +85,7 @@ std::size_t Target::level(double z) const {
 }
 
 std::size_t Target::Walls::strip(double y) const {
-  const double at = std::clamp((y - y0_mm) / strip_mm, 0.0, static_cast<double>(strips.size()) - 1.0);
+  const double at = std::clamp((y - y0_mm) / strip_mm, 0.0, static_cast<double>(strip_count) - 1.0);
   return static_cast<std::size_t>(at);
 }
 
@@ -91,9 +95,9 @@ std::size_t Target::Walls::square_at(double at, double begin) const {
 }
 
 bool Target::Walls::stands(Vec2 p) const {
-  if (strips.empty()) return false;
+  if (strips.size() == 0) return false;
   int winding = 0;
-  for (const std::uint32_t i : strips[strip(p.y)]) {
+  for (const std::uint32_t i : strips.of(strip(p.y))) {
     const Edge& e = edges[i];
     if ((e.a.y <= p.y) == (e.b.y <= p.y)) continue;
     const double x = e.a.x + (p.y - e.a.y) / (e.b.y - e.a.y) * (e.b.x - e.a.x);
@@ -102,14 +106,33 @@ bool Target::Walls::stands(Vec2 p) const {
   return winding != 0;
 }
 
-const Target::Walls& Target::walls(double z) {
-  const std::size_t key = level(z);
-  const auto found = walls_.find(key);
-  if (found != walls_.end()) return found->second;
-  Walls out;
+namespace {
+
+/// Bins of edges; `each(i, f)` calls f for each bin that edge i touches.
+template <class Bins, class Each>
+Bins binned(std::size_t bins, std::size_t edges, const Each& each) {
+  Bins out;
+  out.begin.assign(bins + 1, 0);
+  for (std::uint32_t i = 0; i < edges; ++i) each(i, [&](std::size_t bin) { ++out.begin[bin + 1]; });
+  std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
+  out.edges.resize(out.begin.back());
+  std::vector<std::uint32_t> next(out.begin.begin(), out.begin.end() - 1);
+  for (std::uint32_t i = 0; i < edges; ++i) each(i, [&](std::size_t bin) { out.edges[next[bin]++] = i; });
+  return out;
+}
+
+bool apart_from(const geometry::Box2& a, const geometry::Box2& b) {
+  return a.hi.x < b.lo.x || a.lo.x > b.hi.x || a.hi.y < b.lo.y || a.lo.y > b.hi.y;
+}
+
+}  // namespace
+
+std::vector<Target::Walls::Edge> Target::edges_at(double z) const {
+  std::vector<Walls::Edge> out;
   std::vector<Part> parts;
   for (const Cavity& c : cavities_) {
     tick();
+    if (near_ && apart_from(c.box, *near_)) continue;
     if (c.floor_mm > z + allowed() && !c.open_bottom) continue;
     Region r = c.area;
     for (const auto& [island, top] : c.islands) {
@@ -124,7 +147,7 @@ const Target::Walls& Target::walls(double z) {
     for (const auto& loop : region.loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
-        out.edges.push_back(taken ? Walls::Edge{b, a} : Walls::Edge{a, b});
+        out.push_back(taken ? Walls::Edge{b, a} : Walls::Edge{a, b});
       }
     }
   };
@@ -140,32 +163,58 @@ const Target::Walls& Target::walls(double z) {
       across.insert(across.end(), p.loops.begin(), p.loops.end());
   }
   add(across.empty() ? part : geometry::subtract(part, geometry::clean(across)), false);
-  constexpr std::size_t kStrips = 512;
-  out.y0_mm = part_box_.lo.y;
-  out.strip_mm = std::max((part_box_.hi.y - part_box_.lo.y) / kStrips, 1e-3);
-  out.strips.resize(kStrips);
-  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
-    const auto& e = out.edges[i];
-    const std::size_t last = out.strip(std::max(e.a.y, e.b.y));
-    for (std::size_t k = out.strip(std::min(e.a.y, e.b.y)); k <= last; ++k) out.strips[k].push_back(i);
+  return out;
+}
+
+void Target::Walls::sort_in(const geometry::Box3& part) {
+  // About half as many strips, and as many squares, as edges, so that heights with few edges cost little.
+  constexpr double kMostStrips = 512.0, kMostAlong = 128.0;
+  const auto n = static_cast<double>(edges.size());
+  strip_count = static_cast<std::size_t>(std::clamp(0.5 * n, 1.0, kMostStrips));
+  y0_mm = part.lo.y;
+  strip_mm = std::max((part.hi.y - part.lo.y) / static_cast<double>(strip_count), 1e-3);
+  strips = binned<Bins>(strip_count, edges.size(), [&](std::uint32_t i, const auto& touch) {
+    const Edge& e = edges[i];
+    const std::size_t last = strip(std::max(e.a.y, e.b.y));
+    for (std::size_t k = strip(std::min(e.a.y, e.b.y)); k <= last; ++k) touch(k);
+  });
+  along = static_cast<std::size_t>(std::clamp(std::sqrt(n), 1.0, kMostAlong));
+  x0_mm = part.lo.x;
+  square_mm = std::max({part.hi.x - part.lo.x, part.hi.y - part.lo.y, 0.1}) / static_cast<double>(along);
+  squares = binned<Bins>(along * along, edges.size(), [&](std::uint32_t i, const auto& touch) {
+    const Edge& e = edges[i];
+    const std::size_t last_y = square_at(std::max(e.a.y, e.b.y), y0_mm);
+    const std::size_t last_x = square_at(std::max(e.a.x, e.b.x), x0_mm);
+    for (std::size_t y = square_at(std::min(e.a.y, e.b.y), y0_mm); y <= last_y; ++y)
+      for (std::size_t x = square_at(std::min(e.a.x, e.b.x), x0_mm); x <= last_x; ++x) touch(y * along + x);
+  });
+}
+
+const Target::Walls& Target::walls(double z) {
+  const std::size_t at = level(z);
+  const auto found = walls_.find(at);
+  if (found != walls_.end()) return found->second;
+  Walls out;
+  // Of an area alone they are soon made, and another check asks for another area.
+  memo::Memo* const memo = near_ ? nullptr : memo_;
+  const memo::Key key = memo::key_of(memo::Stage::kSweep, of_setup_, std::string("walls"), at);
+  std::optional<std::vector<Walls::Edge>> known;
+  if (memo != nullptr) {
+    if (const auto bytes = memo->find(memo::Stage::kSweep, key))
+      known = memo::unpacked<std::vector<Walls::Edge>>(*bytes);
   }
-  // About as many squares as edges, so that heights with few edges cost little.
-  constexpr double kMostAlong = 128.0;
-  out.along =
-      static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(out.edges.size())), 1.0, kMostAlong));
-  out.x0_mm = part_box_.lo.x;
-  out.square_mm = std::max({part_box_.hi.x - part_box_.lo.x, part_box_.hi.y - part_box_.lo.y, 0.1}) /
-                  static_cast<double>(out.along);
-  out.squares.resize(out.along * out.along);
-  for (std::uint32_t i = 0; i < out.edges.size(); ++i) {
-    const auto& e = out.edges[i];
-    const std::size_t last_y = out.square_at(std::max(e.a.y, e.b.y), out.y0_mm);
-    const std::size_t last_x = out.square_at(std::max(e.a.x, e.b.x), out.x0_mm);
-    for (std::size_t y = out.square_at(std::min(e.a.y, e.b.y), out.y0_mm); y <= last_y; ++y)
-      for (std::size_t x = out.square_at(std::min(e.a.x, e.b.x), out.x0_mm); x <= last_x; ++x)
-        out.squares[y * out.along + x].push_back(i);
+  if (known) {
+    out.edges = *std::move(known);
+  } else {
+    out.edges = edges_at(z);
+    if (memo != nullptr) {
+      std::string bytes;
+      memo::pack(bytes, out.edges);
+      memo->keep(memo::Stage::kSweep, key, std::move(bytes));
+    }
   }
-  return walls_.emplace(key, std::move(out)).first->second;
+  out.sort_in(part_box_);
+  return walls_.emplace(at, std::move(out)).first->second;
 }
 
 /// Edges whose boxes meet a box; one that lies in several squares may come again. `f` says whether to go on.
@@ -174,7 +223,7 @@ void Target::Walls::each_near(Vec2 lo, Vec2 hi, const F& f) const {
   const std::size_t last_y = square_at(hi.y, y0_mm), last_x = square_at(hi.x, x0_mm);
   for (std::size_t iy = square_at(lo.y, y0_mm); iy <= last_y; ++iy) {
     for (std::size_t ix = square_at(lo.x, x0_mm); ix <= last_x; ++ix) {
-      for (const std::uint32_t index : squares[iy * along + ix]) {
+      for (const std::uint32_t index : squares.of(iy * along + ix)) {
         const Edge& e = edges[index];
         if (std::max(e.a.x, e.b.x) < lo.x || std::min(e.a.x, e.b.x) > hi.x || std::max(e.a.y, e.b.y) < lo.y ||
             std::min(e.a.y, e.b.y) > hi.y) {
