@@ -35,7 +35,7 @@ struct Advice {
   Values centre;                     ///< of good cuts, before it is held back or lowered
   int good = 0, bad = 0, unjudged = 0;  ///< near cuts, each told once
   int cut_good = 0;                     ///< of the good ones those that were not simulated
-  int doubted = 0;       ///< of the unjudged ones those that are said to have gone well, but too hard; cuts
+  int doubted = 0;       ///< of the unjudged ones those reported as good, but cut too hard to believe; cuts
   double nearest = 0.0;  ///< distance of the nearest
   double success_asked = kTrustInTable;  ///< probability that the asked values (else the centre) go well
   double success = kTrustInTable;        ///< the same of `start`
@@ -48,7 +48,7 @@ struct Advice {
 
 /// Cases that an advice names.
 inline constexpr std::size_t kLeanedShown = 8;
-/// Cuts that are asked for an advice: the nearest, each counted once. Default, unsourced.
+/// Nearest cuts that an advice counts, each once. Default, unsourced.
 inline constexpr std::size_t kNearAsked = 64;
 /// How far above the asked values (the table's) good cuts may start, and how many it takes: one says little,
 /// for the life of edges at constant values varies by more than 100 %. Below there is no such limit.
@@ -66,11 +66,11 @@ inline constexpr double kLeastSuccess = 0.75;
 ///
 /// Each case weighs by its distance; cases of one run, or with the same observations, share the weight of
 /// one. Of good cuts the weighted median of log vc and of log fz is the centre, by the most trusted origin
-/// that there is; origins are never mixed in it. A simulated cut without a verdict leads only where no values
-/// are asked: a computation that went well proves no cut. Whether values go well is the mean of a beta
-/// distribution: prior, good cuts that were as hard or harder, bad ones that were as hard or less. Values
-/// beyond what is likely enough are lowered, until it is. A good cut more than kBelieved times as hard as
-/// what is asked counts as one without a verdict.
+/// that there is; origins are never mixed in it. A simulated cut without a verdict leads only where the
+/// question gives no values: a computation that went well proves no cut. Whether values go well is the mean
+/// of a beta distribution: prior, good cuts that were as hard or harder, bad ones that were as hard or less.
+/// Values beyond what is likely enough are lowered, until it is. A good cut more than kBelieved times as hard
+/// as the asked values counts as one without a verdict.
 ///
 /// Determinism  the same for any order of the cases. Neither their time nor their number in the base counts.
 ///

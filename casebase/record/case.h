@@ -15,7 +15,7 @@ inline constexpr int kCaseVersion = 2;
 /// Where a number comes from, best first. A measured number was taken at the machine or on the part; an
 /// entered one was stated by a person; a simulated one was computed by a planner.
 enum class Origin : std::uint8_t { kMeasured, kEntered, kSimulated };
-/// Whether the workingstep did what was asked of it.
+/// Whether the workingstep met its requirements.
 enum class Verdict : std::uint8_t { kUnknown, kGood, kBad };
 enum class Coolant : std::uint8_t { kUnknown, kDry, kMist, kFlood, kThrough };
 
@@ -27,7 +27,7 @@ enum class Coolant : std::uint8_t { kUnknown, kDry, kMist, kFlood, kThrough };
 [[nodiscard]] std::optional<Verdict> verdict_of(std::string_view word);
 [[nodiscard]] std::optional<Coolant> coolant_of(std::string_view word);
 
-/// What was asked: the key of a search. The four categories must be equal; the numbers are near or far by
+/// The question, key of a search. The four categories must be equal; the numbers are near or far by
 /// their logarithms (key/normalisation.h).
 ///
 /// Units   as the names say. Zero, or kUnknown: the size does not apply, or is not known. If one question has
@@ -53,7 +53,7 @@ struct Question {
   bool operator==(const Question&) const = default;
 };
 
-/// What was bound: the cut as the machine was told to make it. Zero or empty: not known, but vc and fz.
+/// What was bound: the cut as the program commanded it. Zero or empty: not known, but vc and fz.
 struct Bound {
   double vc_m_min = 0.0, fz_mm = 0.0;
   double ap_mm = 0.0, ae_mm = 0.0;  ///< as cut

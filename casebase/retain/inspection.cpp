@@ -11,11 +11,11 @@
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/tables/separated.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::casebase::retain {
 namespace {
 
-constexpr double kInch = 25.4;
 constexpr double kLengthMax = 1e5, kTimeMax = 1e7,
                  kPathMax = 1e9;  // against wrong units; defaults, unsourced
 
@@ -24,8 +24,8 @@ struct Suffix {
   std::string_view text;
   double factor;
 };
-constexpr std::array kLengths = {Suffix{"_mm", 1.0}, Suffix{"_in", kInch}};
-constexpr std::array kFeeds = {Suffix{"_ipm", kInch}, Suffix{"_in_min", kInch}, Suffix{"_mm_min", 1.0},
+constexpr std::array kLengths = {Suffix{"_mm", 1.0}, Suffix{"_in", kMmPerInch}};
+constexpr std::array kFeeds = {Suffix{"_ipm", kMmPerInch}, Suffix{"_in_min", kMmPerInch}, Suffix{"_mm_min", 1.0},
                                Suffix{"_mm_s", 60.0}};
 
 struct Found {
@@ -159,7 +159,7 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
           if (word == "mm") {
             factor = 1.0;
           } else if (word == "in" || word == "inch") {
-            factor = kInch;
+            factor = kMmPerInch;
           } else if (!word.empty()) {
             return "the unit '" + word.substr(0, 20) + "' is neither mm nor in";
           }

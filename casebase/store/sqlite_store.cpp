@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "casebase/store/row.h"
+#include "casebase/store/sqlite_tables.h"
 #include "casebase/store/store.h"
 #include "casebase/store/version_1.h"
 #include "planner/ground/base/file.h"
@@ -22,8 +23,6 @@
 namespace capstan::casebase {
 namespace {
 
-constexpr int kApplicationId = 0x43415053;  // "CAPS"
-constexpr int kSchemaVersion = 2;
 constexpr int kMaxValueBytes = 1 << 20;      // above what a body may hold: 2 series of 4096 samples, texts
 constexpr std::int64_t kLeastRowBytes = 64;  // a head takes more than this
 
@@ -35,13 +34,6 @@ struct Finalize {
 };
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
-
-constexpr const char* kHeadTable =
-    "CREATE TABLE capstan_head(number INTEGER PRIMARY KEY, head BLOB NOT NULL) STRICT";
-constexpr const char* kBodyTable =
-    "CREATE TABLE capstan_body(number INTEGER PRIMARY KEY, body BLOB NOT NULL) STRICT";
-constexpr const char* kTotalTable =
-    "CREATE TABLE capstan_total(one INTEGER PRIMARY KEY CHECK(one = 1), totals BLOB NOT NULL) STRICT";
 
 std::string_view bytes_at(sqlite3_stmt* s, int column) {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(s, column));
@@ -264,9 +256,7 @@ Status SqliteStore::check_schema() {
   if (!of) return fail(of.error());
   if (*of != kSchemaVersion)
     return fail(fault("CASE-SCHEMA", "it changed its version meanwhile", "open it again"));
-  const std::array<std::pair<std::string_view, std::string>, 3> ours = {
-      {{"capstan_head", kHeadTable}, {"capstan_body", kBodyTable}, {"capstan_total", kTotalTable}}};
-  return check_schema(ours);
+  return check_schema(sqlite_tables());
 }
 
 Result<OldTotals> SqliteStore::old_totals() {

@@ -248,7 +248,7 @@ Made narrow_rest(const Making& m) {
   model::ToolRequirement before;
   const auto wide = before_narrow(m, s.allowance_side_mm, {s.tool.diameter_max_mm, s.why.text}, true, before);
   if (!wide) return no(wide.error());
-  // A bound: which cutter it was is known when it is chosen (propose/members.h).
+  // A bound: which cutter it was is known when it is chosen (propose/coaxial_steps.h).
   s.rest_of_diameter_mm = m.known.passage.widest_mm;
   s.why.text += "; only what the wider cutter before left is cut";
   return made;

@@ -74,7 +74,7 @@ std::string numbers(const char* what, double from, double to, int decimals, cons
 double seconds_of(const StepResult& s) { return s.cutting_s + s.rapid_s; }
 
 /// A change as it grows.
-struct Told {
+struct ChangeSoFar {
   Change change;
   void add(std::optional<Choice> choice, const std::string& words) {
     if (choice && std::find(change.decided.begin(), change.decided.end(), *choice) == change.decided.end())
@@ -88,7 +88,7 @@ bool shown(double a, double b, int decimals) { return trimmed(a, decimals) != tr
 
 Change compared(const Plan& before, const Plan& after, const StepResult& a, const StepResult& b,
                 const std::string& name) {
-  Told out;
+  ChangeSoFar out;
   out.change.step = name;
   const bool same = same_tool(before, after, a, b);
   const bool measured = same && a.cutter_id != b.cutter_id;
@@ -135,7 +135,7 @@ std::optional<Change> closed(const Plan& before, const Plan& after, const StepRe
     if (e->its_id.value_or("") != name) continue;
     const auto* op = m.get<model::MachiningOperation>(ws->its_operation);
     if (op == nullptr) return std::nullopt;
-    Told out;
+    ChangeSoFar out;
     out.change.step = name;
     const auto open = [&](model::AnyRef object, const char* attribute) {
       return object.set() && before.ledger.is_open(object, attribute);

@@ -158,12 +158,13 @@ std::optional<Plan> as_it_is(const Plan& plan, const pipeline::Inputs& inputs,
     std::erase_if(out.provenance, [](const auto& p) { return p.what == "tools"; });
     out.provenance.push_back(*tools);
   }
-  given::tell_loading(out, inputs.library, job);
+  out.cutters = given::loaded_of(out, inputs.library, job);
   for (const auto& a : model::assumed_tool_materials(out)) {  // told anew
     const model::Provenance row = model::provenance_of(a);
     std::erase_if(out.provenance, [&](const auto& p) { return p.what == row.what; });
   }
-  given::tell_assumed_materials(out, job);
+  for (model::Provenance& row : given::assumed_materials_of(out, job))
+    out.provenance.push_back(std::move(row));
   return out;
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,8 +8,8 @@
 #include <vector>
 
 #include "planner/door/pipeline/stages.h"
+#include "planner/door/pipeline/try_cutter.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/base/said_before.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/rests.h"
@@ -27,8 +26,6 @@
 #include "planner/making/step/record/grouped_reasons.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
-#include "planner/model/plan/decision/condemned.h"
-#include "planner/physics/motion/time.h"
 #include "tooling/selection/select.h"
 
 // Step by step in order: depths, path, sections, feeds, with the stock carried on.
@@ -40,37 +37,28 @@ using draft::Member;
 using draft::StepDraft;
 using model::Model;
 
-/// Thinner cuts that are tried with one cutter where a limit is exceeded along its path.
-constexpr int kMostThinner = 3;
-/// A thinner cut aims below the limit by this, for sections along the path are not proportional to it.
-constexpr double kThinnerAim = 0.9;      // default, unsourced
-constexpr double kThinnerUnknown = 0.5;  // if no formula gives the excess; default, unsourced
-constexpr double kThinnerAnew = 0.7;     // each time that the check condemned the cut; default, unsourced
-constexpr double kThinnest = 0.02;       // of the cut that keeps the limits off the path; default, unsourced
-
-/// Depth and width of a cut, for people.
-std::string sizes(const optimise::CutAnswer& a) {
-  return trimmed(a.ap_mm, 3) + " mm deep, " + trimmed(a.ae_mm, 3) + " mm wide";
-}
-
 class PathMaker {
  public:
-  PathMaker(model::Plan& plan, std::vector<StepDraft>& steps, const step::PlanSoFar& p,
-            const std::vector<std::string>& used, std::size_t cut, Tries& tries,
-            const optimise::Options& options, Job& job)
-      : plan_(plan),
-        steps_(steps),
-        p_(p),
-        used_(used),
-        cut_(cut),
-        bans_(tries.bans),
+  PathMaker(model::Plan plan, Drafts drafts, const Required& required, const Asked& asked,
+            step::KnownCuts known, Job& job)
+      : plan_(std::move(plan)),
+        drafts_(std::move(drafts)),
+        known_(std::move(known)),
+        piece_{plan_, required.shapes, grown_mm(asked.inputs)},
+        wishes_(wishes_of(asked)),
+        p_{plan_, drafts_.setups, drafts_.steps, piece_, required.demands, asked.recorded, wishes_},
+        cut_(cut_before(asked, drafts_)),
+        bans_(asked.bans),
         job_(job),
-        stocks_(plan.stock, p.setups, steps, left_out_, tries.smallest, tries.memo.get()),
-        progress_(p),
-        cuts_(tries.cuts, options, job),
-        means_{stocks_, progress_, cuts_, job_, tries.memo.get()} {}
+        stocks_(plan_.stock, drafts_.setups, drafts_.steps, left_out_, asked.smallest, asked.memo),
+        progress_(p_),
+        cuts_(known_, options_of(asked.inputs), job),
+        means_{stocks_, progress_, cuts_, job_, asked.memo},
+        cutter_(plan_, p_, bans_, means_) {}
+  PathMaker(const PathMaker&) = delete;  // its parts refer to each other
+  PathMaker& operator=(const PathMaker&) = delete;
 
-  Result<Learned> run() {
+  Result<Made> run() {
     std::size_t done = 0;
     for (StepDraft& step : steps_) {
       job_.progress("paths", static_cast<double>(done++) / static_cast<double>(steps_.size()));
@@ -86,7 +74,7 @@ class PathMaker {
     learned_.again = learned_.again || cells.again;
     learned_.smallest = std::move(cells.cutters);
     if (!learned_.again) step::tell_all_cases(told_, job_);
-    return std::move(learned_);
+    return Made{{std::move(plan_), std::move(drafts_), std::move(learned_)}, std::move(known_)};
   }
 
  private:
@@ -204,14 +192,15 @@ class PathMaker {
         static_cast<std::size_t>(std::max(0, plan_.machine.magazine_pockets)))
       step::keep_in_magazine(plan_.machine, steps_, step);
     step::rank_by_time(plan_, p_, steps_, step, used_, stocks_, progress_, cuts_);
-    step::rank_by_path(plan_, steps_, step, used_, [&](std::size_t i) { return seconds_with(step, i); });
+    step::rank_by_path(plan_, steps_, step, used_,
+                       [&](std::size_t i) { return cutter_.seconds_with(step, i); });
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     step::GroupedReasons why_not;
     bool gone = step.proposed;                            // true: every cutter finds no material to cut
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
     for (std::size_t i = 0; i < tries; ++i) {
       const auto before = stocks_.before(step.setup);
-      auto tried = with_cutter(step, i);
+      auto tried = cutter_.with_cutter(step, i);
       const auto shifts = tried ? longer_than_a_shift(step, *tried) : std::nullopt;
       if (tried && !shifts && !exceeds(step, *tried)) return accept(step, *std::move(tried), i);
       gone = gone && !tried && tried.error().code == toolpath::kNothingToCut;
@@ -226,7 +215,7 @@ class PathMaker {
     }
     // A step of the file is cut as gently as possible; the plan then says which limit is exceeded.
     if (least && !step.proposed) {
-      auto tried = with_cutter(step, least->first);
+      auto tried = cutter_.with_cutter(step, least->first);
       if (tried) return accept(step, *std::move(tried), least->first);
     }
     if (gone && left_out(step, why_not.text())) return {};
@@ -246,182 +235,6 @@ class PathMaker {
     return "it cuts " + trimmed(*seconds / 3600.0, 1) + " h, longer than a shift of " +
            trimmed(kShiftS / 3600.0, 0) +
            " h; take a machine that turns a wider tool in this material (--machine), or change the feature";
-  }
-
-  [[nodiscard]] static bool exceeds(const StepDraft& step, const step::MeasuredCut& t) {
-    return step.open_technology && t.feeds.worst_excess > step::kTolerableExcess;
-  }
-
-  static std::string excess_text(const step::MeasuredCut& t) {
-    const std::string thinner = t.made.thicker.empty()
-                                    ? std::string()
-                                    : ", also where it cuts " + trimmed(t.made.answer.ap_mm, 3) + " mm deep";
-    return model::text_of(t.feeds.worst) + ", even at the least feed" + thinner;
-  }
-
-  /// How long a candidate's path takes, if it keeps the limits; nothing is kept or said of it.
-  std::optional<double> seconds_with(StepDraft& step, std::size_t i) {
-    auto said = job_.take_diagnostics();
-    const auto before = stocks_.before(step.setup);
-    const model::Cutter cutter = step.cutter;
-    const auto tried = with_cutter(step, i);
-    step.cutter = cutter;
-    stocks_.put_back(step.setup, before);
-    (void)job_.take_diagnostics();
-    for (auto& d : said) job_.report(std::move(d));
-    if (!tried || exceeds(step, *tried)) return std::nullopt;
-    return step::seconds_of(plan_.machine, *tried->path, tried->feeds.schedule);
-  }
-
-  /// Tries one of the candidates: rings outwards, and where the step may have them and they could be quicker
-  /// rings inwards and constant engagement; takes the quickest of those that keep the limits. Only that one
-  /// is removed from the stock.
-  Result<step::MeasuredCut> with_cutter(StepDraft& step, std::size_t i) {
-    step.constant_engagement.reset();
-    step.inwards.reset();
-    const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
-    if (candidate != nullptr) step.cutter = candidate->cutter;
-    const auto other = step::constant_cut(p_, step, candidate, means_);
-    const bool inwards = step::rings_inwards(p_, step, means_);
-    if (!other && !inwards) return with_strategy(step, i);
-    const SaidBefore before(job_);
-    return quickest_way(step, i, inwards, other);
-  }
-
-  /// How long it takes, if it keeps the limits.
-  std::optional<double> kept_seconds(const StepDraft& step, const Result<step::MeasuredCut>& t) const {
-    if (!t || exceeds(step, *t)) return std::nullopt;
-    return step::seconds_of(plan_.machine, *t->path, t->feeds.schedule);
-  }
-
-  /// A way that was tried, taken out of the stock again.
-  struct Tried {
-    step::Clearing way;
-    Result<step::MeasuredCut> cut;
-    std::optional<double> seconds;  ///< if it keeps the limits
-    std::vector<Diagnostic> said;
-    step::Stocks::Undone removed;
-  };
-
-  /// Rings, or constant engagement where that is worthwhile; of the others, it reports only what is recorded.
-  Result<step::MeasuredCut> quickest_way(StepDraft& step, std::size_t i, bool inwards,
-                                         const std::optional<step::ConstantCut>& other) {
-    using step::Clearing;
-    const auto before = stocks_.before(step.setup);
-    const auto take = [&](Clearing way) {
-      step.constant_engagement = way == Clearing::kConstantEngagement;
-      step.inwards = way == Clearing::kInwards;
-    };
-    const auto tried = [&](Clearing way) {
-      take(way);
-      auto cut = with_strategy(step, i);
-      const auto seconds = kept_seconds(step, cut);
-      return Tried{way, std::move(cut), seconds, job_.take_diagnostics(),
-                   stocks_.take_out(step.setup, before)};
-    };
-    step::StrategyChoice choice;
-    const auto lose = [&](const Tried& t, double best_s) {
-      std::string why = t.seconds ? step::slower_text(*t.seconds, best_s)
-                        : t.cut   ? excess_text(*t.cut)
-                                  : t.cut.error().message;
-      const optimise::CutAnswer cut = t.cut ? t.cut->made.answer
-                                      : other && t.way == Clearing::kConstantEngagement
-                                          ? other->answer
-                                          : optimise::CutAnswer{};
-      choice.lost.push_back({step::words_of(t.way, cut), std::move(why)});
-    };
-    (void)job_.take_diagnostics();
-    Tried best = tried(Clearing::kOutwards);
-    const auto challenge = [&](Clearing way) {
-      Tried next = tried(way);
-      if (next.seconds && (!best.seconds || step::worthwhile(*next.seconds, *best.seconds)))
-        std::swap(best, next);
-      if (best.seconds) lose(next, *best.seconds);
-    };
-    if (inwards) challenge(Clearing::kInwards);
-    if (other) {
-      const double volume = best.seconds ? best.cut->removed_mm3.value_or(0.0) : 0.0;
-      const double about = step::estimated_seconds(other->question, other->answer, volume, other->walled);
-      if (best.seconds && !step::worthwhile(about, *best.seconds)) {
-        choice.lost.push_back({step::words_of(Clearing::kConstantEngagement, other->answer),
-                               step::estimate_text(about, *best.seconds)});
-      } else {
-        challenge(Clearing::kConstantEngagement);
-      }
-    }
-    take(best.way);
-    stocks_.put_in(step.setup, std::move(best.removed));
-    for (Diagnostic& d : best.said) job_.report(std::move(d));
-    if (!best.cut) return std::move(best.cut);
-    choice.way = best.way;
-    if (best.seconds)
-      choice.taken =
-          step::words_of(best.way, best.cut->made.answer) + ": " + motion::duration_text(*best.seconds);
-    best.cut->strategy = std::move(choice);
-    return std::move(best.cut);
-  }
-
-  /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up
-  /// to kMostThinner times, if a limit is exceeded along its path; takes the gentlest if none keeps the
-  /// limits. Removes the cut from the stock, except for a proposed step that exceeds the limits.
-  Result<step::MeasuredCut> with_strategy(StepDraft& step, std::size_t i) {
-    const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
-    const auto before = stocks_.before(step.setup);
-    std::vector<model::Rejected> thicker;
-    std::optional<double> gentlest;  // share of the first try
-    std::optional<step::MeasuredCut> came_of_it;
-    std::vector<Diagnostic> said_of_it;
-    double of_gentlest = 0.0, share = 1.0;
-    if (const draft::Thinner* t =
-            step.proposed ? bans_.thinner(step.member, step.chain, step.in_chain) : nullptr) {
-      share = std::pow(kThinnerAnew, t->times);
-      thicker.push_back({"a cut " + trimmed(1.0 / share, 2) + " times as large", t->why});
-    }
-    for (int round = 0; round <= kMostThinner; ++round) {
-      auto said = job_.take_diagnostics();  // diagnostics before this try; those of a try that is not kept
-                                            // are dropped
-      const auto told = [&](bool kept) {
-        auto now = job_.take_diagnostics();
-        for (auto& d : said) job_.report(std::move(d));
-        if (!kept) return now;
-        for (auto& d : now) job_.report(std::move(d));
-        now.clear();
-        return now;
-      };
-      auto made = step::path_with_cut(p_, step, candidate, share, means_);
-      if (!made) told(!gentlest);
-      if (!made && !gentlest) return tl::unexpected(made.error());
-      if (!made) break;
-      // A pass over a surface is as deep as the material left there, whatever depth was chosen.
-      const bool thinner = (made->depth_open || made->width_open) &&
-                           (!plan_.model.holds<model::FreeformFinishMilling>(step.operation) ||
-                            draft::cuts_levels(plan_.model, step));
-      made->thicker = thicker;
-      step::MeasuredCut tried = step::measured_cut(plan_, p_, step, *std::move(made), means_);
-      const double excess = tried.feeds.worst_excess;
-      const bool kept = !exceeds(step, tried) || !thinner;
-      auto unsaid = told(kept);
-      if (kept) return tried;
-      thicker.push_back({sizes(tried.made.answer), excess_text(tried)});
-      if (!gentlest || excess < of_gentlest) {
-        gentlest = share;
-        of_gentlest = excess;
-        came_of_it = std::move(tried);
-        said_of_it = std::move(unsaid);
-      }
-      stocks_.put_back(step.setup, before);
-      share *= std::isfinite(excess) ? kThinnerAim / (1.0 + excess) : kThinnerUnknown;
-      if (share < kThinnest) break;
-    }
-    if (step.proposed) {  // exceeds a limit and is not taken: nothing is cut, what is known of it will do
-      came_of_it->made.thicker = std::move(thicker);
-      for (auto& d : said_of_it) job_.report(std::move(d));
-      return *std::move(came_of_it);
-    }
-    auto made = step::path_with_cut(p_, step, candidate, *gentlest, means_);
-    if (!made) return tl::unexpected(made.error());
-    made->thicker = std::move(thicker);
-    return step::measured_cut(plan_, p_, step, *std::move(made), means_);
   }
 
   /// Takes a try: into nouns, ledger and plan.
@@ -488,10 +301,14 @@ class PathMaker {
     return {};
   }
 
-  model::Plan& plan_;
-  std::vector<StepDraft>& steps_;
-  const step::PlanSoFar& p_;
-  const std::vector<std::string>& used_;
+  model::Plan plan_;
+  Drafts drafts_;
+  std::vector<StepDraft>& steps_ = drafts_.steps;
+  const std::vector<std::string>& used_ = drafts_.used;
+  step::KnownCuts known_;
+  const piece::Piece piece_;
+  const step::Wishes wishes_;
+  const step::PlanSoFar p_;
   const std::size_t cut_;  ///< of the steps, the first that are cut
   const draft::Bans& bans_;
   Job& job_;
@@ -500,6 +317,7 @@ class PathMaker {
   step::Progress progress_;
   step::Cuts cuts_;
   step::Means means_;
+  TryCutter cutter_;
   Learned learned_;
   step::CasesTold told_;
   std::set<std::string> further_;  ///< cutters that were taken in place of those in `used_`
@@ -511,10 +329,9 @@ class PathMaker {
 
 }  // namespace
 
-Result<Learned> make_paths(model::Plan& plan, std::vector<StepDraft>& steps, const step::PlanSoFar& p,
-                           const std::vector<std::string>& used, std::size_t cut, Tries& tries,
-                           const optimise::Options& options, Job& job) {
-  return PathMaker(plan, steps, p, used, cut, tries, options, job).run();
+Result<Made> make_paths(model::Plan plan, Drafts drafts, const Required& required, const Asked& asked,
+                        step::KnownCuts cuts, Job& job) {
+  return PathMaker(std::move(plan), std::move(drafts), required, asked, std::move(cuts), job).run();
 }
 
 }  // namespace capstan::pipeline

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "planner/door/pipeline/stages.h"
 #include "planner/ground/vocabulary/operation.h"
@@ -237,8 +238,7 @@ void drop_empty_setups(Drafts& drafts) {
 
 }  // namespace
 
-Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts, const Required& required,
-                                               Job& job) {
+Result<Drafted> order_steps(model::Plan plan, Drafts drafts, const Required& required, Job& job) {
   const piece::Demands& demands = required.demands;
   Learned learned;
   drop_empty_setups(drafts);
@@ -248,7 +248,7 @@ Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,
   for (std::size_t i = 0; i < steps.size(); ++i) (steps[i].proposed ? proposed : given).push_back(i);
   if (proposed.empty()) {
     warn_of_parted(plan.model, steps, demands, job);
-    return std::pair(std::move(drafts), std::move(learned));
+    return Drafted{std::move(plan), std::move(drafts), std::move(learned)};
   }
   const auto order = order_of(plan.model, drafts, demands, proposed, job);
   if (!order) return tl::unexpected(order.error());
@@ -259,7 +259,8 @@ Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,
   for (const auto& setup : order->setups) {
     for (const std::size_t item : setup.steps) sorted.push_back(std::move(steps[proposed[item]]));
   }
-  auto added = probing::add_probings(plan, std::move(sorted), required.shapes, demands, job);
+  auto added = probing::add_probings(std::move(plan), std::move(sorted), required.shapes, demands, job);
+  plan = std::move(added.plan);
   steps = std::move(added.steps);
   learned.again = !added.given_up.empty();
   learned.given_up = std::move(added.given_up);
@@ -272,7 +273,7 @@ Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,
   plan.ledger.bind(project->main_workplan, "its_elements", model::Binder::kRule,
                    {"sequence.order", words(*order),
                     "precedences by geometry and chain; few tool changes (planner/making/sequence)"});
-  return std::pair(std::move(drafts), std::move(learned));
+  return Drafted{std::move(plan), std::move(drafts), std::move(learned)};
 }
 
 }  // namespace capstan::pipeline

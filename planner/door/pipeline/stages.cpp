@@ -48,8 +48,18 @@ Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, 
   return Required{*std::move(demands), piece::shapes_of_all(plan, grown_mm(inputs), asked.bans, job)};
 }
 
-std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, const Required& required,
-                                           const Asked& asked, Job& job) {
+step::Wishes wishes_of(const Asked& asked) {
+  const Inputs& inputs = asked.inputs;
+  return {inputs.objective,      asked.earning_per_min, asked.margin.deviations,
+          inputs.constant_feeds, inputs.cases.get(),    inputs.library};
+}
+
+std::size_t cut_before(const Asked& asked, const Drafts& drafts) {
+  return asked.policy.window ? std::min(asked.policy.window->first, drafts.steps.size()) : 0;
+}
+
+Drafted propose_missing(model::Plan plan, Drafts drafts, const Required& required, const Asked& asked,
+                        Job& job) {
   std::vector<model::Cutter> loaded;
   const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const optimise::Options options = options_of(asked.inputs);
@@ -74,11 +84,11 @@ std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts, con
     learned.left_out.clear();  // with other tools they may be made
     learned.again = true;
   }
-  return {std::move(made.drafts), std::move(learned)};
+  return {std::move(plan), std::move(made.drafts), std::move(learned)};
 }
 
-Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& required, const Asked& asked,
-                         Job& job) {
+Drafted select_open_tools(model::Plan plan, Drafts drafts, const Required& required, const Asked& asked,
+                          Job& job) {
   std::vector<model::Cutter> loaded;
   const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const std::vector<model::Cutter>& library = asked.inputs.library;
@@ -96,7 +106,7 @@ Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& requi
       plan, drafts.steps,
       {propose::magazine_known(library), required.demands.batch, asked.thrift, /*back=*/true});
   given::stand_out_alike(drafts.steps);
-  return drafts;
+  return {std::move(plan), std::move(drafts)};
 }
 
 Result<workholding::Held> hold_workpieces(const model::Plan& plan, const Drafts& drafts, const Asked& asked,

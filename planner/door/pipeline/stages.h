@@ -17,10 +17,10 @@
 #include "planner/making/step/plan_so_far.h"
 #include "planner/making/workholding/hold.h"
 
-// The stages of one try, in the order `bind` runs them. Each reads what it is given and gives what it found.
-// A stage that takes the plan as constant writes nothing into it; the others write nouns, ledger and what is
-// not planned. What else a plan holds, `bind_once` alone writes. Only planner/door/pipeline/*.cpp include
-// this.
+// The stages of one try, in the order `bind` runs them. A stage gives its result and changes nothing of its
+// caller's. One that decides about nouns takes the plan as a value and gives it back with nouns, decisions
+// and unplanned features added; the others take it as constant, and `bind_once` puts their results into the
+// plan. Only planner/door/pipeline/*.cpp include this.
 
 namespace capstan::pipeline {
 
@@ -38,6 +38,16 @@ struct Asked {
       unreadable;  ///< features and steps whose file states something wrongly
   mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
   propose::Thrift thrift = propose::Thrift::kNone;
+  const step::SmallestCutters& smallest;  ///< of each set-up in the last try
+  memo::Memo* memo = nullptr;             ///< results of earlier plannings; null: none
+  double earning_per_min = 0.0;           ///< Objective::kProfit: earning of a machine minute above its cost
+};
+
+/// A plan with the drafts of its steps, as a stage leaves them, and what the next try has to know.
+struct Drafted {
+  model::Plan plan;
+  Drafts drafts;
+  Learned learned = {};
 };
 
 /// The demands on the features, and their shapes in the raw piece.
@@ -60,31 +70,41 @@ struct Resolved {
 /// General tolerance and the demands on each feature.
 [[nodiscard]] Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, Job& job);
 /// Proposes operations and cutters for features without bound operations.
-[[nodiscard]] std::pair<Drafts, Learned> propose_missing(model::Plan& plan, Drafts drafts,
-                                                         const Required& required, const Asked& asked,
-                                                         Job& job);
+[[nodiscard]] Drafted propose_missing(model::Plan plan, Drafts drafts, const Required& required,
+                                      const Asked& asked, Job& job);
 /// Cutters for given operations; then fewer of all cutters.
-[[nodiscard]] Drafts select_open_tools(model::Plan& plan, Drafts drafts, const Required& required,
-                                       const Asked& asked, Job& job);
+[[nodiscard]] Drafted select_open_tools(model::Plan plan, Drafts drafts, const Required& required,
+                                        const Asked& asked, Job& job);
 /// Features that rest on unplanned features become unplanned, too.
 [[nodiscard]] Learned leave_what_rests(const model::Plan& plan, const Drafts& drafts);
 /// The plan's unplanned features; each names the features that rest on it.
 [[nodiscard]] std::vector<model::Unplanned> with_what_rests(const model::Plan& plan,
                                                             const std::vector<draft::SetupDraft>& setups);
 /// Set-ups, order, and what is measured between the steps.
-[[nodiscard]] Result<std::pair<Drafts, Learned>> order_steps(model::Plan& plan, Drafts drafts,
-                                                             const Required& required, Job& job);
+[[nodiscard]] Result<Drafted> order_steps(model::Plan plan, Drafts drafts, const Required& required,
+                                          Job& job);
 /// Fixtures and clamps of each set-up, where that is wanted.
 [[nodiscard]] Result<workholding::Held> hold_workpieces(const model::Plan& plan, const Drafts& drafts,
                                                         const Asked& asked, Job& job);
+/// A plan with its paths, and the optimiser's answers that hold in every try.
+struct Made {
+  Drafted drafted;
+  step::KnownCuts cuts;
+};
 /// Depths, paths, sections, feeds, step by step, with the retries of one step: the next cutter, a thinner
-/// cut. `steps` are those of `p`, and `plan` is its plan; of the first `cut` of them only what they removed
-/// counts.
-[[nodiscard]] Result<Learned> make_paths(model::Plan& plan, std::vector<draft::StepDraft>& steps,
-                                         const step::PlanSoFar& p, const std::vector<std::string>& used,
-                                         std::size_t cut, Tries& tries, const optimise::Options& options,
-                                         Job& job);
+/// cut. Of the steps before a window only what they removed counts. `cuts`: of earlier tries.
+[[nodiscard]] Result<Made> make_paths(model::Plan plan, Drafts drafts, const Required& required,
+                                      const Asked& asked, step::KnownCuts cuts, Job& job);
+/// The plan with the results of its set-ups, tools and features; what the policy does not want bound is open.
+/// `needed`: tools that features lack. Fails  PIP-OFFSETS for more set-ups than the control has work offsets.
+[[nodiscard]] Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Required& required,
+                                             const Asked& asked, const std::vector<model::NeededTool>& needed,
+                                             Job& job);
 
+/// The caller's choices for every step.
+[[nodiscard]] step::Wishes wishes_of(const Asked& asked);
+/// How many of the drafts a window counts as cut: those that have a result.
+[[nodiscard]] std::size_t cut_before(const Asked& asked, const Drafts& drafts);
 /// The solver that the caller wants.
 [[nodiscard]] optimise::Options options_of(const Inputs& inputs);
 

@@ -88,7 +88,7 @@ void carry_on(const model::Model& m, const model::StepResult* before, model::Ste
 
 }  // namespace
 
-void carry_tools(const model::Model& m, std::vector<draft::StepDraft>& steps) {
+std::vector<draft::StepDraft> carry_tools(const model::Model& m, std::vector<draft::StepDraft> steps) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     draft::StepDraft& step = steps[i];
     if (!m.holds<model::RapidMovement>(step.step) || step.cutter.cutting_diameter_mm > 0.0) continue;
@@ -103,10 +103,12 @@ void carry_tools(const model::Model& m, std::vector<draft::StepDraft>& steps) {
       break;
     }
   }
+  return steps;
 }
 
-void join_paths(model::Plan& plan, const std::vector<draft::SetupDraft>& setups) {
-  auto& steps = plan.steps;
+std::vector<model::StepResult> joined_paths(const model::Plan& plan,
+                                            const std::vector<draft::SetupDraft>& setups) {
+  std::vector<model::StepResult> steps = plan.steps;
   // By what the file says, before any end is added.
   std::vector<bool> joined(steps.size() + 1, false);  // [i]: step i goes on where step i - 1 ended
   for (std::size_t i = 1; i < steps.size(); ++i) joined[i] = goes_on(steps[i - 1], steps[i]);
@@ -123,6 +125,7 @@ void join_paths(model::Plan& plan, const std::vector<draft::SetupDraft>& setups)
       step.rapid_s = t->rapid_s;
     }
   }
+  return steps;
 }
 
 }  // namespace capstan::given

@@ -12,9 +12,12 @@ namespace capstan::given {
 
 /// A rapid movement without a tool is carried out by the one in the spindle; before the first tool, by the
 /// one that comes next.
-void carry_tools(const model::Model& m, std::vector<draft::StepDraft>& steps);
+[[nodiscard]] std::vector<draft::StepDraft> carry_tools(const model::Model& m,
+                                                        std::vector<draft::StepDraft> steps);
 
-/// Given paths are reached from the security plane, and left to it, where they do not go on from each other.
-void join_paths(model::Plan& plan, const std::vector<draft::SetupDraft>& setups);
+/// The results of the plan's steps. Given paths are reached from the security plane, and left to it, where
+/// they do not go on from each other.
+[[nodiscard]] std::vector<model::StepResult> joined_paths(const model::Plan& plan,
+                                                          const std::vector<draft::SetupDraft>& setups);
 
 }  // namespace capstan::given

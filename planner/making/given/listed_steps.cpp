@@ -4,16 +4,15 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
-#include "planner/ground/base/number.h"
 #include "planner/making/draft/setup_nouns.h"
+#include "planner/making/given/open_values.h"
+#include "planner/making/given/safety_changes.h"
 #include "planner/making/piece/piece.h"
-#include "planner/making/step/path/job_of.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan/decision/by_planning.h"
 #include "rules/rules.h"
-#include "tooling/library/nouns/nouns.h"
 
 namespace capstan::given {
 namespace {
@@ -206,186 +205,6 @@ Status resolve_setup(const model::Plan& plan, SetupDraft& s, Job& job) {
   return {};
 }
 
-/// The security plane must lie above the raw piece and every feature; a given one that does not is raised.
-void raise_security_plane(model::Plan& plan, SetupDraft& s, std::size_t index,
-                          const std::vector<StepDraft>& steps, Job& job) {
-  double top = s.stock.hi.z;
-  for (const StepDraft& step : steps) {
-    if (step.setup != index) continue;
-    for (const auto& shape : step.shapes) {
-      const auto frame = compose(s.workpiece, shape.frame);
-      top = std::max(top, frame.origin.z);
-    }
-  }
-  double least = 2.0;
-  for (const auto& solid : s.holding.solids) {
-    top = std::max(top, solid.top_mm);
-    least = std::max(least, s.holding.clearance_mm);
-  }
-  // Rapids cross at this height: it must clear the material, with the margin that the checker asks too.
-  if (s.security_z_mm >= top + least) return;
-  const double raised = top + std::max(draft::kSecurityAboveMm, least);
-  job.warn("PIP-SECPLANE", "the security plane at z = " + trimmed(s.security_z_mm, 3) +
-                               " mm does not clear the material and the features up to z = " +
-                               trimmed(top, 3) + " mm; raised to " + trimmed(raised, 3) + " mm");
-  plan.ledger.bind(s.setup, "its_secplane", model::Binder::kRule,
-                   {"setup.secplane.raised", "raised so that rapid moves clear raw piece and features",
-                    "safety: a rapid clears the material"});
-  s.security_z_mm = raised;
-  model::Model& m = plan.model;
-  model::CartesianPoint at;
-  at.name = "";
-  at.coordinates = {{0.0, 0.0, raised}, true};
-  model::Axis2Placement3d frame;
-  frame.name = "";
-  frame.location = m.add(at);
-  model::Plane plane;
-  plane.name = "SECURITY PLANE";
-  plane.position = m.add(frame);
-  const auto made = m.add(plane);
-  if (auto* setup = m.get<model::Setup>(s.setup)) setup->its_secplane = made;
-  for (const StepDraft& step : steps) {
-    auto* ws = m.get<model::Workingstep>(step.step);
-    if (step.setup == index && ws != nullptr) ws->its_secplane = made;
-  }
-}
-
-/// Removes open depths and widths, which were chosen for another cut; they are chosen again.
-void drop_open_depths(model::Plan& plan, const StepDraft& step) {
-  model::Model& m = plan.model;
-  const model::Ledger& ledger = plan.ledger;
-  const auto drop = [&](AnyRef object, const char* attribute, model::Real& value) {
-    if (ledger.is_open(object, attribute)) value.reset();
-  };
-  const auto both = [&](auto* o) {
-    if (o == nullptr) return;
-    drop(step.operation, "axial_cutting_depth", o->axial_cutting_depth);
-    if constexpr (requires { o->radial_cutting_depth; })
-      drop(step.operation, "radial_cutting_depth", o->radial_cutting_depth);
-  };
-  both(m.get<model::PlaneMilling>(step.operation));
-  both(m.get<model::SideMilling>(step.operation));
-  both(m.get<model::BottomAndSideMilling>(step.operation));
-  const auto* o = m.get<model::Two5dMillingOperation>(step.operation);
-  const AnyRef strategy = o == nullptr ? AnyRef{} : AnyRef(o->its_machining_strategy);
-  if (auto* s = m.get<model::Two5dMillingStrategy>(strategy)) drop(strategy, "overlap", s->overlap);
-}
-
-void mark_open(model::Plan& plan, Reopen reopen, StepDraft& step) {
-  const model::Model& m = plan.model;
-  const auto* op = m.get<model::MachiningOperation>(step.operation);
-  if (op == nullptr) return;
-  model::Ledger& ledger = plan.ledger;
-  const auto pinned = [&](AnyRef object, const char* attribute) {
-    const auto* d = object.set() ? ledger.find(object, attribute) : nullptr;
-    return d != nullptr && d->pinned;
-  };
-  if (step::has_given_path(plan, step)) {
-    // A path of the file fixes its cutter; feeds may still be chosen. One that planning computed is computed
-    // again.
-    step.open_tool = !m.holds<model::MachiningTool>(op->its_tool);
-  } else {
-    step.open_tool = reopen >= Reopen::kTools || !m.holds<model::MachiningTool>(op->its_tool) ||
-                     ledger.is_open(step.operation, "its_tool") || tooling::is_requirement(m, op->its_tool);
-    if (pinned(step.operation, "its_tool") && m.holds<model::MachiningTool>(op->its_tool))
-      step.open_tool = false;
-    // When a tool goes, the values chosen for it go too.
-    if (step.open_tool) ledger.reopen({step.operation, "its_tool"});
-    drop_open_depths(plan, step);
-  }
-  const auto* tech = m.get<model::MillingTechnology>(op->its_technology);
-  const bool no_feed = tech == nullptr || (!tech->feedrate && !tech->feedrate_per_tooth) ||
-                       tech->feedrate.value_or(1.0) <= 0.0;
-  const bool no_speed = tech == nullptr || (!tech->spindle && !tech->cutspeed);
-  step.open_technology = step.open_tool || reopen >= Reopen::kTechnology || no_feed || no_speed ||
-                         (op->its_technology.set() && (ledger.is_open(op->its_technology, "feedrate") ||
-                                                       ledger.is_open(op->its_technology, "spindle")));
-  if (pinned(op->its_technology, "feedrate") && pinned(op->its_technology, "spindle"))
-    step.open_technology = false;
-  // In a technology that is open in part, values that somebody stated stay; values that planning chose go.
-  const auto stays = [&](bool absent, const char* attribute, const char* other) {
-    if (!step.open_technology || absent) return false;
-    if (pinned(op->its_technology, attribute) || pinned(op->its_technology, other)) return true;
-    if (reopen >= Reopen::kTechnology) return false;
-    for (const char* name : {attribute, other}) {
-      const auto* d = ledger.find(op->its_technology, name);
-      if (d == nullptr) continue;
-      if (d->state != model::DecisionState::kBound) return false;
-      if (model::by_planning(d)) return false;
-    }
-    return true;
-  };
-  step.keep_speed = stays(no_speed, "spindle", "cutspeed");
-  step.keep_feed = stays(no_feed, "feedrate", "feedrate_per_tooth");
-}
-
-/// A tool cannot be withdrawn at no feed: such a value is taken as not stated, for this operation only.
-void overrule_retract(model::Plan& plan, const StepDraft& step, Job& job) {
-  auto* op = plan.model.get<model::DrillingTypeOperation>(step.operation);
-  if (op == nullptr || !op->feed_on_retract || *op->feed_on_retract > 0.0) return;
-  const std::string value = trimmed(*op->feed_on_retract, 4);
-  op->feed_on_retract.reset();
-  job.report({.code = "PIP-CHANGED",
-              .severity = Severity::kWarning,
-              .message = "operation '" + op->its_id.value_or("") + "': feed_on_retract is " + value +
-                         ", at which the tool never leaves its hole; taken as not stated",
-              .file = plan.file_name,
-              .line = plan.model.origin(step.operation).line,
-              .instance = plan.model.origin(step.operation).instance});
-}
-
-/// A reamer that stops in its hole marks the wall: given so, it is kept only while everything given is kept.
-void overrule_stop(model::Plan& plan, const StepDraft& step, Job& job) {
-  auto* op = plan.model.get<model::Reaming>(step.operation);
-  if (op == nullptr || !step.open_technology || !op->spindle_stop_at_bottom.value_or(false)) return;
-  op->spindle_stop_at_bottom = false;
-  job.warn("PIP-CHANGED", "operation '" + op->its_id.value_or("") +
-                              "': the reamer would be withdrawn with the spindle stopped; it keeps turning");
-  plan.ledger.bind(step.operation, "spindle_stop_at_bottom", model::Binder::kRule,
-                   {"safety.reamer_turns", "a reamer withdrawn without turning scores the wall and may break",
-                    "safety: the spindle turns while the tool is in the material"});
-}
-
-/// Replaces coolant that the machine does not have by the next best, and reports it.
-void overrule_coolant(model::Plan& plan, const StepDraft& step, Job& job) {
-  const auto* op = plan.model.get<model::MachiningOperation>(step.operation);
-  if (op == nullptr) return;
-  const AnyRef functions = op->its_machine_functions;
-  auto* f = plan.model.get<model::MillingMachineFunctions>(functions);
-  if (f == nullptr) return;
-  const model::Machine& machine = plan.machine;
-  const bool through = f->through_spindle_coolant.value_or(false) && !machine.has_through;
-  const bool mist = f->mist.value_or(false) && !machine.has_mist;
-  const bool flood = f->coolant.value_or(false) && !machine.has_flood;
-  if (!through && !mist && !flood) return;
-  std::string what;
-  for (const auto& [lacks, name] : {std::pair{through, "coolant through the spindle"},
-                                    std::pair{mist, "mist"}, std::pair{flood, "flood coolant"}}) {
-    if (lacks) what += (what.empty() ? "" : " and ") + std::string(name);
-  }
-  if (through) f->through_spindle_coolant = false;
-  if (mist) f->mist = false;
-  if (flood) f->coolant = false;
-  const bool on = f->coolant.value_or(false) || f->mist.value_or(false);
-  const char* instead = on ? "cut without it" : "cut dry";
-  if (!on && machine.has_flood) {
-    f->coolant = true;
-    instead = "cut with flood";
-  } else if (!on && machine.has_mist) {
-    f->mist = true;
-    instead = "cut with mist";
-  }
-  const std::string text = "machine '" + machine.id + "' has no " + what + ": " + instead;
-  job.warn("PIP-CHANGED", "operation '" + op->its_id.value_or("") + "': " + text);
-  for (const char* attribute : {"through_spindle_coolant", "mist", "coolant"}) {
-    if ((attribute[0] == 't' && !through) || (attribute[0] == 'm' && !mist) ||
-        (attribute[0] == 'c' && !flood))
-      continue;
-    plan.ledger.bind(functions, attribute, model::Binder::kRule,
-                     {"machine.coolant", text, "the machine's own description"});
-  }
-}
-
 /// A step on a compound or a pattern is for the members that its name begins with ('HOLE[2] drill'), and all
 /// that are like them; without such a name, for all.
 std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> shapes,
@@ -489,9 +308,7 @@ Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRe
       continue;  // open: rules propose for its feature
     }
     mark_open(plan, reopen, step);
-    overrule_stop(plan, step, job);
-    overrule_retract(plan, step, job);
-    overrule_coolant(plan, step, job);
+    change_for_safety(plan, step, job);
     kept.push_back(std::move(step));
   }
   out.steps = std::move(kept);
@@ -506,11 +323,6 @@ std::vector<AnyRef> steps_in_order(const model::Plan& plan) {
   std::vector<AnyRef> out;
   for (const StepDraft& s : listed.steps) out.push_back(s.step);
   return out;
-}
-
-void raise_security_planes(model::Plan& plan, std::vector<SetupDraft>& setups,
-                           const std::vector<StepDraft>& steps, Job& job) {
-  for (std::size_t i = 0; i < setups.size(); ++i) raise_security_plane(plan, setups[i], i, steps, job);
 }
 
 }  // namespace capstan::given

@@ -113,12 +113,14 @@ void state_machine_needs(model::Plan& plan) {
        "derived from paths, schedules and loads; lengths of tools are not counted in the travel"});
 }
 
-void tell_loading(model::Plan& plan, const std::vector<model::Cutter>& library, Job& job) {
+std::vector<model::Cutter> loaded_of(const model::Plan& plan, const std::vector<model::Cutter>& library,
+                                     Job& job) {
+  std::vector<model::Cutter> cutters = plan.cutters;
   std::string list;
   int missing = 0;
   bool known = false;
   for (const model::Cutter& c : library) known = known || c.loaded;
-  for (model::Cutter& c : plan.cutters) {
+  for (model::Cutter& c : cutters) {
     c.loaded = std::any_of(library.begin(), library.end(), [&](const model::Cutter& k) {
       return k.id == c.id && k.loaded && k.pocket == c.pocket;
     });
@@ -127,9 +129,10 @@ void tell_loading(model::Plan& plan, const std::vector<model::Cutter>& library, 
     list += (list.empty() ? "" : "; ") + ("T" + std::to_string(c.pocket)) + " " + c.id;
   }
   if (known && missing > 0) job.note("PIP-TO-LOAD", "to load: " + list);
-  if (plan.machine.magazine_pockets == 1 && plan.cutters.size() > 1)
+  if (plan.machine.magazine_pockets == 1 && cutters.size() > 1)
     job.note("PIP-BY-HAND", "machine '" + plan.machine.id + "' has no tool changer: the " +
-                                std::to_string(plan.cutters.size()) + " tools are changed by hand");
+                                std::to_string(cutters.size()) + " tools are changed by hand");
+  return cutters;
 }
 
 }  // namespace capstan::given

@@ -14,8 +14,8 @@ namespace capstan::given {
 /// Where the file states its own, that stays.
 void state_machine_needs(model::Plan& plan);
 
-/// Marks which of the plan's cutters are in the magazine (Cutter::loaded) and notes those that have to be
-/// loaded.
-void tell_loading(model::Plan& plan, const std::vector<model::Cutter>& library, Job& job);
+/// The plan's cutters, those in the magazine marked (Cutter::loaded). Notes those that have to be loaded.
+[[nodiscard]] std::vector<model::Cutter> loaded_of(const model::Plan& plan,
+                                                   const std::vector<model::Cutter>& library, Job& job);
 
 }  // namespace capstan::given

@@ -17,7 +17,7 @@
 #include "planner/model/plan/cutter/stated.h"
 #include "planner/model/plan/decision/by_planning.h"
 #include "tooling/library/nouns/nouns.h"
-#include "tooling/selection/needed.h"
+#include "tooling/selection/least_cutter.h"
 #include "tooling/selection/select.h"
 
 namespace capstan::given {

@@ -83,20 +83,21 @@ void assume_materials(std::vector<Cutter>& library, const ToolMaterialWish& wish
   }
 }
 
-void tell_assumed_materials(model::Plan& plan, Job& job) {
+std::vector<model::Provenance> assumed_materials_of(const model::Plan& plan, Job& job) {
+  std::vector<model::Provenance> out;
   std::array<std::string, 2> taken;  // by Substrate
   std::size_t count = 0;
   for (const Cutter& c : plan.cutters) {
     if (c.cutter_class == model::CutterClass::kTouchProbe || !tooling::material_is_assumed(c)) continue;
     const std::string why = tooling::reason_of_source(*tooling::source_of(c, "substrate"));
     const bool settled = !tooling::material_is_open(c);
-    plan.provenance.push_back(model::provenance_of({c.id, c.substrate, why, settled}));
+    out.push_back(model::provenance_of({c.id, c.substrate, why, settled}));
     if (settled) continue;
     std::string& names = taken.at(static_cast<std::size_t>(c.substrate));
     names += (names.empty() ? "'" : "; '") + c.id + "': " + why;
     ++count;
   }
-  if (count == 0) return;
+  if (count == 0) return out;
   std::string told;
   for (const auto s : {model::Substrate::kCarbide, model::Substrate::kHss}) {
     const std::string& names = taken.at(static_cast<std::size_t>(s));
@@ -114,6 +115,7 @@ void tell_assumed_materials(model::Plan& plan, Job& job) {
               .file = plan.file_name,
               .hint = "settle it with --assume tool-material=carbide or tool-material=hss, or state "
                       "its_material of the cutting edge, or the material in the list of tools"});
+  return out;
 }
 
 }  // namespace capstan::given

@@ -22,7 +22,8 @@ namespace capstan::given {
 /// Takes the cutters of a library whose material nobody states as the caller wishes.
 void assume_materials(std::vector<model::Cutter>& library, const ToolMaterialWish& wish);
 
-/// Puts what is assumed of the plan's cutters into its provenance, and tells it, once (PIP-TOOL-MATERIAL).
-void tell_assumed_materials(model::Plan& plan, Job& job);
+/// What is assumed of the materials of the plan's cutters, as rows of provenance. Reports it once
+/// (PIP-TOOL-MATERIAL).
+[[nodiscard]] std::vector<model::Provenance> assumed_materials_of(const model::Plan& plan, Job& job);
 
 }  // namespace capstan::given

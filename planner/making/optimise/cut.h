@@ -124,8 +124,8 @@ struct CutAnswer {
 }
 
 /// Depth, width, speed and feed that cut fastest (or cheapest, or to most profit) within every limit: spindle
-/// speed range, power and torque at that speed, tip deflection (what is asked, and what the tool's own
-/// material bears: mechanics::enduring_bend_mm), wall error, surface, peak force, largest and least chip,
+/// speed range, power and torque at that speed, tip deflection (the stated limit, and what the tool's own
+/// material endures: mechanics::enduring_bend_mm), wall error, surface, peak force, largest and least chip,
 /// depths, cutting length, axis feed. Forces carry the margin of mechanics/loads/margin.h: the spread of
 /// their coefficients, a worn edge and the operator's override; limits are thus never met on average values.
 ///
@@ -143,9 +143,9 @@ struct CutAnswer {
 ///              fails with.
 [[nodiscard]] Result<CutAnswer> cut(const CutQuestion& question, const Options& options, Job& job);
 
-/// How far the operator may turn the feed up: it counts in the margin of forces, and the largest chip that
-/// the cutter bears holds there. 1 where overrides are locked, for taps, and for a feed that is given (it is
-/// executed as it is).
+/// How far the operator may turn the feed up: it counts in the margin of forces, and the cutter's
+/// largest permitted chip holds there. 1 where overrides are locked, for taps, and for a feed that is given
+/// (it is executed as it is).
 [[nodiscard]] double feed_override(const CutQuestion& q);
 
 /// The loads of a cut of these dimensions, the margin included (chip and removal rate: as planned); nothing

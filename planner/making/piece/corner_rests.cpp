@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/raw_piece_limits.h"
@@ -75,39 +74,40 @@ void tell(const model::Plan& plan, const FeatureShape& s, const CornerRest& r, J
 
 }  // namespace
 
-void keep_corner_rests(model::Plan& plan, const std::vector<CornerRest>& before,
-                       const std::vector<draft::StepDraft>& steps) {
+std::vector<model::Provenance> kept_corner_rests(const std::vector<CornerRest>& before,
+                                                 const std::vector<draft::StepDraft>& steps) {
+  std::vector<model::Provenance> out;
   for (const CornerRest& r : before) {
     const bool made = std::any_of(steps.begin(), steps.end(), [&](const draft::StepDraft& step) {
       return std::any_of(step.shapes.begin(), step.shapes.end(),
                          [&](const FeatureShape& s) { return s.name == r.feature; });
     });
-    if (made) plan.provenance.push_back(model::provenance_of(r));
+    if (made) out.push_back(model::provenance_of(r));
   }
+  return out;
 }
 
-void settle_corner_rests(model::Plan& plan, const Shapes& shapes, double grown_mm,
-                         const std::vector<draft::StepDraft>& steps, Job& job) {
+std::vector<model::Provenance> settled_corner_rests(const Piece& piece,
+                                                    const std::vector<draft::StepDraft>& steps, Job& job) {
   constexpr double kSameMm = 1e-4;
-  const Piece piece{plan, shapes, grown_mm};
   std::vector<model::Provenance> rows;
-  for (model::Provenance& row : std::exchange(plan.provenance, {})) {
+  for (const model::Provenance& row : piece.plan.provenance) {
     std::optional<CornerRest> r = model::corner_rest(row);
     if (!r) {
-      rows.push_back(std::move(row));
+      rows.push_back(row);
       continue;
     }
-    for (const FeatureShape& s : shapes.all) {
+    for (const FeatureShape& s : piece.shapes.all) {
       const double radius = s.name == r->feature ? 0.5 * narrowest_mill_mm(piece, steps, s) : 0.0;
       if (!(radius > r->stated_mm + kSameMm)) continue;
       // A tool wider than what was recorded leaves more, which the check finds.
       r->radius_mm = std::min(r->radius_mm, radius);
       rows.push_back(model::provenance_of(*r));
-      tell(plan, s, *r, job);
+      tell(piece.plan, s, *r, job);
       break;
     }
   }
-  plan.provenance = std::move(rows);
+  return rows;
 }
 
 }  // namespace capstan::piece

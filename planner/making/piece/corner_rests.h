@@ -10,14 +10,16 @@
 
 namespace capstan::piece {
 
-/// Keeps the records of an earlier planning whose features still have the steps that were made for them.
-/// `steps`: those of the file.
-void keep_corner_rests(model::Plan& plan, const std::vector<model::CornerRest>& before,
-                       const std::vector<draft::StepDraft>& steps);
+/// The records of an earlier planning whose features still have the steps that were made for them, as rows of
+/// provenance. `steps`: those of the file.
+[[nodiscard]] std::vector<model::Provenance> kept_corner_rests(const std::vector<model::CornerRest>& before,
+                                                               const std::vector<draft::StepDraft>& steps);
 
-/// Once the paths are made: each record gets the radius of the narrowest mill, which is what stays, and is
-/// told with its places and how much that is (PIP-CORNER). One whose corners are made as stated is dropped.
-void settle_corner_rests(model::Plan& plan, const Shapes& shapes, double grown_mm,
-                         const std::vector<draft::StepDraft>& steps, Job& job);
+/// The plan's rows of provenance once the paths are made. The record of a corner gets the radius of the
+/// narrowest mill, which is the radius that stays, and a report with places and amounts (PIP-CORNER). The
+/// record of corners that are made as stated is dropped.
+[[nodiscard]] std::vector<model::Provenance> settled_corner_rests(const Piece& piece,
+                                                                  const std::vector<draft::StepDraft>& steps,
+                                                                  Job& job);
 
 }  // namespace capstan::piece

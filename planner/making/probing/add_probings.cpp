@@ -215,7 +215,7 @@ Ref<model::Executable> touch_noun(model::Plan& plan, const StepDraft& next, cons
 
 }  // namespace
 
-Added add_probings(model::Plan& plan, std::vector<StepDraft> steps, const piece::Shapes& shapes,
+Added add_probings(model::Plan plan, std::vector<StepDraft> steps, const piece::Shapes& shapes,
                    const piece::Demands& demands, Job& job) {
   const Known known{steps, shapes, demands, plan.stock.box};
   Added added;
@@ -264,6 +264,7 @@ Added add_probings(model::Plan& plan, std::vector<StepDraft> steps, const piece:
     }
     out.push_back(steps[i]);
   }
+  added.plan = std::move(plan);
   return added;
 }
 

@@ -12,8 +12,9 @@
 
 namespace capstan::probing {
 
-/// The steps with those that measure.
+/// The steps with those that measure, and the plan with the nouns of these.
 struct Added {
+  model::Plan plan;
   std::vector<draft::StepDraft> steps;
   std::vector<draft::GivenUp> given_up;  ///< chains that need a measurement which cannot be made
 };
@@ -27,7 +28,7 @@ struct Added {
 /// in x and in y, of a slot across, of a face its level. If no start is known to be free or no wall is known
 /// to exist, it proposes nothing and gives up the chain (or measures by hand if the probe's ball does not
 /// fit). Reports what is measured by hand (PIP-PROBE).
-[[nodiscard]] Added add_probings(model::Plan& plan, std::vector<draft::StepDraft> steps,
+[[nodiscard]] Added add_probings(model::Plan plan, std::vector<draft::StepDraft> steps,
                                  const piece::Shapes& shapes, const piece::Demands& demands, Job& job);
 
 }  // namespace capstan::probing

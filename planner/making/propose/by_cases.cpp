@@ -7,7 +7,7 @@
 
 #include "casebase/recall/advice.h"
 #include "planner/ground/base/number.h"
-#include "planner/making/propose/members.h"
+#include "planner/making/propose/coaxial_steps.h"
 #include "planner/making/propose/operation_nouns.h"
 #include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/preferences.h"

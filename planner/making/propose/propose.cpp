@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/draft/setup_nouns.h"
 #include "planner/making/piece/mesh/surface_form.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
 #include "planner/making/propose/by_cases.h"
 #include "planner/making/propose/corners.h"
-#include "planner/making/propose/members.h"
-#include "planner/making/propose/needed.h"
+#include "planner/making/propose/coaxial_steps.h"
+#include "planner/making/propose/missing_tools.h"
 #include "planner/making/propose/operation_nouns.h"
 #include "planner/making/propose/shared_tools.h"
+#include "planner/making/propose/sides.h"
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -37,8 +36,6 @@ using model::FeatureShape;
 using model::Model;
 using model::Ref;
 using model::TypeId;
-
-constexpr double kSameAxis = 1e-6;  // sine below which two tool axes are the same
 
 /// Features the file wants made, in the order of the file.
 std::vector<AnyRef> wanted(const Model& m, const std::vector<StepDraft>& steps) {
@@ -61,53 +58,6 @@ std::vector<AnyRef> wanted(const Model& m, const std::vector<StepDraft>& steps) 
   std::stable_sort(out.begin(), out.end(),
                    [&](AnyRef a, AnyRef b) { return m.origin(a).instance < m.origin(b).instance; });
   return out;
-}
-
-/// The set-up in which this axis points up; creates it if there is none.
-/// Warns  PIP-TILT if the axis leans against that of a set-up by less than anybody would intend.
-std::size_t setup_for(model::Plan& plan, std::vector<SetupDraft>& setups, const FeatureShape& s, Job& job) {
-  constexpr double kLeastMeantDeg = 0.5;
-  std::size_t nearest = 0;
-  double tilt_deg = kLeastMeantDeg;
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    const auto up = setups[i].workpiece.direction_to_parent(s.frame.z);
-    const double sine = std::hypot(up.x, up.y);
-    if (sine < kSameAxis && up.z > 0.0) return i;
-    const double deg = std::atan2(sine, up.z) * 180.0 / std::numbers::pi;
-    if (deg >= tilt_deg) continue;
-    nearest = i;
-    tilt_deg = deg;
-  }
-  if (tilt_deg < kLeastMeantDeg) {
-    const auto* from = plan.model.get<model::Setup>(setups[nearest].setup);
-    job.report(
-        {.code = "PIP-TILT",
-         .severity = Severity::kWarning,
-         .message = "feature '" + s.name + "': its axis is tilted by " + trimmed(tilt_deg, 4) +
-                    " degrees against set-up '" + (from == nullptr ? "" : from->its_id.value_or("")) +
-                    "', and a set-up of its own is made for it; a tilt below " + trimmed(kLeastMeantDeg, 4) +
-                    " degrees is hardly meant",
-         .file = plan.file_name,
-         .line = plan.model.origin(s.feature).line,
-         .instance = plan.model.origin(s.feature).instance,
-         .hint = "correct the axis of its feature_placement; if it is meant, clamp the piece anew for it"});
-  }
-  const auto seen = geometry::make_placement({}, s.frame.z, s.frame.x);
-  geometry::Placement turned = inverse(*seen);
-  // The work offset lies at the raw piece's lower corner, as it is clamped.
-  const auto box = transformed(plan.stock.box, turned);
-  turned.origin = turned.origin - box.lo;
-  SetupDraft work;
-  work.workpiece = turned;
-  work.setup = draft::add_setup(plan.model, setups.size() + 1, plan.stock.box, turned);
-  work.stock = transformed(plan.stock.box, turned);
-  work.security_z_mm = work.stock.hi.z + draft::kSecurityAboveMm;
-  setups.push_back(work);
-  plan.ledger.bind(
-      work.setup, "its_origin", model::Binder::kRule,
-      {"setup.access", "made because no set-up of the file reaches feature '" + s.name + "' along its axis",
-       "derived from the feature's placement"});
-  return setups.size() - 1;
 }
 
 void unplanned(model::Plan& plan, AnyRef feature, const FeatureShape& s, const std::string& reason,
@@ -254,14 +204,6 @@ class Proposer {
     return std::min(a, b) < -s.depth_mm - model::kCoaxialMm && std::max(a, b) > -model::kCoaxialMm;
   }
 
-  /// The set-up in which this axis points up; past the last one if there is none yet.
-  [[nodiscard]] std::size_t setup_up(geometry::Vec3 z) const {
-    for (std::size_t i = 0; i < out_.drafts.setups.size(); ++i) {
-      if (std::abs(out_.drafts.setups[i].workpiece.direction_to_parent(z).z - 1.0) < kSameAxis) return i;
-    }
-    return out_.drafts.setups.size();
-  }
-
   [[nodiscard]] std::optional<Core> core_of(const std::vector<FeatureShape>& shapes) const {
     std::optional<Core> out;
     for (const FeatureShape& s : shapes) {
@@ -269,7 +211,7 @@ class Proposer {
       std::optional<Core> here;
       for (std::size_t i = 0; i < out_.drafts.steps.size(); ++i) {
         const StepDraft& step = out_.drafts.steps[i];
-        if (step.feature == s.feature || step.setup > setup_up(s.frame.z)) continue;
+        if (step.feature == s.feature || step.setup > setup_up(out_.drafts.setups, s.frame.z)) continue;
         for (const FeatureShape& hole : step.shapes) {
           if (!runs_through(hole, s)) continue;
           if (!here || hole.diameter.nominal_mm >= here->diameter_mm)
@@ -302,58 +244,6 @@ class Proposer {
     return {};
   }
 
-  static bool plain_through(const FeatureShape& s) {
-    return s.kind == model::ShapeKind::kHole && s.through && s.bottom_diameter_mm == s.diameter.nominal_mm;
-  }
-
-  /// From which side the features are cut that tolerances tie to this one, directly or through others.
-  struct Sides {
-    bool same = false, opposite = false;
-  };
-  [[nodiscard]] Sides sides_tied_to(AnyRef f, geometry::Vec3 z) const {
-    std::set<AnyRef> joined{f};
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const model::Tie& t : sources_.demands.ties) {
-        if (joined.contains(t.first) == joined.contains(t.second)) continue;
-        joined.insert(t.first);
-        joined.insert(t.second);
-        grown = true;
-      }
-    }
-    Sides out;
-    if (joined.size() == 1) return out;
-    for (const FeatureShape& s : choice_.piece.shapes.all) {
-      if (s.feature == f || !joined.contains(s.feature) || plain_through(s)) continue;
-      out.same = out.same || std::abs(dot(s.frame.z, z) - 1.0) < kSameAxis;
-      out.opposite = out.opposite || std::abs(dot(s.frame.z, z) + 1.0) < kSameAxis;
-    }
-    return out;
-  }
-
-  /// A hole right through, seen from the other side when only that is up in some set-up.
-  /// Or from the side from which everything is cut that a tolerance ties it to.
-  [[nodiscard]] FeatureShape reachable_side(AnyRef f, const FeatureShape& s) const {
-    if (!plain_through(s)) return s;
-    const Sides tied = sides_tied_to(f, s.frame.z);
-    if (tied.same) return s;
-    bool below = tied.opposite;
-    for (const SetupDraft& setup : out_.drafts.setups) {
-      const auto up = setup.workpiece.direction_to_parent(s.frame.z);
-      if (!tied.opposite && std::abs(up.z - 1.0) < kSameAxis) return s;
-      below = below || std::abs(up.z + 1.0) < kSameAxis;
-    }
-    // Only from where it comes out: a hole that ends inside the piece has no other side.
-    constexpr double kOut = 0.5;  // mm
-    const double under = -transformed(plan_.stock.box, inverse(s.frame)).lo.z;
-    if (!below || under > s.depth_mm + kOut) return s;
-    FeatureShape turned = s;
-    turned.frame.origin = s.frame.origin - s.depth_mm * s.frame.z;
-    turned.frame.z = -1.0 * s.frame.z;
-    turned.frame.y = -1.0 * s.frame.y;
-    return turned;
-  }
-
   std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& proposed,
                                  const rules::Context& context) {
     std::string why = swallowed(given);
@@ -375,7 +265,7 @@ class Proposer {
         job_.note("PIP-EDGE", "feature '" + given.name + "': its edges are not broken: " + r.why +
                                   "; deburr them, or state a chamfer");
     }
-    const FeatureShape s = reachable_side(f, given);
+    const FeatureShape s = reachable_side(choice_.piece, sources_.demands, out_.drafts.setups, f, given);
     const Member member{f, s.feature, s.member};
     InCorners found = choose_in_corners(choice_, sources_.rules, context, p, s, member, out_.drafts.steps,
                                         out_.drafts.used, job_);

@@ -17,7 +17,7 @@ namespace capstan::verify {
 struct ProgramText {
   std::string file_name;   ///< as the user named it
   std::string text;        ///< RS274/NGC as LinuxCNC reads it
-  std::string tool_table;  ///< LinuxCNC's .tbl; may be empty: then nothing is said about it
+  std::string tool_table;  ///< LinuxCNC's .tbl; may be empty: then it is not judged
 };
 
 using model::CutBefore;
@@ -33,14 +33,14 @@ using model::CutBefore;
 ///            keeps what was found of steps: where the stock before a step, its cutter with shank and holder,
 ///            its sizes and moves are as in an earlier check, it is not swept again. The findings are the
 ///            same.
-/// Part       of `before` nothing is said, and what later steps work on is not asked to be done; the life of
-/// a tool
-///            is not judged over what it cut before.
+/// Part       steps of `before` get no finding, and features that later steps work on need not be done. The
+///            life of a tool is judged without
+///            its cuts before.
 [[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job,
                                                      memo::Memo* known = nullptr,
                                                      const CutBefore* before = nullptr);
 
-/// What is wrong with a program, alone or against the plan that it was written from. Steps are told by the
+/// What is wrong with a program, alone or against the plan that it was written from. Steps are found by the
 /// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1.
 [[nodiscard]] std::vector<model::Finding> check_program(const ProgramText& program, const model::Plan* plan,
                                                         const model::Machine& machine,

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace capstan::tooling {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-/// Twist drills are ground to 150 degrees at most (cutting-tool-supply.com, high performance drill point
-/// angles), inserts lie within some degrees of level: between the two. Default, unsourced.
-constexpr double kFlatPointRad = 160.0 * kRadPerDeg;
 /// Face mills are made to a cutting edge angle of 42 degrees, high-feed mills to 10 to 20: between the two.
 /// Default, unsourced.
-constexpr double kHighFeedLeanRad = 60.0 * kRadPerDeg;
+constexpr double kHighFeedLeanRad = 60.0 * kRadPerDegree;
 /// Cutting edge angles are made as 90, 75, 65, 45, 42 degrees and less. Default, unsourced.
-constexpr double kSameLeanRad = 10.0 * kRadPerDeg;
+constexpr double kSameLeanRad = 10.0 * kRadPerDegree;
 
 }  // namespace
 

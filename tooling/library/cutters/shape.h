@@ -1,10 +1,15 @@
 #pragma once
 
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/plan/cutter/cutter.h"
 
 // What kind of tool a cutter is within its class, by the angles of its edges.
 
 namespace capstan::tooling {
+
+/// Twist drills are ground to 150 degrees at most (cutting-tool-supply.com, high performance drill point
+/// angles), inserts lie within some degrees of level: between the two. Default, unsourced.
+inline constexpr double kFlatPointRad = 160.0 * kRadPerDegree;
 
 /// A drill with an insert at the centre and one at the circumference (ISO 13399: SIG near 180 degrees, ZEFF
 /// 1): it begins in a level face without a mark, is never pecked, and widens no hole.

@@ -9,6 +9,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/cutters/shape.h"
 
 namespace capstan::tooling {
 namespace {
@@ -63,7 +64,6 @@ std::optional<CutterClass> class_of_body(const Model& m, const ToolParts& p, dou
     return point_angle_rad > 75.0 * kRadPerDegree ? CutterClass::kSpotDrill : CutterClass::kCenterDrill;
   if (m.holds<model::Drill>(b)) {
     // Neither standard has a word for them: one lip, coolant through it, and a point that guides it.
-    constexpr double kFlatPointRad = 160.0 * kRadPerDegree;
     const bool gun = point_angle_rad < kFlatPointRad && p.body->number_of_teeth.value_or(0) == 1 &&
                      p.body->coolant_through_tool.value_or(false);
     return gun ? CutterClass::kGunDrill : CutterClass::kTwistDrill;

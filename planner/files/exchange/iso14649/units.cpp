@@ -35,4 +35,23 @@ double to_file(double value, model::Unit unit) {
   return factor == 1.0 ? value : unconverted(value, factor);
 }
 
+void round_units(model::Model& m) {
+  for (std::size_t i = 1; i < model::kTypeCount; ++i) {
+    const auto type = static_cast<model::TypeId>(i);
+    for (const model::Attribute& a : model::noun_type(type).attributes) {
+      if (!a.in_iso14649 || model::iso14649_factor(a.unit) == 1.0) continue;
+      for (const model::AnyRef at : m.all(type)) {
+        if (a.storage == model::Storage::kReal) {
+          auto& v = *static_cast<model::Real*>(a.at(m.object(at)));
+          if (v) v = from_file(to_file(*v, a.unit), a.unit);
+        } else if (a.storage == model::Storage::kRealList) {
+          for (double& v : static_cast<model::RealList*>(a.at(m.object(at)))->items) {
+            v = from_file(to_file(v, a.unit), a.unit);
+          }
+        }
+      }
+    }
+  }
+}
+
 }  // namespace capstan::exchange

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "planner/model/nouns/arena/attribute.h"
+#include "planner/model/nouns/arena/model.h"
 
 namespace capstan::exchange {
 
@@ -10,5 +11,7 @@ namespace capstan::exchange {
 [[nodiscard]] double from_file(double value, model::Unit unit);
 /// A number of the model as the file holds it.
 [[nodiscard]] double to_file(double value, model::Unit unit);
+/// Rounds each number to what the file will contain, so that hashes match what is read back.
+void round_units(model::Model& m);
 
 }  // namespace capstan::exchange

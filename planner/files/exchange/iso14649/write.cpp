@@ -31,26 +31,6 @@ using model::TypeId;
 
 namespace {
 
-// Rounds each number to what the file will contain, so that hashes match what is read back.
-void round_units(model::Model& m) {
-  for (std::size_t i = 1; i < model::kTypeCount; ++i) {
-    const auto type = static_cast<TypeId>(i);
-    for (const Attribute& a : model::noun_type(type).attributes) {
-      if (!a.in_iso14649 || model::iso14649_factor(a.unit) == 1.0) continue;
-      for (const AnyRef at : m.all(type)) {
-        if (a.storage == Storage::kReal) {
-          auto& v = *static_cast<model::Real*>(a.at(m.object(at)));
-          if (v) v = from_file(to_file(*v, a.unit), a.unit);
-        } else if (a.storage == Storage::kRealList) {
-          for (double& v : static_cast<model::RealList*>(a.at(m.object(at)))->items) {
-            v = from_file(to_file(v, a.unit), a.unit);
-          }
-        }
-      }
-    }
-  }
-}
-
 // AP238's own kinds of operation have a form in ISO 14649.
 TypeId written_type(TypeId t) {
   if (t == TypeId::kFreeformRoughMilling || t == TypeId::kFreeformFinishMilling)

@@ -30,7 +30,7 @@ double axis_feed(const CutQuestion& q) {
 }
 
 /// Share of the force of a true-running cutter that one with the usual runout may have at the start feed. The
-/// tooth that stands out most takes a chip that is thicker by kColletRunoutMm sin(pi / z) (as in
+/// tooth with the largest runout takes a chip that is thicker by kColletRunoutMm sin(pi / z) (as in
 /// mechanics/loads/section.h), and its force grows by Kienzle's law. That is one more factor of the margin,
 /// which knows nothing of the others: their logarithms add as squares. Thin cutters, whose feeds are of the
 /// runout's size, lose a fifth by it, others a few per cent. 1 where a runout is stated: the forces have it.
@@ -44,7 +44,7 @@ double true_running_share(const CutQuestion& q) {
   return std::exp(others - std::hypot(others, margin.deviations * grown));
 }
 
-/// The smaller of what is asked and what the tool's own material bears for its life, mm. The body of a face
+/// The smaller of the stated limit and the bend that the tool's own material endures, mm. The body of a face
 /// mill is no bar.
 double deflection_limit(const CutQuestion& q) {
   const double asked =

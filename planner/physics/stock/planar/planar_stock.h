@@ -147,8 +147,4 @@ class PlanarStock {
   std::uint32_t marks_ = 0;  ///< how many were made
 };
 
-/// Move i as trails of a cutter (arcs in pieces of at most a quarter turn), from first to last.
-[[nodiscard]] std::vector<Trail> trails_of(const model::CutterPath& path, std::size_t i, double radius_mm,
-                                           const geometry::CutterProfile* outline);
-
 }  // namespace capstan::stock

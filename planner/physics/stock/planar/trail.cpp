@@ -167,4 +167,39 @@ bool Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
   return any;
 }
 
+std::vector<Trail> trails_of(const model::CutterPath& path, std::size_t i, double radius_mm,
+                             const geometry::CutterProfile* outline) {
+  std::vector<Trail> out;
+  const geometry::Vec3 from = path.point(i - 1);
+  const geometry::Vec3 to = path.point(i);
+  int n = 1;
+  double sweep = 0.0;
+  const bool arc = is_arc(path.kind[i]) && std::hypot(to.x - path.cx[i], to.y - path.cy[i]) > kTouch &&
+                   std::hypot(from.x - path.cx[i], from.y - path.cy[i]) > kTouch;
+  if (arc) {
+    sweep = model::arc_sweep(path, i);
+    n = std::max(1, static_cast<int>(std::ceil(sweep / (0.5 * std::numbers::pi) - 1e-9)));
+  }
+  geometry::Vec3 p = from;
+  for (int k = 1; k <= n; ++k) {
+    const geometry::Vec3 q = k == n ? to : model::point_on_move(path, i, static_cast<double>(k) / n);
+    Trail t;
+    t.a = xy(p);
+    t.b = xy(q);
+    t.za = p.z;
+    t.zb = q.z;
+    t.radius_mm = radius_mm;
+    t.outline = outline;
+    if (arc) {
+      t.arc = true;
+      t.centre = {path.cx[i], path.cy[i]};
+      t.turn_rad = (path.kind[i] == model::MoveKind::kArcCcw ? sweep : -sweep) / n;
+    }
+    t.settle();
+    out.push_back(t);
+    p = q;
+  }
+  return out;
+}
+
 }  // namespace capstan::stock

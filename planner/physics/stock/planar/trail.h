@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "planner/ground/geometry/profile.h"
 #include "planner/ground/geometry/vec.h"
+#include "planner/model/plan/cutter_path.h"
 #include "planner/physics/stock/planar/probe.h"
 
 namespace capstan::stock {
@@ -55,5 +58,9 @@ struct Trail {
 
 /// Distances closer than this are the same, mm.
 inline constexpr double kTouch = 1e-9;
+
+/// Move i as trails of a cutter (arcs in pieces of at most a quarter turn), from first to last.
+[[nodiscard]] std::vector<Trail> trails_of(const model::CutterPath& path, std::size_t i, double radius_mm,
+                                           const geometry::CutterProfile* outline);
 
 }  // namespace capstan::stock

@@ -1,6 +1,6 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/model/plan/range/positions.h"
-#include "planner/proof/verify/compared/meaning.h"
+#include "planner/proof/verify/compared/feature_readings.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/stopped.h"
 #include "planner/proof/verify/sweep/sweep.h"

@@ -15,8 +15,8 @@
 
 // What follows from a step's own numbers, whoever chose them: its cutting speed is held against what the
 // material's card or the tool states for that material, its edge's life against the time that it cuts, what
-// the plan says of bending against what the feature bears. A card is for no tool in particular, and a life by
-// Taylor's law falls with the fourth to eighth power of the speed: a speed somewhat above the card's is a
+// the plan says of bending against the feature's tolerance. A card is for no tool in particular, and a life
+// by Taylor's law falls with the fourth to eighth power of the speed: a speed somewhat above the card's is a
 // warning; an error only where the edge would not last its own step even if the card were too slow by
 // kCardShort. A cutter of which no one stated what it is made of is judged as the slower material, which the
 // plan takes for it, and where that alone condemns it, it is a warning that says so.
@@ -40,7 +40,7 @@ constexpr double kSurelyWorn = 2.0;
 /// Bending stress at which a shank surely breaks or stays bent, N/mm2: transverse rupture strengths of
 /// cemented carbide (ISO 3327) and of hardened high-speed steel lie at 2000 to 4000. Default, unsourced. The
 /// 2131 behind kCarbideEnduranceNMm2 (mechanics/constants.h) are the mean of one test's blanks, from which
-/// a tool is not to be loaded; an error is only what hardly any grade bears.
+/// a tool is not to be loaded; an error is only what hardly any grade endures.
 constexpr double kBreakingNMm2 = 3500.0;
 /// Of a tolerance zone: what one wall may be pushed by and be within it at all, and what both walls of a
 /// pocket or slot may be, each. Derived: a size in the middle of its zone has half of it on either side.
@@ -210,7 +210,7 @@ class Speed {
   }
 
   /// How steep the surface is that a round nose meets is not measured here. Where the plan predicts a usual
-  /// life it was, but that is the plan's word: it counts only as far as the narrowest circle bears it out.
+  /// life it was, but that is the plan's word: it counts only as far as the narrowest circle confirms it.
   [[nodiscard]] bool gentle_enough(const Reference& ref, double narrowest_m_min) const {
     const double most = kFaster * ref.vc_m_min;
     const double predicted = s_.planned->loads.tool_life_min;
@@ -348,14 +348,14 @@ double flute_stress(const model::Cutter& c, double force_n) {
   return lever > 0.0 ? force_n * lever * 0.5 * c.cutting_diameter_mm / inertia : 0.0;
 }
 
-/// The largest stress of a tool that is loaded at its tip, N/mm2, and the part of it that bears that.
+/// The largest stress of a tool that is loaded at its tip, N/mm2, and the part of the tool that carries it.
 struct Weakest {
   double stress_n_mm2;
   const char* part;
 };
 
-/// Of flutes, neck and shank, each where it is held: a round bar bears 32 F L / (pi d^3) there, L from the
-/// tip. What a longer part hides is none.
+/// Of flutes, neck and shank, each where it is held: the stress of a round bar is 32 F L / (pi d^3), L from
+/// the tip. What a longer part hides is none.
 Weakest weakest(const model::Cutter& c, double force_n) {
   Weakest out{flute_stress(c, force_n), "flutes"};
   double from = std::min(c.maximum_depth_of_cut_mm, c.stick_out_mm);
@@ -402,7 +402,7 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
   // A face mill's body is no bar.
   const bool mills = !works_along_axis(c) && c.cutter_class != CutterClass::kFacemill;
   const char* stiffer = ": cut less deep or less wide, feed slower, or use a stiffer or shorter cutter";
-  // Whatever it does to the wall, no tool bears that.
+  // No tool endures that, whatever it does to the wall.
   const double stress = mills ? bending_stress(c, l.deflection_mm) : 0.0;
   if (stress > kBreakingNMm2) {
     findings.error(21, "CHK-BENDING", at,

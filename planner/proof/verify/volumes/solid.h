@@ -14,13 +14,13 @@ namespace capstan::verify::volumes {
 /// What the text of a file says of a place. kNotSaid: the standard, or the file, leaves it open.
 enum class Said : std::uint8_t { kStays, kRemoved, kNotSaid };
 
-/// What stands in an area that is cut around it, from `top_mm` downwards.
+/// A boss in an area that is cut around it, from `top_mm` downwards.
 struct Standing {
   model::AnyRef boss;
   Outline outline;
   double top_mm = 0.0;          ///< solid's frame
-  double leaning_mm = 0.0;      ///< its walls lean by up to so much beside the outline: nothing is said there
-  double foot_radius_mm = 0.0;  ///< between it and the floor: nothing is said there
+  double leaning_mm = 0.0;      ///< its walls lean by up to this beside the outline: undecided there
+  double foot_radius_mm = 0.0;  ///< between it and the floor: undecided there
 };
 
 /// An area cut down to a depth: face, pocket, step, outside. With `around`: what lies outside the outline.
@@ -29,9 +29,9 @@ struct Area {
   bool around = false;
   std::vector<Standing> standing;
   double foot_radius_mm = 0.0;  ///< between its walls and its floor
-  double leaning_mm = 0.0;      ///< its walls lean by up to so much: nothing is said so near to them
-  double only_mm = 0.0;         ///< above 0: farther from its walls, and past their ends, nothing is said
-  bool overhead = false;        ///< what stands above its top goes, too: a face
+  double leaning_mm = 0.0;      ///< its walls lean by up to this: undecided so near to them
+  double only_mm = 0.0;         ///< above 0: farther from its walls, and past their ends, it is undecided
+  bool overhead = false;        ///< material above its top goes, too: a face
 };
 
 /// Round about its axis.
@@ -39,9 +39,9 @@ struct Bore {
   enum class Bottom : std::uint8_t { kThrough, kFlat, kCone, kBall, kRounded };
   double top_radius_mm = 0.0, bottom_radius_mm = 0.0;  ///< at the top, and at the depth
   Bottom bottom = Bottom::kFlat;
-  double tip_mm = 0.0;     ///< kCone: how far its point lies below the depth; 0: nothing is said of it
+  double tip_mm = 0.0;     ///< kCone: how far its point lies below the depth; 0: undecided
   double radius_mm = 0.0;  ///< kBall, kRounded
-  double blunt_mm = 0.0;   ///< kCone: so near to the axis nothing is said of its point
+  double blunt_mm = 0.0;   ///< kCone: so near to the axis its point is undecided
   double thread_major_mm = 0.0, thread_depth_mm = 0.0;  ///< of a thread in it; 0: none
 };
 
@@ -53,11 +53,11 @@ struct Groove {
   Outline section;
   double half_mm = 0.0;  ///< the widest that the section reaches to either side
   std::array<End, 2> ends = {End::kNone, End::kNone};
-  std::array<double, 2> corner_mm = {0.0, 0.0};  ///< kFlat: so near to both walls nothing is said
+  std::array<double, 2> corner_mm = {0.0, 0.0};  ///< kFlat: so near to both walls it is undecided
   std::array<double, 2> rising_mm = {0.0,
-                                     0.0};  ///< a Woodruff end: so far before it nothing is said of the floor
+                                     0.0};  ///< a Woodruff end: nearer to it than this its floor is undecided
   double foot_radius_mm = 0.0;              ///< between floor and sides
-  /// Below this height and farther than this from the middle nothing is said: corners and flanks of a tee.
+  /// Below this height and farther than this from the middle it is undecided: corners and flanks of a tee.
   double unsaid_height_mm = 0.0, unsaid_half_mm = 0.0;
 };
 

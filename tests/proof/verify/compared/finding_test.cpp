@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/proof/verify/compared/compare.h"
-#include "planner/proof/verify/compared/meaning.h"
+#include "planner/proof/verify/compared/feature_readings.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/proof/verify/plans.h"
 

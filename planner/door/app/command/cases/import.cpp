@@ -7,6 +7,7 @@
 #include "planner/door/service/reading.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 
 // `capstan cases import`: logs of machines as cases. All cases of all logs are kept, or none.
 
@@ -54,10 +55,9 @@ Diagnostic wrong_usage(std::string message, std::string expected) {
 
 // Units of a log that says none: of an inch machine, feeds are in the format's own unit of time.
 retain::LogUnits inches(retain::LogFormat format) {
-  constexpr double kInch = 25.4;
   return format == retain::LogFormat::kTrace
-             ? retain::LogUnits{kInch * retain::kTraceUnits.mm, kInch * retain::kTraceUnits.mm_min}
-             : retain::LogUnits{kInch, kInch};
+             ? retain::LogUnits{kMmPerInch * retain::kTraceUnits.mm, kMmPerInch * retain::kTraceUnits.mm_min}
+             : retain::LogUnits{kMmPerInch, kMmPerInch};
 }
 
 }  // namespace
@@ -98,8 +98,8 @@ int run_cases_import(Session& s) {
   if (!asked.inspection.empty()) {
     const auto bytes = read_file(asked.inspection);
     if (!bytes) return s.end(bytes.error(), kUnreadable);
-    constexpr double kInch = 25.4;
-    auto rows = retain::read_inspection(*bytes, asked.inspection, asked.unit == "inch" ? kInch : 1.0, s.job);
+    auto rows =
+        retain::read_inspection(*bytes, asked.inspection, asked.unit == "inch" ? kMmPerInch : 1.0, s.job);
     if (!rows) return s.end(rows.error(), kUnreadable);
     options.inspection = *std::move(rows);
   }

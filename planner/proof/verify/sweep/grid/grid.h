@@ -94,7 +94,7 @@ class GougeJudge {
   [[nodiscard]] virtual bool guilty(geometry::Vec2 at, double z_mm) const = 0;
 };
 
-/// What is asked of a cut beside its volume; what is not asked for costs nothing.
+/// Results wanted of a cut beside its volume; one that is not wanted costs nothing.
 struct CutAsks {
   double allowed_mm = 1e300;          ///< depth below the part that is within tolerance
   const GougeJudge* judge = nullptr;  ///< of what is deeper; null: all of it is a gouge

@@ -57,7 +57,7 @@ struct Asked {
   double radius_mm = 1e300, corner_mm = 1e300;  ///< of its narrowest mill; of that mill's corner
   double widest_mm = 0.0;                       ///< radius of its widest mill
   double ridges_mm = 1e300;                     ///< freeform: least height of ridges and chords stated
-  bool undercut = false;                        ///< one of its tools cuts under what stands
+  bool undercut = false;                        ///< one of its tools cuts below an overhang
   bool done_before = false;                     ///< its last step was cut before the plan's
 };
 /// Features with steps, but those that are unplanned in part. `before`: what was cut before counts, too.
@@ -90,8 +90,8 @@ class Target : public GougeJudge {
   double wall_gouge(const Move& m, double radius_mm, double height_mm, geometry::Vec2& at);
   /// Whether the feature's removal can be judged here; else why not.
   [[nodiscard]] std::string undecided(model::AnyRef feature) const;
-  /// Says what of the features `here` still stands; `asked`: all that the plan makes. `carried`: cells have
-  /// been cut in another set-up, too.
+  /// Reports the material left of the features `here`; `asked`: all that the plan makes. `carried`: cells
+  /// have been cut in another set-up, too.
   void left(const Grid& grid, const std::vector<Asked>& here, const std::vector<Asked>& asked, bool carried,
             Findings& out) const;
   /// What tells it from another set-up's of the same part and mesh, as bytes.
@@ -187,7 +187,7 @@ class Target : public GougeJudge {
   std::optional<geometry::Box2> near_;
   memo::Memo* memo_ = nullptr;
   memo::Key of_setup_;
-  /// Whether the part stands at a point that was asked for last.
+  /// The last answer whether the part is solid at a point.
   struct Stood {
     const Walls* walls = nullptr;
     geometry::Vec2 at;

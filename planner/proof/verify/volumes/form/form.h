@@ -25,7 +25,7 @@ struct Island {
 /// the outline at the foot; a ball's lowest place at the depth; a conical bottom's point by its tip_angle
 /// where that is no drill's; ends of slots that are not stated round.
 struct Form {
-  model::AnyRef feature;  ///< that is asked for; `solid.noun` is the element or base that it comes from
+  model::AnyRef feature;  ///< as the caller names it; `solid.noun` is the element or base that it comes from
   model::ShapeKind kind = model::ShapeKind::kFace;
   std::string name;  ///< its_id, with "[n]" for one of several
   Solid solid;

@@ -11,7 +11,7 @@
 // planar face without a boundary is its removal_boundary swept along its course; open_boundary and
 // wall_boundary together close an open pocket; a step lies on the right of its open_boundary. Left open are:
 // where a leaning wall stands between top and floor, how far out outsides and steps go, what lies past the
-// ends of an open profile. There nothing is said.
+// ends of an open profile. Such places are undecided.
 
 namespace capstan::verify::volumes {
 
@@ -31,7 +31,7 @@ constexpr double kFar = 1e4;       ///< mm: beyond every raw piece; default, uns
 struct Closed {
   Outline outline;
   std::string fault;
-  double unsaid_mm = 0.0;  ///< so near to it nothing is said
+  double unsaid_mm = 0.0;  ///< so near to it all is undecided
 };
 
 Closed joined(const Course& c) {
@@ -51,7 +51,7 @@ Course polygon(const std::vector<Vec2>& corners) {
 }
 
 /// A closed profile's edges, in its own system; the corner radius that it states for itself; how near to it
-/// nothing is said.
+/// all is undecided.
 Course profile_edges(const Model& m, AnyRef r, double& corner_mm, double& unsaid_mm) {
   if (const auto* p = m.get<model::RectangularClosedProfile>(r)) {
     const auto along = size_of(m, p->profile_length), across = size_of(m, p->profile_width);
@@ -69,8 +69,8 @@ Course profile_edges(const Model& m, AnyRef r, double& corner_mm, double& unsaid
     const auto d = size_of(m, p->diameter);
     const auto n = p->number_of_sides.value_or(0);
     if (!d || !(*d > 0.0) || n < 3 || n > 1000) return {{}, 0.0, "a polygon has no size, or no sides"};
-    // Neither how it is turned nor whether the flag's truth means corners or flats is said alike in ISO 14649
-    // and ISO 10303: between the polygons inside and about the circle nothing is said.
+    // ISO 14649 and ISO 10303 differ on how it is turned, and on whether the flag's truth means corners or
+    // flats: between the polygons inside and about the circle it is undecided.
     if (p->corner_radius.set()) corner_mm = size_of(m, p->corner_radius).value_or(0.0);
     const double half = kPi / static_cast<double>(n);
     const double radius = 0.5 * *d / (p->circumscribed.value_or(false) ? std::cos(half) : 1.0);
@@ -289,7 +289,7 @@ Reading beside(const Source& source, const Course& line, Solid solid) {
   constexpr int kGrid = 32;
   long on_right = 0, on_left = 0;
   const Vec3 size = source.raw.size();
-  // Columns of the raw piece in plan: the feature looks along one of its sides, or all of them are asked.
+  // Columns of the raw piece in plan: the feature looks along one of its sides, or each side is searched.
   Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
   for (int i = 0; i < 8; ++i) {
     const Vec3 c = in.to_parent(source.raw.lo + Vec3{(i & 1) != 0 ? size.x : 0.0, (i & 2) != 0 ? size.y : 0.0,

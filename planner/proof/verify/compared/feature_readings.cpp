@@ -1,4 +1,4 @@
-#include "planner/proof/verify/compared/meaning.h"
+#include "planner/proof/verify/compared/feature_readings.h"
 
 #include <map>
 

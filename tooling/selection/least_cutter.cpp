@@ -1,4 +1,4 @@
-#include "tooling/selection/needed.h"
+#include "tooling/selection/least_cutter.h"
 
 #include <algorithm>
 #include <cmath>

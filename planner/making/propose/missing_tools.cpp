@@ -1,12 +1,12 @@
-#include "planner/making/propose/needed.h"
+#include "planner/making/propose/missing_tools.h"
 
 #include <optional>
 #include <utility>
 
-#include "planner/making/propose/members.h"
+#include "planner/making/propose/coaxial_steps.h"
 #include "planner/making/step/cut/preferences.h"
 #include "planner/model/nouns/all.h"
-#include "tooling/selection/needed.h"
+#include "tooling/selection/least_cutter.h"
 #include "tooling/selection/select.h"
 
 namespace capstan::propose {

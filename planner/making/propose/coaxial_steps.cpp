@@ -1,4 +1,4 @@
-#include "planner/making/propose/members.h"
+#include "planner/making/propose/coaxial_steps.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+// The tables of a case base in a file of SQLite, to the letter; only sqlite_store.cpp includes this.
+
+namespace capstan::casebase {
+
+inline constexpr int kApplicationId = 0x43415053;  // "CAPS"
+inline constexpr int kSchemaVersion = 2;
+inline constexpr const char* kHeadTable =
+    "CREATE TABLE capstan_head(number INTEGER PRIMARY KEY, head BLOB NOT NULL) STRICT";
+inline constexpr const char* kBodyTable =
+    "CREATE TABLE capstan_body(number INTEGER PRIMARY KEY, body BLOB NOT NULL) STRICT";
+inline constexpr const char* kTotalTable =
+    "CREATE TABLE capstan_total(one INTEGER PRIMARY KEY CHECK(one = 1), totals BLOB NOT NULL) STRICT";
+
+/// Each table: its name, and the text that makes it.
+[[nodiscard]] inline std::array<std::pair<std::string_view, std::string>, 3> sqlite_tables() {
+  return {{{"capstan_head", kHeadTable}, {"capstan_body", kBodyTable}, {"capstan_total", kTotalTable}}};
+}
+
+}  // namespace capstan::casebase

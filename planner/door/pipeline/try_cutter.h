@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "planner/making/draft/bans.h"
+#include "planner/making/draft/draft.h"
+#include "planner/making/step/path/attempt.h"
+#include "planner/making/step/plan_so_far.h"
+
+// One step with one cutter: which strategy, how thick a cut; only planner/door/pipeline/*.cpp include this.
+
+namespace capstan::pipeline {
+
+/// Depth and width of a cut, for people.
+[[nodiscard]] std::string sizes(const optimise::CutAnswer& a);
+/// Whether a measured cut, whose feeds are open, exceeds a limit by more than step::kTolerableExcess.
+[[nodiscard]] bool exceeds(const draft::StepDraft& step, const step::MeasuredCut& t);
+/// The limit that a measured cut exceeds, in words.
+[[nodiscard]] std::string excess_text(const step::MeasuredCut& t);
+
+/// Tries cutters at steps. Refers to what the caller keeps; `plan` is that of `p`.
+class TryCutter {
+ public:
+  TryCutter(model::Plan& plan, const step::PlanSoFar& p, const draft::Bans& bans, const step::Means& means)
+      : plan_(plan), p_(p), bans_(bans), means_(means) {}
+
+  /// How long a candidate's path takes, if it keeps the limits, s; nothing is kept or said of it.
+  [[nodiscard]] std::optional<double> seconds_with(draft::StepDraft& step, std::size_t i);
+  /// Tries one of the candidates: rings outwards, and where the step may have them and they could be quicker
+  /// rings inwards and constant engagement; takes the quickest of those that keep the limits. Only that one
+  /// is removed from the stock.
+  [[nodiscard]] Result<step::MeasuredCut> with_cutter(draft::StepDraft& step, std::size_t i);
+
+ private:
+  /// Rings, or constant engagement where that is worthwhile; of the others, it reports only what is recorded.
+  Result<step::MeasuredCut> quickest_way(draft::StepDraft& step, std::size_t i, bool inwards,
+                                         const std::optional<step::ConstantCut>& other);
+  /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up
+  /// to kMostThinner times, if a limit is exceeded along its path; takes the gentlest if none keeps the
+  /// limits. Removes the cut from the stock, except for a proposed step that exceeds the limits.
+  Result<step::MeasuredCut> with_strategy(draft::StepDraft& step, std::size_t i);
+
+  model::Plan& plan_;
+  const step::PlanSoFar& p_;
+  const draft::Bans& bans_;
+  const step::Means& means_;
+};
+
+}  // namespace capstan::pipeline
