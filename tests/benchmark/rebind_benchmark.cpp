@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "planner/door/service/session.h"
-#include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plate.h"
 #include "tests/support/shop.h"
@@ -42,16 +41,6 @@ std::string bracket() {
   return capstan::testing::slurp(capstan::testing::source_dir() + "/examples/bracket.p21");
 }
 
-/// The table with one size of a tool changed; empty: it has no such tool.
-std::string changed(std::string table, int tool, const std::string& key, double by_mm) {
-  const auto of = table.find("T" + std::to_string(tool) + " ");
-  const auto at = of == std::string::npos ? of : table.find(key + "+", of);
-  if (at == std::string::npos) return {};
-  const auto end = table.find(' ', at);
-  const double now = parse_double(table.substr(at + 2, end - at - 2)).value_or(0.0) + by_mm;
-  return table.replace(at, end - at, key + "+" + shortest(now));
-}
-
 void tell_shares(benchmark::State& state, std::vector<double> ms) {
   if (ms.empty()) return;
   std::sort(ms.begin(), ms.end());
@@ -72,7 +61,7 @@ void bind_again(benchmark::State& state, const std::string& part, int tool, cons
   double in_all_mm = 0.0;
   std::string fault;
   const auto bind = [&] {
-    const std::string table = changed(plan.table, tool, key, in_all_mm);
+    const std::string table = capstan::testing::with_tool_changed(plan.table, tool, key, in_all_mm);
     if (table.empty()) fault = "the table has no such tool";
     std::ofstream(path) << table;
     if (fault.empty() && session.set("tools", path) != service::Code::kDone) fault = session.message();

@@ -28,8 +28,8 @@ struct Row {
 /// What `work` takes in this process, user and system.
 [[nodiscard]] Taken taken_by(const std::function<void()>& work);
 /// The same of a program, its threads and children included. Its output is dropped. Throws std::runtime_error
-/// if it ends with another status than 0 or 1 (done, with findings).
-[[nodiscard]] Taken taken_by(const std::vector<std::string>& command);
+/// if it ends with a higher status than `most_status` (1: done, with findings).
+[[nodiscard]] Taken taken_by(const std::vector<std::string>& command, int most_status = 1);
 
 /// Whether instructions can be counted; in a virtual machine often not.
 [[nodiscard]] bool instructions_can_be_counted();

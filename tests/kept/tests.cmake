@@ -9,6 +9,10 @@ if(TARGET capstan_engagement AND TARGET capstan_toolpath AND TARGET capstan_json
   add_executable(capstan_kept ${kept}/main.cpp ${kept}/rows.cpp)
   target_link_libraries(capstan_kept PRIVATE capstan_kept_measure capstan::engagement capstan::toolpath
     capstan::json)
+  if(TARGET capstan_exchange)
+    add_executable(capstan_work_table ${kept}/work_table.cpp)  # ./dev bench --table
+    target_link_libraries(capstan_work_table PRIVATE capstan_kept_measure capstan::exchange capstan::json)
+  endif()
   if(NOT CAPSTAN_SANITIZE AND CAPSTAN_WITH_NLOPT)
     add_test(NAME Kept.AsFastAsTheTableSays
       COMMAND capstan_kept --smoke ${kept}/fast.table $<TARGET_FILE:capstan> ${CMAKE_SOURCE_DIR}/examples)

@@ -53,9 +53,8 @@ class Writer {
   std::string up_, along_;
 };
 
-}  // namespace
-
-Plate plate(std::size_t features, double first_pocket_mm) {
+/// `holes_only`: every feature is a through hole.
+Plate made(std::size_t features, double first_pocket_mm, bool holes_only) {
   Plate out;
   out.features = features;
   const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(1.6 * static_cast<double>(features))));
@@ -92,7 +91,7 @@ Plate plate(std::size_t features, double first_pocket_mm) {
     const double y = kCell * (static_cast<double>(i / columns) + 0.5);
     const std::string at = w.place(x, y, 0.0);
     const std::string name = "'F" + std::to_string(i + 1) + "'";
-    switch (i % 4) {
+    switch (holes_only ? 0 : i % 4) {
       case 1: {
         const std::string profile =
             w.add("RECTANGULAR_CLOSED_PROFILE($," + w.size(8.0, medium) + "," + w.size(10.0, medium) + ")");
@@ -119,6 +118,21 @@ Plate plate(std::size_t features, double first_pocket_mm) {
       "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\nENDSEC;\nDATA;\n" +
       w.text_ + "ENDSEC;\nEND-ISO-10303-21;\n";
   return out;
+}
+
+}  // namespace
+
+Plate plate(std::size_t features, double first_pocket_mm) { return made(features, first_pocket_mm, false); }
+
+Plate plate_of_holes(std::size_t holes) { return made(holes, 3.0, true); }
+
+std::string with_tool_changed(std::string table, int tool, const std::string& key, double by_mm) {
+  const auto of = table.find("T" + std::to_string(tool) + " ");
+  const auto at = of == std::string::npos ? of : table.find(key + "+", of);
+  if (at == std::string::npos) return {};
+  const auto end = table.find(' ', at);
+  const double now = parse_double(table.substr(at + 2, end - at - 2)).value_or(0.0) + by_mm;
+  return table.replace(at, end - at, key + "+" + shortest(now));
 }
 
 }  // namespace capstan::testing

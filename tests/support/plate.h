@@ -16,5 +16,12 @@ struct Plate {
 };
 
 [[nodiscard]] Plate plate(std::size_t features, double first_pocket_mm = 3.0);
+/// The same plate with through holes of 6.6 mm alone.
+[[nodiscard]] Plate plate_of_holes(std::size_t holes);
+
+/// A LinuxCNC tool table with one size of a tool (`key`: "Z" its length, "D" its diameter) changed by so many
+/// mm; empty: it has no such tool.
+[[nodiscard]] std::string with_tool_changed(std::string table, int tool, const std::string& key,
+                                            double by_mm);
 
 }  // namespace capstan::testing

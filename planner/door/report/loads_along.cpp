@@ -47,7 +47,7 @@ class Loads {
       return {step_.loads.peak_force_n / margin_, step_.loads.torque_nm / margin_,
               step_.loads.power_w / margin_, step_.loads.deflection_mm / margin_};
     using model::Limit;
-    if (!loads_ || rpm_ != rpm) loads_.emplace(question_, rpm_ = rpm);
+    if (!loads_ || rpm_ != rpm) loads_.emplace(question_.cut, question_.feed_mm_min, rpm_ = rpm);
     const optimise::feed::CutLoads& loads = *loads_;
     Load out;
     const auto take = [&](const std::optional<optimise::feed::State>& state) {

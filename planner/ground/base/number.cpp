@@ -31,16 +31,23 @@ namespace {
 // Millionths below 1e5 have at most 11 digits.
 constexpr double kDecimals = 1e6;
 
+/// Two digits of a number below 100.
+char* print_pair(char* to, std::uint32_t n) {
+  to[0] = static_cast<char>('0' + n / 10);
+  to[1] = static_cast<char>('0' + n % 10);
+  return to + 2;
+}
+
 char* print_millionths(char* to, std::uint64_t count) {
   constexpr std::uint64_t kOne = 1000000;
   to = std::to_chars(to, to + kNumberRoom, count / kOne).ptr;
-  std::uint64_t rest = count % kOne;
+  const auto rest = static_cast<std::uint32_t>(count % kOne);
   if (rest == 0) return to;
   *to++ = '.';
-  for (std::uint64_t place = kOne / 10; rest != 0; place /= 10) {
-    *to++ = static_cast<char>('0' + rest / place);
-    rest %= place;
-  }
+  to = print_pair(to, rest / 10000);
+  to = print_pair(to, rest / 100 % 100);
+  to = print_pair(to, rest % 100);
+  while (to[-1] == '0') --to;
   return to;
 }
 
@@ -98,8 +105,49 @@ std::string shortest(double value) {
   return {buffer.data(), print_shortest(buffer.data(), value)};
 }
 
+namespace {
+
+/// A number as a whole count of its last decimal, where that count is sure: value = count / scale to the
+/// nearest.
+struct Count {
+  double whole = 0.0, scale = 1.0;
+};
+
+// The product is wrong by half a unit in the last place at most. Farther than that from a tie the whole
+// number next to it is the one next to the exact product, too; below 1e15 it has 15 digits, and its quotient
+// by a power of ten, which is exact, is the double next to the decimal (IEEE 754).
+std::optional<Count> count_of(double value, int decimals) {
+  constexpr std::array<double, 13> kScales{1e0, 1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
+                                           1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+  if (decimals < 0 || static_cast<std::size_t>(decimals) >= kScales.size()) return std::nullopt;
+  const double scale = kScales[static_cast<std::size_t>(decimals)];
+  const double product = value * scale;
+  const double size = std::abs(product);
+  if (!(size < 1e15)) return std::nullopt;
+  const double whole = std::nearbyint(product);
+  if (!(0.5 - std::abs(product - whole) > size * 0x1p-52)) return std::nullopt;
+  return Count{whole, scale};
+}
+
+}  // namespace
+
 std::string fixed(double value, int decimals) {
   need_finite(value);
+  if (const auto count = count_of(value, decimals)) {
+    std::array<char, kNumberRoom> text;
+    char* end = text.data();
+    if (count->whole < 0.0) *end++ = '-';
+    const auto all = static_cast<std::uint64_t>(std::abs(count->whole));
+    const auto one = static_cast<std::uint64_t>(count->scale);
+    end = std::to_chars(end, text.data() + text.size(), all / one).ptr;
+    if (decimals > 0) *end++ = '.';
+    std::uint64_t rest = all % one;
+    for (std::uint64_t place = one / 10; place > 0; place /= 10) {
+      *end++ = static_cast<char>('0' + rest / place);
+      rest %= place;
+    }
+    return {text.data(), end};
+  }
   std::array<char, 400> buffer{};
   const auto [end, ec] =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
@@ -121,7 +169,11 @@ std::string part21_real(double value) {
   return {buffer.data(), print_part21_real(buffer.data(), value)};
 }
 
-double rounded(double value, int decimals) { return *parse_double(fixed(value, decimals)); }
+double rounded(double value, int decimals) {
+  if (const auto count = count_of(value, decimals))
+    return count->whole == 0.0 ? 0.0 : count->whole / count->scale;
+  return *parse_double(fixed(value, decimals));
+}
 
 std::optional<double> parse_double(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "planner/ground/base/job.h"
@@ -71,6 +72,20 @@ struct FeedAnswer {
   model::ExceededLimit worst;  ///< which limit that is, and where; unset while nothing exceeds
 };
 
+/// The feeds that classes of cuts allow, by the question and the cut itself: equal pockets, and the ways of
+/// clearing one, have them in common. Bounded: what was asked about longest ago goes first.
+class KnownFeeds {
+ public:
+  class Classes;
+  KnownFeeds();
+  /// Those of one question at the step's feed. Valid until `of` is called again.
+  [[nodiscard]] Classes& of(const CutQuestion& question, double feed_mm_min);
+
+ private:
+  struct Shelf;
+  std::shared_ptr<std::vector<Shelf>> shelves_;  ///< used last first
+};
+
 /// Feed for each move from the sections measured along it: the largest that keeps peak force, tip deflection,
 /// torque, power, chip thickness and feed mark within their limits at every sample, uncertainty, wear and the
 /// operator's override included. Thin cuts go faster than the step's feed (not in finishing, unless a
@@ -91,7 +106,10 @@ struct FeedAnswer {
 /// Shape         the schedule has one entry per move of `path`.
 /// Determinism   same question, same answer; sections are compared on a grid, rounded to the heavier side.
 /// Source        sections: mechanics/loads/section.h; the braking bound: derived.
-[[nodiscard]] FeedAnswer feeds(const FeedQuestion& question, const model::CutterPath& path);
+/// `known`, where it is given, keeps what cuts allow for paths that are asked about later; no answer depends
+/// on it.
+[[nodiscard]] FeedAnswer feeds(const FeedQuestion& question, const model::CutterPath& path,
+                               KnownFeeds* known = nullptr);
 
 /// Where the engagement is constant at this width, the entry cuts as a slot does: its moves, and any other
 /// that cuts half the diameter or more, get the speed and at most the feed of a wide cut, as factors of those
@@ -112,7 +130,8 @@ void slow_in_deep_slots(FeedQuestion& question);
 ///         do not overlap (but the second rectangle of one step). `sections` may be null.
 /// Shape   samples, sections and factors are renumbered with the moves; a dwell stays at the end of the last
 ///         piece.
-void split_moves(FeedQuestion& question, model::CutterPath& path, model::SectionSeries* sections);
+void split_moves(FeedQuestion& question, model::CutterPath& path, model::SectionSeries* sections,
+                 KnownFeeds* known = nullptr);
 
 /// Relative excess over the limits of a sample at a feed, computed directly: the largest of load / limit - 1.
 /// Negative if all limits hold; nothing if the section is outside the formulas' range.

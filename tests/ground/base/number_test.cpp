@@ -65,6 +65,43 @@ TEST(Number, FixedKeepsAndTrimmedDropsTrailingZeros) {
   EXPECT_EQ(rounded(1.23456, 3), 1.235);
 }
 
+// Ties and their neighbours, decimals of few digits, and any number: what is quick has to give the very same.
+TEST(Number, FixedAndRoundedAreThoseOfTheStandardLibrary) {
+  std::mt19937_64 random(20261125);
+  const auto standard = [](double v, int decimals) {
+    std::array<char, 400> buffer{};
+    std::string out(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), v,
+                                                 std::chars_format::fixed, decimals)
+                                       .ptr);
+    if (out.front() == '-' && out.find_first_not_of("-0.") == std::string::npos) out.erase(0, 1);
+    return out;
+  };
+  const auto holds = [&](double v) {
+    for (int decimals = 0; decimals <= 14; ++decimals) {
+      const std::string wanted = standard(v, decimals);
+      ASSERT_EQ(fixed(v, decimals), wanted) << decimals << " decimals of " << shortest(v);
+      const double back = rounded(v, decimals);
+      ASSERT_EQ(back, parse_double(wanted)) << decimals << " decimals of " << shortest(v);
+      ASSERT_FALSE(std::signbit(back) && back == 0.0);
+    }
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const double sign = random() % 2 == 0 ? 1.0 : -1.0;
+    const double ten = std::pow(10.0, static_cast<double>(random() % 9));
+    const auto digits = static_cast<double>(random() % (std::uint64_t{1} << (random() % 50)));
+    const double tie = sign * (digits + 0.5) / ten, decimal = sign * digits / ten;
+    const double binary_tie = sign * (2.0 * digits + 1.0) / static_cast<double>(2U << (random() % 12));
+    const double any =
+        std::ldexp(sign * static_cast<double>(random() % 1000003), static_cast<int>(random() % 80) - 60);
+    for (const double v : {tie, decimal, binary_tie, any}) {
+      for (const double near : {v, std::nextafter(v, 1e300), std::nextafter(v, -1e300)}) holds(near);
+      if (HasFatalFailure()) return;
+    }
+  }
+  for (const double v : {0.0, -0.0, 5e-324, -5e-324, 999999999999999.0, 1e15, 1e15 + 0.5, 1e17, -1e300})
+    holds(v);
+}
+
 TEST(Number, UnconvertedGivesBackTheDecimalThatWasRead) {
   // 0.04 m/s is 2400 mm/min; dividing naively need not give back 0.04.
   for (int thousandth = 1; thousandth < 5000; ++thousandth) {

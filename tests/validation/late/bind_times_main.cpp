@@ -14,7 +14,6 @@
 
 #include "planner/door/service/session.h"
 #include "planner/ground/base/file.h"
-#include "planner/ground/base/number.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/model/plan/plan.h"
 #include "tests/support/corpus.h"
@@ -77,16 +76,6 @@ Early early(const std::string& part, pipeline::Bind bind, const std::string& tab
   return out;
 }
 
-/// The table with one size of a tool changed.
-std::string changed(std::string table, int tool, const std::string& key, double by_mm) {
-  const auto of = table.find("T" + std::to_string(tool) + " ");
-  const auto at = of == std::string::npos ? of : table.find(key + "+", of);
-  if (at == std::string::npos) return {};
-  const auto end = table.find(' ', at);
-  const double now = parse_double(table.substr(at + 2, end - at - 2)).value_or(0.0) + by_mm;
-  return table.replace(at, end - at, key + "+" + shortest(now));
-}
-
 class Measuring {
  public:
   /// One binding, timed. `call` gives its code.
@@ -133,7 +122,7 @@ void changed_tool(Measuring& m, const std::string& name, const Early& plan, int 
   const std::string path = folder.path() + "/tool.tbl";
   service::Session session;
   const auto bind = [&](int k) {
-    std::ofstream(path) << changed(plan.table, tool, key, by_mm * k);
+    std::ofstream(path) << capstan::testing::with_tool_changed(plan.table, tool, key, by_mm * k);
     const service::Code code = session.set("tools", path);
     return code == service::Code::kDone ? session.bind(plan.json, kAtOnce) : code;
   };

@@ -297,16 +297,22 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
     return trimmed(times, 3) + " " + std::string(kCoated) + ": " + edge->second.source + ")";
   };
   std::map<std::string, double> slowest;
+  std::map<std::string_view, std::pair<double, std::string>> of_group;  // faster than a bare edge, and why
+  out.reserve(r.materials.size() + kIsoGroups.size());
   for (const WorkMaterial& m : r.materials) {
-    const double faster = over_bare(m.iso_group);
     const double bare = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
     if (!(bare > 0.0)) continue;  // no tool of this substrate is to cut it
+    const auto [group, unknown] = of_group.try_emplace(m.iso_group);
+    auto& [faster, source] = group->second;
+    if (unknown) {
+      faster = over_bare(m.iso_group);
+      std::string times =
+          s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (" + s.factor_source + ") x ";
+      if (faster != 1.0) times += by_edge(faster) + " x ";
+      source = "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + fz_source;
+    }
     const double vc = rounded(bare * s.speed_factor * faster, 3);
-    std::string times =
-        s.speed_factor == 1.0 ? "" : trimmed(s.speed_factor, 3) + " (" + s.factor_source + ") x ";
-    if (faster != 1.0) times += by_edge(faster) + " x ";
-    out.push_back(
-        {m.id, m.iso_group, vc, "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + fz_source});
+    out.push_back({m.id, m.iso_group, vc, source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "planner/making/optimise/feeds/known_feeds.h"
+
 namespace capstan::optimise::feed {
 namespace {
 
@@ -63,7 +65,7 @@ bool within(const Column& load, const Column& limits) { return ratio(load, limit
 const CutLoads& CutClasses::loads(double n_rpm) {
   const auto it = loads_.find(n_rpm);
   if (it != loads_.end()) return it->second;
-  return loads_.emplace(n_rpm, CutLoads(q_, n_rpm)).first->second;
+  return loads_.emplace(n_rpm, CutLoads(q_.cut, q_.feed_mm_min, n_rpm)).first->second;
 }
 
 CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
@@ -94,7 +96,12 @@ CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
     p.cut.chip_measured = cut.chip_measured;
     p.cut.entry_rad = std::min(static_cast<double>(entry_class) * entry_step, cut.entry_rad);
     p.cut.exit_rad = std::min(p.cut.entry_rad + swept, std::max(pi, cut.exit_rad));
-    fill(p, loads(n_rpm));
+    if (const CutClass* same = known_ != nullptr ? known_->find(p, n_rpm) : nullptr) {
+      p = *same;
+    } else {
+      fill(p, loads(n_rpm));
+      if (known_ != nullptr) known_->keep(p, n_rpm);
+    }
     it = classes_.emplace(key, p).first;
   }
   last_key_ = key;

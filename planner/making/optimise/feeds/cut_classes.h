@@ -28,7 +28,9 @@ inline constexpr double kMoreOfALimit = 1.1;
 
 class CutClasses {
  public:
-  explicit CutClasses(const FeedQuestion& q) : q_(q) {}
+  /// `known` may be null.
+  CutClasses(const FeedQuestion& q, KnownFeeds* known)
+      : q_(q), known_(known != nullptr ? &known->of(q.cut, q.feed_mm_min) : nullptr) {}
 
   [[nodiscard]] const CutLoads& loads(double n_rpm);
   /// The class of a cut, rounded to the heavier side: depth and area by 0.25 %, arc by 1 to 2 %.
@@ -40,7 +42,6 @@ class CutClasses {
   void each(F&& f) {
     for (auto& [key, kind] : classes_) f(loads(std::get<0>(key)), kind);
   }
-  [[nodiscard]] std::size_t size() const { return classes_.size(); }
 
  private:
   // speed, depth, sweep, entry, area, gain, band
@@ -50,6 +51,7 @@ class CutClasses {
   void fill(CutClass& kind, const CutLoads& loads) const;
 
   const FeedQuestion& q_;
+  KnownFeeds::Classes* known_;
   std::map<double, CutLoads> loads_;
   std::map<Key, CutClass> classes_;
   std::map<double, CutClass> plunges_;

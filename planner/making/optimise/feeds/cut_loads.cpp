@@ -128,11 +128,11 @@ double ratio(const Column& load, const Column& limit) {
 
 bool stated(double limit) { return limit < kNoLimit; }
 
-CutLoads::CutLoads(const FeedQuestion& question, double n_rpm)
-    : q_(question.cut),
+CutLoads::CutLoads(const CutQuestion& question, double feed_mm_min, double n_rpm)
+    : q_(question),
       n_(std::abs(n_rpm)),
-      tooth_(mechanics::tooth_of(question.cut.cutter)),
-      law_(mechanics::force_law(question.cut.material, question.cut.cutter)) {
+      tooth_(mechanics::tooth_of(question.cutter)),
+      law_(mechanics::force_law(question.material, question.cutter)) {
   margin_ = margin_of(q_).factor();
   if (auto beam = mechanics::beam_of(q_.cutter)) {
     compliance_ = mechanics::bending_mm_n(*beam, force_height_mm(q_.cutter), 0.0);
@@ -142,7 +142,7 @@ CutLoads::CutLoads(const FeedQuestion& question, double n_rpm)
   const Measures m = measures(q_, {}, 0.0, n_, 0.0);
   for (const Limit l : model::kSectionLimits) limits_.of(l) = std::min(m[l].limit, kNoLimit);
   const double chip = limits_.of(Limit::kChipThickness);
-  const double nominal = question.feed_mm_min;
+  const double nominal = feed_mm_min;
   // A finishing move may exceed the planned feed only if a required Ra limits it, or if the step was planned
   // for a median of the measured sections: thinner sections allow more, by their chips.
   const bool faster =

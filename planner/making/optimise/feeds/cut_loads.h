@@ -72,7 +72,8 @@ struct ReadyCut {
 
 class CutLoads {
  public:
-  CutLoads(const FeedQuestion& q, double n_rpm);
+  /// `feed_mm_min`: the step's. Refers to `q`.
+  CutLoads(const CutQuestion& q, double feed_mm_min, double n_rpm);
 
   /// Nothing outside the formulas' range.
   [[nodiscard]] std::optional<ReadyCut> ready(const Cut& cut) const;

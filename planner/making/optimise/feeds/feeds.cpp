@@ -231,9 +231,9 @@ double least_feed_mm_min(const CutQuestion& q, double n_rpm) {
   return least_chip_mm(q) * teeth_of(q) * std::abs(n_rpm);
 }
 
-FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
+FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path, KnownFeeds* known) {
   FeedAnswer a;
-  CutClasses classes(q);
+  CutClasses classes(q, known);
   const std::vector<Cap> caps = caps_of(q, path, classes);
   const bool sideways = cuts_sideways(q.cut.kind);
   if (!q.adapt || !sideways) {
@@ -268,7 +268,7 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path) {
 }
 
 std::optional<double> excess_at(const FeedQuestion& q, const CutSample& s, double feed_mm_min) {
-  const CutLoads loads(q, rpm_on(q, s.move));
+  const CutLoads loads(q.cut, q.feed_mm_min, rpm_on(q, s.move));
   const Cuts cuts = cuts_of(s, q.cut);
   double worst = -1.0;
   for (std::size_t c = 0; c < cuts.n; ++c) {

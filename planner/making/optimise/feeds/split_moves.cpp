@@ -253,9 +253,9 @@ bool may_be_cut(const FeedQuestion& q, const CutterPath& path, std::size_t i) {
 
 }  // namespace
 
-void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s) {
+void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s, KnownFeeds* known) {
   const double least = kLeastPiece * q.cut.cutter.cutting_diameter_mm;
-  CutClasses classes(q);
+  CutClasses classes(q, known);
   Pieces pieces_of(q, classes);
   CutterPath out;
   std::vector<double> feed;

@@ -8,6 +8,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/making/draft/draft.h"
 #include "planner/making/optimise/cut.h"
+#include "planner/making/optimise/feeds.h"
 #include "planner/making/toolpath/path_job.h"
 
 // The optimiser, asked once for each question, in all tries at a plan.
@@ -21,11 +22,14 @@ class KnownCuts {
   /// Null where this was not asked before. Valid until the next `keep`.
   [[nodiscard]] const optimise::CutAnswer* find(const optimise::CutQuestion& q) const;
   void keep(const optimise::CutQuestion& q, const optimise::CutAnswer& a);
+  /// What paths asked about before have in common with those that are asked about next.
+  [[nodiscard]] optimise::KnownFeeds& feeds() { return feeds_; }
 
  private:
   using Shelf = std::tuple<std::string, double, double, double, double, double>;
   static Shelf shelf_of(const optimise::CutQuestion& q);
   std::multimap<Shelf, std::pair<optimise::CutQuestion, optimise::CutAnswer>> answers_;
+  optimise::KnownFeeds feeds_;
 };
 
 class Cuts {
@@ -42,6 +46,8 @@ class Cuts {
   /// Of a face: the cut that covers it in one pass, where the cutter is wide enough for that and it takes
   /// less than the passes of the answer; else the answer.
   [[nodiscard]] optimise::CutAnswer in_one_pass(const optimise::CutQuestion& q, optimise::CutAnswer several);
+  /// For `optimise::feeds` and `split_moves`.
+  [[nodiscard]] optimise::KnownFeeds& known_feeds() { return known_.feeds(); }
 
  private:
   KnownCuts& known_;

@@ -112,19 +112,19 @@ bool sound(const Scheduled& s) {
 }
 
 /// Splits the moves by their sections, where there are some, and schedules the feeds of all.
-void schedule(MeasuredCut& cut, model::SectionSeries* sections, memo::Memo* memo) {
+void schedule(MeasuredCut& cut, model::SectionSeries* sections, const Means& means) {
   optimise::FeedQuestion& asked = cut.asked;
   const auto make = [&] {
-    if (sections != nullptr) optimise::split_moves(asked, *cut.path, sections);
-    return optimise::feeds(asked, *cut.path);
+    if (sections != nullptr) optimise::split_moves(asked, *cut.path, sections, &means.cuts.known_feeds());
+    return optimise::feeds(asked, *cut.path, &means.cuts.known_feeds());
   };
-  if (memo == nullptr) {
+  if (means.memo == nullptr) {
     cut.feeds = make();
     return;
   }
   const auto key = memo::key_of(memo::Stage::kFeeds, asked, *cut.path, sections);
   auto answer = memo::remembered<Scheduled>(
-      memo, memo::Stage::kFeeds, key,
+      means.memo, memo::Stage::kFeeds, key,
       [&]() -> Result<Scheduled> {
         Scheduled out{make(),       *cut.path, {}, asked.samples, asked.feed_factor, asked.speed_factor,
                       asked.dwell_s};
@@ -291,12 +291,12 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
         r.radial_depth_mm = std::max(r.radial_depth_mm, ae);
       }
     }
-    schedule(out, &m->sections, means.memo);
+    schedule(out, &m->sections, means);
     engagement::keep_digits(m->sections, m->known_to_mm);
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
   } else {
     if (thread) fq.samples = bound_samples(thread_bound(step.cutter, step.shapes.front()), *out.path);
-    schedule(out, nullptr, means.memo);
+    schedule(out, nullptr, means);
   }
   out.made = std::move(made);
   return out;

@@ -69,30 +69,46 @@ void Heights::reset(double lo, double hi, double z_mm) {
   pieces_.push_back({lo, hi, z_mm});
 }
 
-void Heights::push(double x0, double x1, double z_mm) {
-  if (!(x1 > x0)) return;
-  if (!scratch_.empty() && scratch_.back().z_mm == z_mm) {
-    scratch_.back().x1 = x1;
-  } else {
-    scratch_.push_back({x0, x1, z_mm});
-  }
-}
-
+// Neighbours differ in height, so that only those next to what changes can become one with it.
 bool Heights::lower(double x0, double x1, double z_mm) {
-  bool any = false;
-  for (const Piece& p : pieces_) any = any || (p.z_mm > z_mm && p.x0 < x1 && p.x1 > x0);
-  if (!any) return false;
-  scratch_.clear();
-  for (const Piece& p : pieces_) {
-    if (p.z_mm <= z_mm || p.x1 <= x0 || p.x0 >= x1) {
-      push(p.x0, p.x1, p.z_mm);
+  const auto begins_after = [](double x, const Piece& p) { return x < p.x1; };
+  const auto from = std::upper_bound(pieces_.begin(), pieces_.end(), x0, begins_after);
+  auto first = from;
+  while (first != pieces_.end() && first->x0 < x1 && !(first->z_mm > z_mm)) ++first;
+  if (first == pieces_.end() || !(first->x0 < x1)) return false;
+  auto last = first;  // behind the last one that is lowered
+  for (auto p = first; p != pieces_.end() && p->x0 < x1; ++p) {
+    if (p->z_mm > z_mm) last = p + 1;
+  }
+  if (first != pieces_.begin()) --first;
+  if (last != pieces_.end()) ++last;
+  changed_.clear();
+  const auto push = [&](double a, double b, double z) {
+    if (!(b > a)) return;
+    if (!changed_.empty() && changed_.back().z_mm == z) {
+      changed_.back().x1 = b;
+    } else {
+      changed_.push_back({a, b, z});
+    }
+  };
+  for (auto p = first; p != last; ++p) {
+    if (p->z_mm <= z_mm || p->x1 <= x0 || p->x0 >= x1) {
+      push(p->x0, p->x1, p->z_mm);
       continue;
     }
-    push(p.x0, x0, p.z_mm);
-    push(std::max(p.x0, x0), std::min(p.x1, x1), z_mm);
-    push(x1, p.x1, p.z_mm);
+    push(p->x0, x0, p->z_mm);
+    push(std::max(p->x0, x0), std::min(p->x1, x1), z_mm);
+    push(x1, p->x1, p->z_mm);
   }
-  std::swap(pieces_, scratch_);
+  const auto before = last - first;
+  const auto now = static_cast<std::ptrdiff_t>(changed_.size());
+  if (now <= before) {
+    const auto end = std::copy(changed_.begin(), changed_.end(), first);
+    pieces_.erase(end, last);
+  } else {
+    const auto rest = std::copy(changed_.begin(), changed_.begin() + before, first);
+    pieces_.insert(rest, changed_.begin() + before, changed_.end());
+  }
   return true;
 }
 

@@ -58,8 +58,7 @@ class Heights {
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:
-  void push(double x0, double x1, double z_mm);
-  std::vector<Piece> pieces_, scratch_;
+  std::vector<Piece> pieces_, changed_;
 };
 
 }  // namespace capstan::stock

@@ -362,6 +362,33 @@ TEST(Feeds, KeepAWallErrorWhereItIsLimited) {
   EXPECT_LT(feeds(tight, p).schedule.feed_mm_min[1], a.schedule.feed_mm_min[1]);
 }
 
+// More questions than are kept at a time, asked by turns, some of them twice with other paths.
+TEST(FeedsProperty, AreTheSameWithWhatWasKnownBefore) {
+  std::mt19937 random(20261125);
+  KnownFeeds known;
+  for (int round = 0; round < 60; ++round) {
+    FeedQuestion q = question();
+    q.explain = round % 4 == 0;
+    q.cut.depth_mm += static_cast<double>(round % 20);
+    q.cut.peak_force_limit_n = round % 3 == 0 ? 900.0 : 0.0;
+    q.cut.cutter.corner_radius_mm = round % 5 == 0 ? 1.0 : 0.0;
+    q.feed_mm_min *= round % 2 == 0 ? 1.0 : 0.9;
+    CutterPath p = random_path(q, random);
+    if (round % 7 == 0) q.samples.front().entry_rad = std::nan("");
+    FeedQuestion again = q;
+    CutterPath again_p = p;
+    split_moves(q, p, nullptr);
+    split_moves(again, again_p, nullptr, &known);
+    ASSERT_EQ(again_p, p) << "round " << round;
+    const FeedAnswer a = feeds(q, p), b = feeds(again, again_p, &known);
+    ASSERT_EQ(b.schedule.feed_mm_min, a.schedule.feed_mm_min) << "round " << round;
+    ASSERT_EQ(b.schedule.spindle_rpm, a.schedule.spindle_rpm);
+    ASSERT_EQ(b.peak, a.peak) << "round " << round;
+    ASSERT_EQ(b.held_by.size(), a.held_by.size());
+    ASSERT_EQ(b.worst_excess, a.worst_excess) << "round " << round;
+  }
+}
+
 TEST(Feeds, OfAnEmptyPathAreNone) {
   const CutterPath p;
   EXPECT_TRUE(feeds(question(), p).schedule.feed_mm_min.empty());
