@@ -20,24 +20,15 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::helper;
 
-const char* name_of(Carrier c) {
-  switch (c) {
-    case Carrier::kPlane:
-      return "Plane";
-    case Carrier::kCylinder:
-      return "Cylinder";
-    case Carrier::kCone:
-      return "Cone";
-    case Carrier::kSphere:
-      return "Sphere";
-    case Carrier::kTorus:
-      return "Toroid";
-    case Carrier::kSpline:
-      return "BSpline";
-    case Carrier::kOther:
-      break;
-  }
-  return "Other";
+/// As the oracle names them.
+std::string name_of(Carrier c) {
+  static const std::map<std::string, std::string> kNames{{"plane", "Plane"},
+                                                         {"cylinder", "Cylinder"},
+                                                         {"cone", "Cone"},
+                                                         {"sphere", "Sphere"},
+                                                         {"torus", "Toroid"}};
+  const auto at = kNames.find(to_text(c));
+  return at == kNames.end() ? to_text(c) : at->second;
 }
 
 double processor_s() {

@@ -447,8 +447,8 @@ void read(const std::string& step, double chord_mm, BrepMessage& out) {
     return error("BREP-GAPS", gaps + "; at most " + fixed(kRefusedGapMm, 1) + " mm are let pass", kExport);
   if (apart > kToldGapMm) warn("BREP-GAPS", gaps, kCompare);
   if (const auto missing = origins.missing(brep.faces); !missing.empty()) {
-    warn("BREP-LOST", counted(missing.size(), "face", "faces") + " of the file are of no body that was read",
-         kCompare);
+    warn("BREP-LOST",
+         "in no body that was read: " + counted(missing.size(), "face", "faces") + " of the file", kCompare);
     out.remarks.back().instance = static_cast<std::uint64_t>(missing.front());
   }
   tell_bodies(out);
