@@ -23,7 +23,7 @@ FLOORS = {
 }
 
 # Folder -> room. planner/controls is a room with a folder per control, on shared pieces. Of folders that hold each other the deepest counts.
-EXCHANGE = "common toolpaths records express conformance iso14649 ap238"
+EXCHANGE = "common toolpaths records express conformance iso14649 ap238 brep"
 # The check's readers of programs, a room for each control.
 READERS = "planner/proof/verify/program"
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -62,7 +62,9 @@ ALLOWED = {
     "common": MODEL + " p21", "toolpaths": MODEL + " p21 common", "records": EXCHANGE_COMMON,
     "express": GROUND + " p21 common", "conformance": MODEL + " p21 common express",
     "iso14649": EXCHANGE_COMMON + " records", "ap238": EXCHANGE_COMMON + " records express",
-    "exchange": EXCHANGE_COMMON + " iso14649 ap238",
+    # The shapes of CAD files; of a plan it knows nothing.
+    "brep": GROUND + " p21",
+    "exchange": EXCHANGE_COMMON + " iso14649 ap238 brep",
     "json": MODEL + " motion",
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
     "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase",
@@ -97,7 +99,7 @@ ALLOWED = {
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " service transport motion mechanics optimise json rules casebase retain shop catalogue library formats",
+    "app": MODEL + " brep service transport motion mechanics optimise json rules casebase retain shop catalogue library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}
@@ -124,6 +126,7 @@ FENCES = {
     "xxHash": (r"xxhash\.h$", 3),
     "Eigen": (r"(unsupported/)?Eigen/", None),
     "Boost": (r"boost/", 1),
+    "OpenCASCADE": (r"(opencascade/)?\w+\.hxx$", 2),
 }
 FENCES = {name: (re.compile(pattern), limit) for name, (pattern, limit) in FENCES.items()}
 
