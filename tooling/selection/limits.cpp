@@ -243,11 +243,9 @@ std::optional<std::string> not_cut_with(const Cutter& c, const StartValues& star
               : std::string());
 }
 
-std::optional<std::string> wrong_size(const Cutter& c, const ToolRequirement& r) {
+bool is_other_size(const Cutter& c, const ToolRequirement& r) {
   const double low = lower_size(r), high = upper_size(r), d = c.cutting_diameter_mm;
-  if (low > 0.0 && d < low - kSizeSlackMm) return "diameter " + mm_text(d) + " is below " + mm_text(low);
-  if (high > 0.0 && d > high + kSizeSlackMm) return "diameter " + mm_text(d) + " is above " + mm_text(high);
-  return std::nullopt;
+  return (low > 0.0 && d < low - kSizeSlackMm) || (high > 0.0 && d > high + kSizeSlackMm);
 }
 
 std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r) {

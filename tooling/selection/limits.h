@@ -15,7 +15,8 @@
 namespace capstan::tooling {
 
 // The limits in the order of checking. Each returns the limit that fails, with both numbers.
-[[nodiscard]] std::optional<std::string> wrong_size(const model::Cutter& c, const model::ToolRequirement& r);
+/// Whether its diameter lies outside what is wanted.
+[[nodiscard]] bool is_other_size(const model::Cutter& c, const model::ToolRequirement& r);
 [[nodiscard]] std::optional<std::string> wrong_shape(const model::Cutter& c, const model::ToolRequirement& r);
 /// Flutes that are needed, mm: what is cut; behind a reamer whose shank is as wide as its hole, or not known,
 /// as long as it goes down, for the shank would rub in the finished hole and chips leave by flutes that stand

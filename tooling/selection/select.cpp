@@ -194,7 +194,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (rank == r.classes.size() || original.cutting_diameter_mm <= 0.0) continue;
     if (original.teeth <= 0 && original.cutter_class != CutterClass::kTouchProbe) continue;
     const Cutter& c = original.adjustable_to_mm > 0.0 ? set.emplace_back(as_set(original, r)) : original;
-    if (wrong_size(c, r)) {
+    if (is_other_size(c, r)) {
       other_sizes[c.cutter_class].insert(rounded(c.cutting_diameter_mm, 4));
       continue;
     }
