@@ -5,6 +5,7 @@
 
 #include "planner/controls/fanuc/fanuc.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/controls/siemens/siemens.h"
 
 namespace capstan::controls {
 namespace {
@@ -13,10 +14,10 @@ constexpr std::array kDialects{
     &linuxcnc::kDialect,
     &fanuc::kFanuc,
     &fanuc::kHaas,
+    &siemens::kDialect,
 };
 
 constexpr std::array kUnwritten{
-    Unwritten{"siemens840d", "Siemens 840D", ".mpf"},
     Unwritten{"heidenhain", "Heidenhain", ".h"},
 };
 

@@ -202,6 +202,14 @@ void program(std::string bytes) {
   (void)verify::check_program_text({"input.ngc", std::move(bytes), "T1 P1 Z+80 D+10 ;endmill\n"}, nullptr,
                                    generic(), {});
 }
+/// The same by the reader of another control.
+void program_of(const char* control, std::string bytes) {
+  model::Machine machine = generic();
+  machine.control.dialect = control;
+  (void)verify::check_program_text({"input", std::move(bytes), ""}, nullptr, machine, {});
+}
+void program_fanuc(std::string bytes) { program_of("fanuc", std::move(bytes)); }
+void program_siemens(std::string bytes) { program_of("siemens", std::move(bytes)); }
 void program_table(std::string bytes) {
   (void)verify::check_program_text(
       {"input.ngc", "T1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z5\nM30\n", std::move(bytes)}, nullptr, generic(), {});
@@ -225,7 +233,7 @@ const std::vector<Reader>& readers() {
       {"machine_ini", machine_ini, {}},
       {"control_profile",
        control_profile,
-       {"planner/controls/profile/data/grbl.yaml", "planner/controls/profile/data/siemens840d.yaml"}},
+       {"planner/controls/profile/data/grbl.yaml", "planner/controls/profile/data/heidenhain.yaml"}},
       {"materials", materials, {"tooling/data/materials.yaml"}},
       {"workholding",
        workholding,
@@ -262,6 +270,12 @@ const std::vector<Reader>& readers() {
       {"tools_own", tools_own, {"examples/reference_pocket_tools.yaml"}},
       {"tools_any", tools_any, {}},
       {"program", program, {}},
+      {"program_fanuc",
+       program_fanuc,
+       {"tests/controls/fanuc/golden/pocket.nc", "tests/controls/fanuc/golden/holes_cycles.nc"}},
+      {"program_siemens",
+       program_siemens,
+       {"tests/controls/siemens/golden/pocket.mpf", "tests/controls/siemens/golden/holes_cycles.mpf"}},
       {"program_table", program_table, {}},
   };
   return kAll;

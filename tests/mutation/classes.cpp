@@ -37,9 +37,11 @@ std::vector<Class> classes_of(const std::string& dialect) {
   std::vector<Class> out;
   for (const Class& c : classes()) {
     const std::string name = c.name;
-    if (c.kind != Kind::kUnknown && !name.starts_with("table: ") && !kOthers.contains(name)) out.push_back(c);
+    const bool theirs = kOthers.contains(name) && !(dialect == "siemens" && name == "small letters");
+    if (c.kind != Kind::kUnknown && !name.starts_with("table: ") && !theirs) out.push_back(c);
   }
-  for (const Class& c : dangerous_in_fanuc()) out.push_back(c);
+  for (const Class& c : dialect == "siemens" ? dangerous_in_siemens() : dangerous_in_fanuc())
+    out.push_back(c);
   return out;
 }
 

@@ -48,6 +48,8 @@ struct Class {
 [[nodiscard]] const std::vector<Class>& classes();
 /// Ways to spoil what only FANUC's and Haas's programs have: cycles, M29, decimal points, G43 with Z, G187.
 [[nodiscard]] std::vector<Class> dangerous_in_fanuc();
+/// And those of Siemens: modal calls and their parameters, SUPA, CYCLE832, TURN=.
+[[nodiscard]] std::vector<Class> dangerous_in_siemens();
 /// Those of that control's programs.
 [[nodiscard]] std::vector<Class> classes_of(const std::string& dialect);
 

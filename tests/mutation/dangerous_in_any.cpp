@@ -9,7 +9,7 @@ namespace {
 std::vector<std::pair<std::size_t, std::size_t>> steps(const Lines& lines) {
   std::vector<std::pair<std::size_t, std::size_t>> out;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!is_marker(lines[i]) && lines[i] != "(end)" && lines[i] != "(END)") continue;
+    if (!is_marker(lines[i]) && lines[i] != "(end)" && lines[i] != "(END)" && lines[i] != ";end") continue;
     if (!out.empty()) out.back().second = i;
     if (is_marker(lines[i])) out.emplace_back(i, lines.size());
   }
@@ -76,7 +76,10 @@ std::vector<Class> dangerous_in_any() {
        }},
       {"retract in the work's coordinates", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
-         return changed(e, r, is_retract, [](std::string l) { return l.erase(l.find("G53 "), 4); });
+         return changed(e, r, is_retract, [](std::string l) {
+           const std::string word = holds(l, "SUPA ") ? "SUPA " : "G53 ";
+           return l.erase(l.find(word), word.size());
+         });
        }},
       {"spindle reversed", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
@@ -115,13 +118,15 @@ std::vector<Class> dangerous_in_any() {
        }},
       {"length offset of another tool", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
-         return word_changed(e, r, sets_length, 'H',
+         return word_changed(e, r, sets_length, is_siemens(e) ? 'D' : 'H',
                              [&](double v) { return v + 1.0 + static_cast<double>(r.below(5)); });
        }},
       {"no length offset", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
-         return changed(e, r, sets_length,
-                        [&](const std::string&) { return r.below(2) == 0 ? "G49" : "G43 H0"; });
+         return changed(e, r, sets_length, [&](const std::string&) {
+           if (is_siemens(e)) return r.below(2) == 0 ? "D0" : "D0 F100";
+           return r.below(2) == 0 ? "G49" : "G43 H0";
+         });
        }},
       {"unit switched", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
@@ -130,11 +135,16 @@ std::vector<Class> dangerous_in_any() {
          if (all.empty()) return Made{};
          const auto& [first, last] = all[r.below(all.size())];
          const auto i = pick(lines, r, [&, f = first, l = last](std::size_t k) {
-           return k > f && k < l && (starts(lines[k], "G21") || is_motion(lines[k]));
+           return k > f && k < l &&
+                  (starts(lines[k], "G21") || holds(lines[k], " G710") || is_motion(lines[k]));
          });
          if (!i) return Made{};
          if (starts(lines[*i], "G21")) {
            lines[*i].replace(0, 3, "G20");
+         } else if (const std::size_t at = lines[*i].find("G710"); at != std::string::npos) {
+           lines[*i].replace(at, 4, r.below(2) == 0 ? "G700" : "G70");
+         } else if (is_siemens(e)) {
+           lines.insert(lines.begin() + static_cast<long>(*i), r.below(2) == 0 ? "G700" : "G70");
          } else {
            lines.insert(lines.begin() + static_cast<long>(*i), "G20");
          }
@@ -161,17 +171,22 @@ std::vector<Class> dangerous_in_any() {
       {"G4 with words of axes", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
          return behind(e, r, is_motion,
-                       [&](const std::string&) { return "G4 P0.5 X" + n(r.between(-50, 50)); });
+                       [&](const std::string&) { return wait_of(e, "0.5 X") + n(r.between(-50, 50)); });
        }},
       {"shift of the work", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
          static const char* const kShifts[] = {"G92 X", "G10 L2 P1 X", "G10 L20 P1 Z", "G52 X", "G92 Z"};
+         static const char* const kSiemens[] = {"TRANS X", "ATRANS Z", "G58 X", "G59 Z", "$P_UIFR[1,Z,TR]="};
+         const auto& shifts = is_siemens(e) ? kSiemens : kShifts;
          return behind(e, r, is_motion,
-                       [&](const std::string&) { return kShifts[r.below(5)] + n(r.between(1, 50)); });
+                       [&](const std::string&) { return shifts[r.below(5)] + n(r.between(1, 50)); });
        }},
       {"way over a reference point", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
-         return behind(e, r, is_motion, [&](const std::string&) { return r.below(2) == 0 ? "G28" : "G30"; });
+         return behind(e, r, is_motion, [&](const std::string&) {
+           if (is_siemens(e)) return r.below(2) == 0 ? "G74 Z1=0" : "G75 Z=0";
+           return r.below(2) == 0 ? "G28" : "G30";
+         });
        }},
       {"% in the middle", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {

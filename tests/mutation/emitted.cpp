@@ -87,6 +87,19 @@ model::Plan tapped() {
   return k.plan;
 }
 
+/// Two turns and a half of a helix above the work.
+model::Plan with_helix(model::Plan plan) {
+  verify::testing::edit_path(plan, 0, [](auto& p) {
+    const auto at = p.point(p.size() - 1);
+    double z = at.z;
+    for (int i = 0; i < 5; ++i)
+      p.arc({i % 2 == 0 ? at.x - 8.0 : at.x, at.y, z -= 0.4}, {at.x - 4.0, at.y}, true, MoveRole::kLink);
+    p.rapid({at.x - 8.0, at.y, at.z}, MoveRole::kRetract);
+  });
+  extend(plan, 0, 6, 600, 3000, 0.0);
+  return plan;
+}
+
 model::Plan plate() {
   Job job;
   const auto shop = pipeline::load_shop({}, job);
@@ -118,7 +131,9 @@ std::vector<Emitted> emitted_for(const std::string& dialect) {
     return plan;
   };
   std::vector<Emitted> out;
-  out.push_back(written("pocket and reamed hole", on(pocket_and_hole())));
+  const bool turns = dialect == "siemens";
+  out.push_back(
+      written("pocket and reamed hole", on(turns ? with_helix(pocket_and_hole()) : pocket_and_hole())));
   out.push_back(written("two set-ups", on(two_setups())));
   out.push_back(written("tapped hole", on(tapped()), {"CHK-GOUGE", "CHK-GOUGE-WALL"}));
   return out;

@@ -38,18 +38,27 @@ inline bool starts(const std::string& l, const std::string& with) { return l.rfi
 inline bool holds(const std::string& l, const std::string& part) { return l.find(part) != std::string::npos; }
 inline bool is_cut(const std::string& l) { return starts(l, "G1 ") || starts(l, "G2 ") || starts(l, "G3 "); }
 inline bool is_arc(const std::string& l) { return starts(l, "G2 ") || starts(l, "G3 "); }
-inline bool is_retract(const std::string& l) { return starts(l, "G53 G0 Z") || starts(l, "G0 G49 G53 Z"); }
-inline bool is_cycle(const std::string& l) { return starts(l, "G98 "); }
-inline bool is_tapping(const std::string& l) {
-  return starts(l, "G33.1") || (is_cycle(l) && (holds(l, "G84") || holds(l, "G74")));
+inline bool is_retract(const std::string& l) {
+  return starts(l, "G53 G0 Z") || starts(l, "G0 G49 G53 Z") || starts(l, "G0 SUPA Z");
 }
-inline bool sets_length(const std::string& l) { return holds(l, "G43 H"); }
+inline bool is_cycle(const std::string& l) { return starts(l, "G98 ") || starts(l, "MCALL CYCLE"); }
+inline bool is_tapping(const std::string& l) {
+  return starts(l, "G33.1") || (is_cycle(l) && (holds(l, "G84") || holds(l, "G74") || holds(l, "CYCLE84")));
+}
+inline bool sets_length(const std::string& l) { return holds(l, "G43 H") || starts(l, "G0 D1 Z"); }
 inline bool is_motion(const std::string& l) { return is_cut(l) || starts(l, "G0 "); }
 inline bool is_start(const std::string& l) { return starts(l, "S") && (holds(l, " M3") || holds(l, " M4")); }
 inline bool is_change(const std::string& l) { return starts(l, "T") && holds(l, " M6"); }
-inline bool is_marker(const std::string& l) { return starts(l, "(CAPSTAN STEP"); }
+inline bool is_marker(const std::string& l) {
+  return starts(l, "(CAPSTAN STEP") || starts(l, ";CAPSTAN STEP");
+}
+inline bool is_siemens(const Emitted& e) { return e.dialect == "siemens"; }
+/// A wait of so many seconds.
+inline std::string wait_of(const Emitted& e, const std::string& seconds) {
+  return (is_siemens(e) ? "G4 F" : "G4 P") + seconds;
+}
 inline bool is_code(const std::string& l) {
-  return !l.empty() && l.front() != '(' && l.front() != '%' && l.front() != 'O';
+  return !l.empty() && l.front() != '(' && l.front() != ';' && l.front() != '%' && l.front() != 'O';
 }
 
 using Is = bool (*)(const std::string&);

@@ -41,6 +41,11 @@ std::string written_otherwise(const std::string& l, const std::string& wholes, R
     std::size_t end = i + 1;
     while (end < l.size() && l[end] != ' ') ++end;
     std::string digits = l.substr(i + 1, end - i - 1);
+    if (!parse_double(digits)) {  // a name, MCALL
+      out += digits;
+      i = end - 1;
+      continue;
+    }
     const bool number = wholes.find(l[i]) == std::string::npos;
     if (number && !holds(digits, ".")) digits += r.below(2) == 0 ? "." : ".00";
     if (digits.front() != '-' && r.below(2) == 0) digits = (number && r.below(2) == 0 ? "+0" : "0") + digits;
@@ -76,19 +81,23 @@ std::vector<Class> not_dangerous() {
        }},
       {"wait inserted", Kind::kDifferent, false,
        [](const Emitted& e, Random& r) {
-         return behind(e, r, is_motion, [&](const std::string&) { return "G4 P" + n(r.between(0.1, 20.0)); });
+         return behind(e, r, is_motion,
+                       [&](const std::string&) { return wait_of(e, n(r.between(0.1, 20.0))); });
        }},
       {"wait changed", Kind::kDifferent, false,
        [](const Emitted& e, Random& r) {
          return word_changed(
-             e, r, [](const std::string& l) { return starts(l, "G4 "); }, 'P',
+             e, r, [](const std::string& l) { return starts(l, "G4 "); }, is_siemens(e) ? 'F' : 'P',
              [&](double v) { return v + r.between(0.05, 10.0); });
        }},
       {"exact path", Kind::kDifferent, false,
        [](const Emitted& e, Random& r) {
          return changed(
-             e, r, [](const std::string& l) { return starts(l, "G64"); },
-             [&](const std::string&) { return r.below(2) == 0 ? "G61" : "G61.1"; });
+             e, r, [](const std::string& l) { return starts(l, "G64") || starts(l, "CYCLE832(0.0"); },
+             [&](const std::string& l) {
+               if (is_siemens(e)) return r.below(2) == 0 ? l + "\nG60" : std::string("G60");
+               return std::string(r.below(2) == 0 ? "G61" : "G61.1");
+             });
        }},
       {"stop inserted", Kind::kDifferent, false,
        [](const Emitted& e, Random& r) {
@@ -162,6 +171,7 @@ std::vector<Class> not_dangerous() {
       {"comments", Kind::kBenign, false,
        [](const Emitted& e, Random& r) {
          return changed(e, r, is_code, [&](const std::string& l) {
+           if (is_siemens(e)) return l + (r.below(2) == 0 ? " ;as planned" : ";as \"planned");
            if (e.dialect != "linuxcnc") return r.below(2) == 0 ? l + " (AS PLANNED)" : "(NOW) " + l;
            return r.below(2) == 0   ? l + " (as planned)"
                   : r.below(2) == 0 ? "(now) " + l
@@ -173,6 +183,11 @@ std::vector<Class> not_dangerous() {
          return changed(e, r, is_code, [&](const std::string& l) {
            std::string out;
            for (const char c : l) {
+             if (is_siemens(e)) {  // its words stand apart, and hold together
+               out += c;
+               if (c == ' ') out += r.below(2) == 0 ? " " : "\t";
+               continue;
+             }
              if (c == ' ' && r.below(2) == 0) continue;
              out += c;
              if (r.below(4) == 0) out += r.below(2) == 0 ? ' ' : '\t';
@@ -193,6 +208,11 @@ std::vector<Class> not_dangerous() {
          const auto i = pick(lines, r, is_motion);
          if (!i) return Made{};
          static const char* const kModal[] = {"G90", "G21", "G17", "G90 G40", "G40", "G91.1"};
+         static const char* const kSiemens[] = {"G90", "G710", "G17", "G90 G40", "G40"};
+         if (is_siemens(e)) {
+           lines.insert(lines.begin() + static_cast<long>(*i), kSiemens[r.below(5)]);
+           return Made{Edit{joined(lines), e.table}};
+         }
          const std::size_t kinds = e.dialect == "linuxcnc" ? 6 : 5;  // G91.1 is LinuxCNC's
          lines.insert(lines.begin() + static_cast<long>(*i), kModal[r.below(kinds)]);
          return Made{Edit{joined(lines), e.table}};
@@ -201,7 +221,8 @@ std::vector<Class> not_dangerous() {
        [](const Emitted& e, Random& r) {
          Lines lines = split(e.text);
          const auto i = pick(lines, r, [&](std::size_t k) {
-           return k > 0 && is_motion(lines[k]) && starts(lines[k - 1], lines[k].substr(0, 3));
+           const bool machine = holds(lines[k], "SUPA") || holds(lines[k], "D1");
+           return k > 0 && is_motion(lines[k]) && !machine && starts(lines[k - 1], lines[k].substr(0, 3));
          });
          if (!i) return Made{};
          lines[*i].erase(0, 3);
@@ -210,7 +231,7 @@ std::vector<Class> not_dangerous() {
       {"equal numbers", Kind::kBenign, false,
        [](const Emitted& e, Random& r) {
          return changed(e, r, is_code, [&](const std::string& l) {
-           return written_otherwise(l, e.dialect == "linuxcnc" ? "GMTH" : "GMTHSNPLK", r);
+           return written_otherwise(l, e.dialect == "linuxcnc" ? "GMTH" : "GMTHSNPLKD", r);
          });
        }},
       {"table: comments, blanks and order", Kind::kBenign, false,

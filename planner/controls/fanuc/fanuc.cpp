@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "planner/controls/gcode/options.h"
 #include "planner/controls/gcode/writer.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/resources/control_options.h"
@@ -66,15 +67,7 @@ Status has_offsets(const model::Plan& plan) {
 
 Result<std::string> write(const model::Plan& plan, std::span<const std::string_view> offsets, Job& job,
                           const std::vector<model::Condemnation>& condemned) {
-  if (plan.machine.control_options) {
-    for (const model::ControlOption& o : plan.machine.control_options->chosen) {
-      const std::string wrong = model::control_option_fault(plan.machine.control.dialect, o);
-      if (!wrong.empty())
-        return fail({.code = "OUT-OPTION",
-                     .message = "machine '" + plan.machine.id + "': " + o.name + ": " + wrong,
-                     .hint = "correct it under the machine's control"});
-    }
-  }
+  if (auto ok = gcode::options_right(plan); !ok) return tl::unexpected(ok.error());
   if (auto ok = has_offsets(plan); !ok) return tl::unexpected(ok.error());
   gcode::Words words = words_of(plan.machine);
   words.work_offsets = offsets;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "planner/controls/fanuc/fanuc.h"
+#include "planner/controls/gcode/options.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/resources/control_options.h"
 
@@ -58,17 +59,6 @@ std::string tap_text(const HoleCycle& h, const Tapping& t) {
   return out + (t.per_revolution ? "\nG80\nG94" : "\nG80");
 }
 
-std::string prove_out(std::string_view option) {
-  if (option == "m1") return "M1";
-  if (option == "m0") return "M0";
-  return option == "skip_m0" ? "/M0" : "";
-}
-
-gcode::BlockNumbers block_numbers(std::string_view option) {
-  if (option == "all") return gcode::BlockNumbers::kAll;
-  return option == "steps" ? gcode::BlockNumbers::kSteps : gcode::BlockNumbers::kNone;
-}
-
 std::string program_number(const model::Machine& machine) {
   const std::string digits = trimmed(control_number(machine, "program_number", 1.0), 0);
   return "O" + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
@@ -92,11 +82,12 @@ gcode::Words words_of(const model::Machine& machine) {
   w.last = "M30\n%";
   // The unit stands in a block of its own (B-63844EN/02, 8.3). A length offset that is on moves Z where G49
   // stands alone (14.1): the retract takes it away.
-  w.first_state = w.step_state = "G21\nG17 G40 G80 G90 G94";
+  w.first_state = w.step_state = "G21\nG17 G40 G80 G90 G94 G98";
   w.comment = [capitals](std::string_view text) { return comment_text(text, capitals); };
-  w.block_numbers = block_numbers(control_option(machine, "block_numbers"));
-  if (is("next_tool", "staged")) w.stage_tool = [](const std::string& next) { return "T" + next; };
-  w.tool_end = prove_out(control_option(machine, "prove_out"));
+  w.block_numbers = gcode::block_numbers_of(machine);
+  if (is("next_tool", "staged"))
+    w.stage_tool = [](const std::string& next, const std::string& /*id*/) { return "T" + next; };
+  w.tool_end = gcode::tool_end_of(machine);
   w.offset_moves_z = true;
   w.number = &with_point;
   w.speed = [](double rpm) { return trimmed(rpm, 0); };

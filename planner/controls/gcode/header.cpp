@@ -17,9 +17,9 @@ using model::Cutter;
 void write_tools(const model::Plan& plan, const std::vector<const Cutter*>& cutters, Program& out) {
   for (const Cutter* c : cutters) {
     const std::string t = std::to_string(c->pocket);
-    out.comment("CAPSTAN TOOL T" + t + " H" + t + " length=" + out.number(model::length_offset_mm(*c)) +
-                " diameter=" + out.number(c->cutting_diameter_mm) + " id=\"" + marker_text(c->id) + "\" " +
-                std::string(model::to_text(c->cutter_class)));
+    out.marker("CAPSTAN TOOL T" + t + " H" + t + " length=" + out.number(model::length_offset_mm(*c)) +
+               " diameter=" + out.number(c->cutting_diameter_mm) + " id=\"" + marker_text(c->id) + "\" " +
+               std::string(model::to_text(c->cutter_class)));
   }
   for (const Cutter* c : cutters) {
     const auto assumed = model::assumed_material_of(plan, c->id);
@@ -81,8 +81,8 @@ void write_header(const model::Plan& plan, const std::vector<model::Condemnation
     out.comment("stock: " + out.number(s.x) + " x " + out.number(s.y) + " x " + out.number(s.z) + " mm");
   }
   for (std::size_t i = 0; i < plan.setups.size(); ++i) {
-    out.comment("CAPSTAN SETUP n=" + std::to_string(i + 1) + " offset=" + plan.setups[i].work_offset +
-                " security=" + out.number(plan.setups[i].security_z_mm));
+    out.marker("CAPSTAN SETUP n=" + std::to_string(i + 1) + " offset=" + plan.setups[i].work_offset +
+               " security=" + out.number(plan.setups[i].security_z_mm));
   }
   write_tools(plan, by_tool_number(plan), out);
   write_corner_rests(plan, out);

@@ -169,9 +169,8 @@ Remedy remedy_of(const model::Plan& plan, const std::vector<AnyRef>& probings, A
     add("correct the work offset" + std::string(mends.size() > 1 ? " for the place" : ""), {});
   if (mends.contains(Mend::kLength))
     add("correct the length offset of " + t + " by the difference",
-        t + ": the size is a depth; its length offset is corrected, not the work offset, and acts with the "
-            "G43 "
-            "of the next step");
+        t + ": the size is a depth; its length offset is corrected, not the work offset, and acts where the "
+            "next step states it");
   if (mends.contains(Mend::kSlide))
     add("set the radius of " + t + " by the difference",
         t + ": a touch later than expected means that the wall is out by the difference; set the boring "

@@ -15,6 +15,10 @@ void Program::line(std::string_view text) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     // The tape's ends and the program's number have none.
     const bool numbered = end > at && text[at] != '%' && text[at] != 'O';
+    if (numbered && text[at] == '/') {  // block skip stands before the number
+      text_ += '/';
+      ++at;
+    }
     if (words_.block_numbers == BlockNumbers::kAll && numbered) {
       block_ = block_ >= kMost ? kStep : block_ + kStep;
       text_ += "N" + std::to_string(block_) + " ";
@@ -32,7 +36,9 @@ void Program::number_step(std::size_t n) {
   if (words_.block_numbers == BlockNumbers::kSteps) step_number_ = "N" + std::to_string(n) + " ";
 }
 
-void Program::comment(std::string_view text) { marker(comment_text(text, words_.longest_line)); }
+void Program::comment(std::string_view text) {
+  for (const std::string& line : comment_lines(text, words_.longest_line)) marker(line);
+}
 
 void Program::marker(std::string_view text) {
   text_ += words_.comment_begin;
@@ -119,6 +125,14 @@ void Program::arc(Vec3 to, double i, double j, bool clockwise, double feed_mm_mi
   text += " I" + words_.number(i, decimals) + " J" + words_.number(j, decimals);
   line(text + feed_word(feed_mm_min));
   arrive(to);
+}
+
+void Program::helix(const Helix& h, bool clockwise, double feed_mm_min) {
+  const int decimals = arc_form().centre_decimals();
+  line((clockwise ? "G2 X" : "G3 X") + number(h.to.x) + " Y" + number(h.to.y) + " Z" + number(h.to.z) + " I" +
+       words_.number(h.i, decimals) + " J" + words_.number(h.j, decimals) +
+       " TURN=" + std::to_string(h.further_turns) + feed_word(feed_mm_min));
+  arrive(h.to);
 }
 
 void Program::moved(std::string_view text, Vec3 to) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "planner/controls/gcode/moves/arcs.h"
+#include "planner/controls/gcode/moves/helices.h"
 #include "planner/controls/gcode/words.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/resources/machine.h"
@@ -21,8 +22,9 @@ class Program {
   void line(std::string_view text);
   /// The number N of the step at hand, before what is written next.
   void number_step(std::size_t n);
+  /// A comment, in as many lines as its text needs.
   void comment(std::string_view text);
-  /// A comment that is never cut off; the caller keeps it short (marker_text).
+  /// A comment of one line, however long: what the check reads. The caller keeps it short (marker_text).
   void marker(std::string_view text);
   void blank() { text_ += '\n'; }
 
@@ -43,6 +45,8 @@ class Program {
   void rapid_xy(geometry::Vec3 to);
   void rapid_z(double z);
   void arc(geometry::Vec3 to, double i, double j, bool clockwise, double feed_mm_min);
+  /// A helix in one block, with its turns beyond the first.
+  void helix(const Helix& h, bool clockwise, double feed_mm_min);
   [[nodiscard]] ArcForm arc_form() const;
   /// A word by word line whose motion ends at `to`.
   void moved(std::string_view text, geometry::Vec3 to);

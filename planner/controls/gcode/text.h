@@ -3,12 +3,16 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace capstan::controls::gcode {
 
-/// The text of one comment line of a program: plain ASCII, no parentheses, cut off where it would make the
-/// line longer than a control's.
-[[nodiscard]] std::string comment_text(std::string_view text, std::size_t longest_line);
+/// A comment's text in as many lines as the control's longest asks for: plain ASCII, no parentheses, broken
+/// at blanks, lines behind the first indented.
+[[nodiscard]] std::vector<std::string> comment_lines(std::string_view text, std::size_t longest_line);
+
+/// The text, or as many of its words as fit with "..." behind them.
+[[nodiscard]] std::string shortened(const std::string& text, std::size_t longest);
 
 /// Plain ASCII without control characters and parentheses; others become `?` (one per character).
 [[nodiscard]] std::string plain_text(std::string_view text);

@@ -35,6 +35,8 @@ enum class BlockNumbers : unsigned char { kNone, kSteps, kAll };
 struct Words {
   std::span<const std::string_view> work_offsets;  ///< in the order in which set-ups get them
   std::size_t longest_line = 0;                    ///< characters, without the line's end
+  std::size_t longest_message =
+      0;  ///< characters of a text shown to the operator; 0: what a line has room for
   int speed_decimals = 0, dwell_decimals = 0;
   std::string first = {}, last = {};  ///< lines that begin and end a program; `first` may be empty
   std::string_view comment_begin = "(", comment_end = ")";
@@ -46,12 +48,11 @@ struct Words {
   /// The text of a comment or marker as this control may read it; the same where it is empty.
   std::function<std::string(std::string_view)> comment = {};
   BlockNumbers block_numbers = BlockNumbers::kNone;
-  /// Changes the tool; one or more lines.
-  std::function<std::string(const std::string& tool)> change_tool = [](const std::string& tool) {
-    return "T" + tool + " M6";
-  };
+  /// Changes the tool, by its number or its id; one or more lines.
+  std::function<std::string(const std::string& tool, const std::string& id)> change_tool =
+      [](const std::string& tool, const std::string& /*id*/) { return "T" + tool + " M6"; };
   /// Makes the tool of the next change ready, right after a change; nothing where it is empty.
-  std::function<std::string(const std::string& next)> stage_tool = {};
+  std::function<std::string(const std::string& next, const std::string& id)> stage_tool = {};
   /// Behind the last step of each tool, when it is away and all is off; nothing where it is empty.
   std::string tool_end = {};
   /// Applies the length offset of the tool in the spindle.
@@ -87,6 +88,7 @@ struct Words {
   bool quadrants = false;
   double largest_radius_mm = 0.0;
   bool helices = true;
+  bool turns = false;      ///< a helix of more than one turn is one block, TURN= with the further ones
   std::string codes = {};  ///< those that the machine has, "G0 G1 M3", with blanks between; empty: all
 };
 

@@ -8,6 +8,7 @@
 #include "planner/controls/gcode/able.h"
 #include "planner/controls/gcode/header.h"
 #include "planner/controls/gcode/moves/arcs.h"
+#include "planner/controls/gcode/moves/helices.h"
 #include "planner/controls/gcode/moves/hole_cycles.h"
 #include "planner/controls/gcode/probing.h"
 #include "planner/controls/gcode/program.h"
@@ -79,14 +80,18 @@ class Writer {
     return words_.longest_line - std::min(free, words_.longest_line);
   }
 
+  // What a message has no room for is in a comment before it.
   void tell(const std::string& text) {
-    program_.line(words_.message(text));
+    const std::size_t most = words_.longest_message;
+    const bool cut = most > 0 && text.size() > most;
+    if (cut) program_.comment(text);
+    program_.line(words_.message(cut ? shortened(text, most) : text));
     program_.line("M0");
   }
 
-  // `after` is written whole, `text` before it as far as there is room.
-  static std::string shortened(const std::string& text, const std::string& after, std::size_t longest) {
-    return plain_text(text).substr(0, longest - std::min(longest, after.size())) + after;
+  // `after` is written whole, `text` before it as far as there is room: the comments have it all.
+  static std::string fitted(const std::string& text, const std::string& after, std::size_t longest) {
+    return shortened(plain_text(text), longest - std::min(longest, after.size())) + after;
   }
 
   // Measurements before a step (at the end: those that are left): a stop each, with nothing moving. Whether
@@ -107,7 +112,7 @@ class Writer {
     const std::string what = n == 1 ? first : std::to_string(n) + " touches as listed: " + first + ", ...";
     const Remedy remedy = remedy_of(plan_, due->second, before);
     for (const std::string& line : remedy.comments) program_.comment(line);
-    tell(shortened(what, ", " + remedy.message, room(kFreeOfProbing)));
+    tell(fitted(what, ", " + remedy.message, room(kFreeOfProbing)));
     return true;
   }
 
@@ -128,7 +133,7 @@ class Writer {
     const std::string after = why.size() == 1 ? "; continue at your own risk"
                                               : "; and " + std::to_string(why.size() - 1) +
                                                     " more, see the program; continue at your own risk";
-    tell(shortened(before + why.front()->text, after, room(kFreeOfCondemned)));
+    tell(fitted(before + why.front()->text, after, room(kFreeOfCondemned)));
   }
 
   // The step's own tolerance, where the control blends at all.
@@ -174,7 +179,8 @@ class Writer {
       tell(plain_text(clamping_text(plan_, step.setup, setup_, room(kFreeOfClamping))));
     }
     if (!why.empty()) stop_for(why, n);
-    program_.number_step(n + 1);
+    // Behind a step with the same tool a restart would not call it.
+    if (new_tool) program_.number_step(n + 1);
     program_.line(words_.step_state);
     tolerance(step.contour_tolerance_mm, !roughs(step));
     program_.line(setup.work_offset);
@@ -183,9 +189,9 @@ class Writer {
       program_.comment("T" + t + ": the boring tool is set to diameter " +
                        program_.number(cutter.cutting_diameter_mm) + " mm");
     if (new_tool) {
-      program_.line(words_.change_tool(t));
-      if (const int next = next_tool(n); next > 0 && words_.stage_tool)
-        program_.line(words_.stage_tool(std::to_string(next)));
+      program_.line(words_.change_tool(t, cutter.id));
+      if (const Cutter* next = next_tool(n); next != nullptr && words_.stage_tool)
+        program_.line(words_.stage_tool(std::to_string(next->pocket), next->id));
     }
     if (words_.offset_moves_z) {
       program_.with_next_height(" " + words_.length_offset(t));
@@ -213,14 +219,14 @@ class Writer {
     program_.rapid_z(start.z);
   }
 
-  /// The tool of the next step that has another one; 0: none has.
-  [[nodiscard]] int next_tool(std::size_t n) const {
+  /// The tool of the next step that has another one; null: none has.
+  [[nodiscard]] const Cutter* next_tool(std::size_t n) const {
     const int now = model::find_cutter(plan_, plan_.steps[n].cutter_id)->pocket;
     for (std::size_t i = n + 1; i < plan_.steps.size(); ++i) {
-      const int then = model::find_cutter(plan_, plan_.steps[i].cutter_id)->pocket;
-      if (then != now) return then;
+      const Cutter* then = model::find_cutter(plan_, plan_.steps[i].cutter_id);
+      if (then->pocket != now) return then;
     }
-    return 0;
+    return nullptr;
   }
 
   [[nodiscard]] bool roughs(const StepResult& step) const {
@@ -289,6 +295,12 @@ class Writer {
       }
       if (const auto last = cycle(step, i)) {
         i = *last;
+        continue;
+      }
+      if (const auto helix =
+              words_.turns ? helix_at(step, i, *program_.at(), program_.arc_form()) : std::nullopt) {
+        program_.helix(*helix, path.kind[i] == MoveKind::kArcCw, feed);
+        i = helix->last_move;
         continue;
       }
       switch (path.kind[i]) {

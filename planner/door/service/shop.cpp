@@ -176,10 +176,19 @@ Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& i
 }
 
 /// The control that the caller names in place of the machine's.
-void take_control(const Request& o, pipeline::Inputs& in) {
+void take_control(const Request& o, pipeline::Inputs& in, Job& job) {
   if (!o.control || *o.control == in.machine.control.dialect) return;
   in.machine = controls::with_control(std::move(in.machine), *o.control);
   in.provenance.push_back({"control", *o.control, option(o, "control")});
+  // Travels, speeds and feeds in the program are those of whichever machine this is.
+  const auto named_by_nobody = [](const model::Provenance& p) {
+    return p.what == "machine" && p.source == kDefault;
+  };
+  if (std::any_of(in.provenance.begin(), in.provenance.end(), named_by_nobody))
+    job.note("SHOP-MACHINE", "no machine is named: the program for " + *o.control + " is made for machine '" +
+                                 in.machine.id +
+                                 "', whose travels, speeds and options may not be yours; name yours with " +
+                                 o.sign + "machine");
 }
 
 /// Warns of gaps and contradictions in a shop's own tables; planning continues, for the deciding rows are
@@ -261,7 +270,7 @@ Status name_material(pipeline::Inputs& in, const std::string& given, Job& job) {
 Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Job& job) {
   pipeline::Inputs in;
   if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
-  take_control(o, in);
+  take_control(o, in, job);
 
   poll();
   auto library = tooling::load_library(

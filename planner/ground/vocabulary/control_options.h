@@ -1,94 +1,143 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string_view>
 
 namespace capstan::model {
 
-/// What controls of one kind do differently from machine to machine: a row per option, with the value that
-/// holds where the machine's file states none. Machine files state them under `control`; writers of programs
-/// and readers of programs ask `control_option` (planner/model/plan/resources/control_options.h).
+/// What controls of one kind do differently from machine to machine: a row per option. Which controls have
+/// it, and its value where a machine's file states none, is in `kControlDefaults`. Machine files state
+/// options under `control`; writers and readers of programs ask `control_option`
+/// (planner/model/plan/resources/control_options.h).
 struct ControlOptionRow {
   std::string_view name;
   /// Words that it takes, with blanks between; empty: a number from `least` to `most`, or any text where both
   /// are 0.
   std::string_view words;
   double least, most;
-  /// The default for each control; "-": this control has no such option. An empty default: not stated.
-  std::string_view of_fanuc, of_haas;
+  bool whole;  ///< of a number: without decimals
   std::string_view meaning, source;
 };
 
 /// Sources: FANUC Series 0i-MODEL B operator's manual B-63844EN/02 ("0i"), FANUC Series 30i user's manual
 /// (machining centre) B-63944EN-2/02 ("30i"), FANUC connection manual B-63833EN-1/02 ("0i connection"), Haas
-/// mill operator's manual 96-8000 ("Haas").
+/// mill operator's manual 96-8000 ("Haas"), and for Siemens those of planner/controls/siemens/siemens.h.
 inline constexpr std::array kControlOptions{
-    ControlOptionRow{"cycles", "feature explicit", 0, 0, "feature", "feature",
-                     "holes as G81, G82, G85 and G89, threads as G74 and G84, where a cycle makes the path's "
-                     "moves; or explicit moves",
-                     "30i 5.1; Haas, canned cycles"},
     ControlOptionRow{
-        "retract", "g53 g28", 0, 0, "g53", "g53",
+        "cycles", "feature explicit", 0, 0, false,
+        "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
+        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84); or explicit moves",
+        "30i 5.1; Haas, canned cycles; Siemens, drilling cycles"},
+    ControlOptionRow{
+        "retract", "g53 g28", 0, 0, false,
         "to the top of Z in machine coordinates, or by way of the reference point, which is there",
         "0i 6.1 (G28), 7.1 (G53); Haas G28, G53"},
-    ControlOptionRow{"tap", "m29 g84", 0, 0, "m29", "g84",
+    ControlOptionRow{"tap", "m29 g84", 0, 0, false,
                      "rigid tapping is called by M29 S before G84, or G84 is always rigid",
                      "30i 5.2; Haas G84"},
-    ControlOptionRow{"tap_feed", "per_revolution per_minute", 0, 0, "per_revolution", "per_minute",
+    ControlOptionRow{"tap_feed", "per_revolution per_minute", 0, 0, false,
                      "F of a tapping cycle: the pitch in G95, or pitch times speed in G94",
                      "0i connection 9 (G95: 0.0001 mm/rev); Haas G84"},
-    ControlOptionRow{"tap_retract", "", 0, 9, "-", "0",
+    ControlOptionRow{"tap_retract", "", 0, 9, true,
                      "J of G84: how many times faster the tap comes out; 0: no J", "Haas G84, J"},
-    ControlOptionRow{"dwell", "milliseconds seconds", 0, 0, "milliseconds", "seconds",
+    ControlOptionRow{"dwell", "milliseconds seconds", 0, 0, false,
                      "P of G4 and of cycles: whole milliseconds, or seconds with a decimal point",
                      "0i 5.1 (G04 P without point); Haas G04"},
-    ControlOptionRow{"extended_offsets", "", 0, 300, "0", "99",
+    ControlOptionRow{"extended_offsets", "", 0, 300, true,
                      "work offsets beyond G59: so many of G54.1 P, at Haas of G154 P",
                      "0i 7.2.3 (option, 48 or 300); Haas G154"},
-    ControlOptionRow{"ai_contour", "yes no", 0, 0, "no", "-",
+    ControlOptionRow{"ai_contour", "yes no", 0, 0, false,
                      "G05.1 Q1 before and Q0 after the moves of a milling step", "0i 19 (option)"},
-    ControlOptionRow{"smoothness", "yes no", 0, 0, "-", "yes",
+    ControlOptionRow{"smoothness", "yes no", 0, 0, false,
                      "G187 P E: the step's path tolerance, and P2 for roughing, P3 for finishing",
                      "Haas G187"},
-    ControlOptionRow{"path_tolerance", "assumed set", 0, 0, "assumed", "-",
+    ControlOptionRow{"path_tolerance", "assumed set", 0, 0, false,
                      "the file's path_tolerance_mm is assumed, or the control's parameter is set to it",
                      "0i: no word of a program states it; default, unsourced"},
-    ControlOptionRow{"next_tool", "staged called", 0, 0, "staged", "staged",
+    ControlOptionRow{"next_tool", "staged called", 0, 0, false,
                      "the next tool is made ready (T) right after a change, or only called with M6",
                      "default, unsourced: the machine builder's tool changer says"},
-    ControlOptionRow{"arcs", "half quadrant", 0, 0, "half", "half",
+    ControlOptionRow{"arcs", "half quadrant", 0, 0, false,
                      "arcs are at most half a turn, or end at quadrants",
                      "0i 4.4; default, unsourced: older controls stop at quadrants"},
-    ControlOptionRow{"largest_radius_mm", "", 1, 999999, "99999.999", "15404.000",
-                     "arcs of a larger radius are not taken",
+    ControlOptionRow{"largest_radius_mm", "", 1, 999999, false, "arcs of a larger radius are not taken",
                      "0i 4.4 (IS-B, metric); Haas, ranges of I and J"},
-    ControlOptionRow{"helices", "yes no", 0, 0, "yes", "yes", "arcs may also go up or down",
+    ControlOptionRow{"helices", "yes no", 0, 0, false, "arcs may also go up or down",
                      "0i 4.5 (option); Haas"},
-    ControlOptionRow{"block_numbers", "steps all none", 0, 0, "steps", "steps",
-                     "N at the head of each step, at each block, or nowhere", "0i 12.2"},
-    ControlOptionRow{"program_number", "", 1, 9999, "1", "1", "O of the program", "0i 12.1"},
     ControlOptionRow{
-        "prove_out", "none m1 m0 skip_m0", 0, 0, "m1", "m1",
+        "block_numbers", "steps all none", 0, 0, false,
+        "N at the head of each step that calls its tool, where a restart is safe; at each block; or nowhere",
+        "0i 12.2"},
+    ControlOptionRow{"program_number", "", 1, 9999, true, "O of the program", "0i 12.1"},
+    ControlOptionRow{
+        "prove_out", "none m1 m0 skip_m0", 0, 0, false,
         "behind the last step of each tool: an optional stop, a stop, or a stop that block skip passes over",
         "0i 11 (M00, M01), 12.2 (/)"},
-    ControlOptionRow{"comments", "upper mixed", 0, 0, "upper", "mixed",
+    ControlOptionRow{"comments", "upper mixed", 0, 0, false,
                      "comments in capitals only, for controls without small letters",
                      "0i appendix, tape codes"},
-    ControlOptionRow{"line_length", "", 72, 255, "200", "200", "characters of a block at most",
-                     "default, unsourced"},
+    ControlOptionRow{"line_length", "", 72, 255, true, "characters of a block at most", "default, unsourced"},
     ControlOptionRow{
-        "peck_clearance_mm", "", 0, 10, "", "",
+        "peck_clearance_mm", "", 0, 10, false,
         "where G83 ends its rapid above the last peck, for the check; programs peck by explicit moves",
         "30i 5.1.6 (parameter 5115); Haas setting 22"},
-    ControlOptionRow{"codes", "", 0, 0, "", "",
+    ControlOptionRow{"codes", "", 0, 0, false,
                      "the codes that this machine has, as G0 G1 M3, with blanks between; not stated: all",
                      "the machine builder's list of codes"},
+    ControlOptionRow{"tool_call", "number name", 0, 0, false,
+                     "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
+                     "tools names it",
+                     "Siemens, tool change"},
+    ControlOptionRow{"smoothing", "cycle832 g642 g641", 0, 0, false,
+                     "how corners are rounded by the step's path tolerance: CYCLE832, G642 with CTOL, or "
+                     "G641 with ADIS of the same size, within which the corner stays",
+                     "Siemens, CYCLE832; G642, G641"},
+    ControlOptionRow{
+        "turns", "yes no", 0, 0, false,
+        "a helix of more than one turn as one block with TURN=, or as arcs of at most half a turn",
+        "Siemens, helical interpolation"},
 };
 
+/// A control and the options that it has, each with the value that holds where nothing is stated:
+/// "cycles=feature retract=g53". An empty value: not stated. A new control is a row.
+struct ControlDefaults {
+  std::string_view control, options;
+};
+inline constexpr std::array kControlDefaults{
+    ControlDefaults{"fanuc",
+                    "cycles=feature retract=g53 tap=m29 tap_feed=per_revolution dwell=milliseconds "
+                    "extended_offsets=0 ai_contour=no path_tolerance=assumed next_tool=staged arcs=half "
+                    "largest_radius_mm=99999.999 helices=yes block_numbers=steps program_number=1 "
+                    "prove_out=m1 comments=upper line_length=200 peck_clearance_mm= codes="},
+    ControlDefaults{"haas",
+                    "cycles=feature retract=g53 tap=g84 tap_feed=per_minute tap_retract=0 dwell=seconds "
+                    "extended_offsets=99 smoothness=yes next_tool=staged arcs=half "
+                    "largest_radius_mm=15404.000 helices=yes block_numbers=steps program_number=1 "
+                    "prove_out=m1 comments=mixed line_length=200 peck_clearance_mm= codes="},
+    ControlDefaults{"siemens",
+                    "cycles=feature next_tool=called block_numbers=steps prove_out=m1 line_length=200 "
+                    "tool_call=number smoothing=cycle832 turns=yes"},
+};
+
+/// The value of that option in such a list; "-": it is not in it.
+[[nodiscard]] constexpr std::string_view value_in(std::string_view options, std::string_view name) {
+  for (std::size_t at = 0; at < options.size();) {
+    const std::size_t end =
+        options.find(' ', at) == std::string_view::npos ? options.size() : options.find(' ', at);
+    const std::string_view one = options.substr(at, end - at);
+    if (one.size() > name.size() && one[name.size()] == '=' && one.substr(0, name.size()) == name)
+      return one.substr(name.size() + 1);
+    at = end + 1;
+  }
+  return "-";
+}
+
+/// The option's value for that control where nothing is stated; "-": the control has no such option.
 [[nodiscard]] constexpr std::string_view default_of(const ControlOptionRow& row, std::string_view dialect) {
-  if (dialect == "fanuc") return row.of_fanuc;
-  return dialect == "haas" ? row.of_haas : std::string_view("-");
+  for (const ControlDefaults& d : kControlDefaults) {
+    if (d.control == dialect) return value_in(d.options, row.name);
+  }
+  return "-";
 }
 
 /// The row of that name which this control has; null: there is none.

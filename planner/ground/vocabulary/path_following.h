@@ -27,6 +27,9 @@ inline constexpr std::array kPathFollowing{
     // of the axes' limits: default, unsourced.
     PathFollowing{"fanuc", 0.86602540378443864676, 0.5, false},
     PathFollowing{"haas", 0.86602540378443864676, 0.5, false},
+    // Looks ahead for lower feeds and corners (G64, LookAhead); shares of the axes' limits: default,
+    // unsourced.
+    PathFollowing{"siemens", 0.86602540378443864676, 0.5, false},
 };
 
 /// The control's row; that of LinuxCNC, after which motion is modelled, for a dialect without one (such a

@@ -26,6 +26,8 @@ struct Move {
   double feed_mm_min = 0.0;
   double spindle_rpm = 0.0;  ///< positive clockwise
   double dwell_s = 0.0;
+  /// By which each coordinate of its ends may be off, for a program has so many decimals and no more.
+  double rounding_mm = 0.0;
   long where = -1;  ///< index in the path, or line of the program
 };
 

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <sstream>
+
 #include "planner/controls/controls.h"
+#include "tests/controls/control_plans.h"
 #include "tests/support/canon.h"
 #include "tests/support/corpus.h"
-#include "tests/support/empty_plan.h"
 #include "tests/support/rs274.h"
 
 namespace capstan::controls::fanuc {
@@ -15,20 +18,13 @@ namespace {
 using model::CutterPath;
 using model::MoveRole;
 using model::Plan;
+using plans::choose;
+using plans::holes_plan;
+using plans::plan_for;
+using plans::pocket;
+using plans::pocket_plan;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Plan plan_for(const char* dialect) {
-  Plan plan = testing::empty_plan();
-  plan.machine.axes[2].travel_min_mm = -400.0;
-  plan.machine = with_control(plan.machine, dialect);
-  return plan;
-}
-
-void choose(Plan& plan, const char* name, const char* value) {
-  if (!plan.machine.control_options) plan.machine.control_options.emplace();
-  plan.machine.control_options->chosen.push_back({name, value});
-}
 
 Result<std::string> written(const Plan& plan) {
   Job job;
@@ -41,81 +37,6 @@ std::string program_of(const Plan& plan) {
 }
 std::string golden(const char* name) {
   return testing::slurp(testing::source_dir() + "/tests/controls/fanuc/golden/" + name);
-}
-
-/// A pocket 30 x 20, corners of 5 mm, entered on a helix.
-CutterPath pocket() {
-  CutterPath p;
-  p.start({0, 0, 10});
-  p.rapid({0, 0, 2});
-  p.line({0, 0, 0.5}, MoveRole::kApproach);
-  p.arc({6, 0, -1}, {3, 0}, true, MoveRole::kRamp);
-  p.arc({0, 0, -2.5}, {3, 0}, true, MoveRole::kRamp);
-  p.line({0, -5.5, -2.5}, MoveRole::kCut);
-  p.line({10.123, -5.5, -2.5}, MoveRole::kCut);
-  p.arc({15.123, -0.5, -2.5}, {10.123, -0.5}, false, MoveRole::kCut);
-  p.line({15.123, 0, -2.5}, MoveRole::kCut);
-  p.arc({-15.123, 0, -2.5}, {0, 0}, false, MoveRole::kCut);
-  p.rapid({-15.123, 0, 10}, MoveRole::kRetract);
-  return p;
-}
-
-Plan pocket_plan(const char* dialect) {
-  Plan plan = plan_for(dialect);
-  testing::add_step(plan, "rough pocket", "em18", pocket(), 3000.4).contour_tolerance_mm = 0.05;
-  return plan;
-}
-
-CutterPath hole(double x, double y, bool feeds_out, bool dwells) {
-  CutterPath p;
-  p.start({x, y, 10});
-  p.rapid({x, y, 2});
-  p.line({x, y, -18.2}, MoveRole::kDrill);
-  if (dwells) p.dwell();
-  if (feeds_out) {
-    p.line({x, y, 10}, MoveRole::kRetract);
-  } else {
-    p.rapid({x, y, 10}, MoveRole::kRetract);
-  }
-  return p;
-}
-
-void add_hole(Plan& plan, const char* id, const char* cutter, double x, double y, bool feeds_out,
-              double dwell_s) {
-  auto& step = testing::add_step(plan, id, cutter, hole(x, y, feeds_out, dwell_s > 0.0), 1200, 180);
-  model::FeedSchedule s = *step.schedule;
-  if (dwell_s > 0.0) s.dwell_s[3] = dwell_s;
-  step.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
-}
-
-void add_tap(Plan& plan, const char* id, double x, double y) {
-  CutterPath p;
-  p.start({x, y, 10});
-  p.rapid({x, y, 5});
-  p.line({x, y, -12}, MoveRole::kTap);
-  p.line({x, y, 5}, MoveRole::kTap);
-  p.rapid({x, y, 10}, MoveRole::kRetract);
-  testing::add_step(plan, id, "tap_m6", std::move(p), 400.2, 400.2);
-}
-
-/// Four holes: two drilled, one of them with a dwell, one reamed out at feed, one tapped.
-Plan holes_plan(const char* dialect) {
-  Plan plan = plan_for(dialect);
-  model::Cutter drill = plan.cutters[0], reamer = plan.cutters[0];
-  drill.id = "d8";
-  drill.cutter_class = model::CutterClass::kTwistDrill;
-  drill.cutting_diameter_mm = 8;
-  drill.pocket = 3;
-  reamer.id = "r8";
-  reamer.cutter_class = model::CutterClass::kReamer;
-  reamer.pocket = 4;
-  plan.cutters.push_back(drill);
-  plan.cutters.push_back(reamer);
-  add_hole(plan, "H1 drill", "d8", 20, 20, false, 0.0);
-  add_hole(plan, "H2 drill", "d8", 40, 20, false, 0.35);
-  add_hole(plan, "H3 ream", "r8", 20, 20, true, 0.0);
-  add_tap(plan, "H4 tap", 60, 20);
-  return plan;
 }
 
 TEST(FanucGolden, APocketIsWrittenAsReviewed) {
@@ -144,13 +65,49 @@ TEST(FanucProgram, EachOptionOfTheMachineChangesWhatItSays) {
   EXPECT_THAT(with("dwell", "seconds"), HasSubstr("\nG4 P1.5\n"));
   EXPECT_THAT(with("next_tool", "called"), Not(HasSubstr("\nT4\n")));
   EXPECT_THAT(with("block_numbers", "all"), HasSubstr("%\nO0001\n"));
-  EXPECT_THAT(with("block_numbers", "all"), HasSubstr("\nN20 G17 G40 G80 G90 G94\n"));
+  EXPECT_THAT(with("block_numbers", "all"), HasSubstr("\nN20 G17 G40 G80 G90 G94 G98\n"));
   EXPECT_THAT(with("block_numbers", "none"), Not(HasSubstr("\nN")));
   EXPECT_THAT(with("program_number", "1234"), HasSubstr("%\nO1234\n"));
   EXPECT_THAT(with("prove_out", "none"), Not(HasSubstr("\nM1\n")));
   EXPECT_THAT(with("prove_out", "m0"), HasSubstr("\nM5\nM9\nM0\n"));
   EXPECT_THAT(with("prove_out", "skip_m0"), HasSubstr("\nM5\nM9\n/M0\n"));
   EXPECT_THAT(with("comments", "mixed"), HasSubstr("(CAPSTAN STEP id=\"H1$20drill\" n=1 tool=3 setup=1)"));
+}
+
+TEST(FanucProgram, NumbersAStepOnlyWhereARestartCallsItsTool) {
+  // H1 and H2 share T3: a restart at H2 would drill with whatever is in the spindle.
+  const std::string text = program_of(holes_plan("fanuc"));
+  EXPECT_THAT(text, HasSubstr("\nN1 G21\n"));
+  EXPECT_THAT(text, HasSubstr("\nN3 G21\n"));
+  EXPECT_THAT(text, Not(HasSubstr("\nN2 ")));
+}
+
+TEST(FanucProgram, ABlockThatMayBeSkippedHasItsSlashBeforeItsNumber) {
+  Plan plan = holes_plan("fanuc");
+  choose(plan, "prove_out", "skip_m0");
+  choose(plan, "block_numbers", "all");
+  const std::string text = program_of(plan);
+  EXPECT_TRUE(std::regex_search(text, std::regex(R"(\n/N\d+ M0\n)"))) << text;
+  EXPECT_THAT(text, Not(HasSubstr(" /M0")));
+}
+
+TEST(FanucProgram, StatesTheReturnToTheInitialLevelInItsSafeStart) {
+  EXPECT_THAT(program_of(pocket_plan("fanuc")), HasSubstr("\nG17 G40 G80 G90 G94 G98\n"));
+}
+
+TEST(FanucProgram, NoCommentLosesItsEndWhereLinesAreShort) {
+  const auto words_of_comments = [](const std::string& program) {
+    std::string out;
+    for (const char c : program) out += c == '(' || c == ')' || c == '\n' ? ' ' : c;
+    std::istringstream all(out);
+    std::vector<std::string> words;
+    for (std::string w; all >> w;) words.push_back(w);
+    return words;
+  };
+  Plan plan = pocket_plan("fanuc");
+  const auto longest = words_of_comments(program_of(plan));
+  choose(plan, "line_length", "72");
+  EXPECT_EQ(words_of_comments(program_of(plan)), longest);
 }
 
 TEST(FanucProgram, SmoothsMillingStepsOnlyWhereTheMachineSaysThatItCan) {

@@ -43,7 +43,7 @@ TEST(CheckProfile, AnUnknownControlIsWrongUsage) {
 // The figure of the machine's file is LinuxCNC's; no word of a program of Fanuc states it, one of Haas's
 // does.
 TEST(PlanForAControl, ThatCannotStateItsToleranceIsWarnedOfOnce) {
-  for (const char* control : {"fanuc", "haas"}) {
+  for (const char* control : {"fanuc", "haas", "siemens"}) {
     Request request;
     EXPECT_TRUE(set(request, "control", control));
     Job job;
@@ -53,6 +53,15 @@ TEST(PlanForAControl, ThatCannotStateItsToleranceIsWarnedOfOnce) {
     const auto assumed = std::count_if(planned->findings.begin(), planned->findings.end(),
                                        [](const model::Finding& f) { return f.code == "FIT-TOLERANCE"; });
     EXPECT_EQ(assumed, std::string(control) == "fanuc" ? 1 : 0) << control;
+    // Nobody named a machine: whose the program is made for is said.
+    const auto all = job.diagnostics();
+    EXPECT_EQ(std::count_if(all.begin(), all.end(),
+                            [](const Diagnostic& d) {
+                              return d.code == "SHOP-MACHINE" &&
+                                     d.message.find("generic_vmc") != std::string::npos;
+                            }),
+              1)
+        << control;
   }
 }
 

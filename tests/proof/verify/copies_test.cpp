@@ -10,7 +10,7 @@
 #include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/life/arc_speed.h"
-#include "planner/proof/verify/program/fanuc/options.h"
+#include "planner/proof/verify/reader_options.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -144,13 +144,20 @@ TEST(Copies, FinishWhatTheTableSays) {
   }
 }
 
-TEST(Copies, TakeTheDefaultsOfFanucsAndHaassOptionsAsTheTableSays) {
-  for (const fanuc::OptionDefault& d : fanuc::kOptionDefaults) {
-    const auto* row = std::find_if(model::kControlOptions.begin(), model::kControlOptions.end(),
-                                   [&](const model::ControlOptionRow& r) { return r.name == d.name; });
-    ASSERT_NE(row, model::kControlOptions.end()) << d.name;
-    EXPECT_EQ(d.of_fanuc, row->of_fanuc) << d.name;
-    EXPECT_EQ(d.of_haas, row->of_haas) << d.name;
+TEST(Copies, TakeTheDefaultsOfControlOptionsAsTheTableSays) {
+  ASSERT_EQ(kReaderDefaults.size(), model::kControlDefaults.size());
+  for (const ReaderDefaults& d : kReaderDefaults) {
+    std::size_t found = 0;
+    for (const model::ControlOptionRow& row : model::kControlOptions) {
+      const std::string_view mine = reader_default(d.control, row.name);
+      if (mine == "-") continue;
+      ++found;
+      EXPECT_EQ(mine, model::default_of(row, d.control)) << d.control << " " << row.name;
+    }
+    // Each of the list is a row of the table.
+    EXPECT_EQ(found, static_cast<std::size_t>(std::count(d.options.begin(), d.options.end(), '=')))
+        << d.control;
+    EXPECT_GT(found, 0U);
   }
 }
 

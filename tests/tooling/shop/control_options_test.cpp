@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planner/ground/vocabulary/control_options.h"
 #include "planner/model/plan/resources/control_options.h"
 #include "tests/support/corpus.h"
@@ -46,7 +48,9 @@ TEST(ControlOptions, OfAnotherControlOrWithAnotherValueAreRefusedWithFileLineAnd
   };
   for (const Wrong& w :
        {Wrong{"dialect: fanuc, retract: g30", "MACHINE-CONTROL", "'g30' is none of: g53 g28"},
-        Wrong{"dialect: fanuc, program_number: 12345", "MACHINE-CONTROL", "no number from 1 to 9999"},
+        Wrong{"dialect: fanuc, program_number: 12345", "MACHINE-CONTROL", "no whole number from 1 to 9999"},
+        Wrong{"dialect: fanuc, program_number: 12.5", "MACHINE-CONTROL", "'12.5' is no whole number"},
+        Wrong{"dialect: siemens, program_number: 12", "DATA-UNKNOWN", "program_number"},
         Wrong{"dialect: fanuc, smoothness: yes", "DATA-UNKNOWN", "smoothness"},
         Wrong{"dialect: linuxcnc, retract: g28", "DATA-UNKNOWN", "retract"}}) {
     Job job;
@@ -65,12 +69,24 @@ TEST(ControlOptions, EachHasASourceAMeaningAndALineInTheReadme) {
     EXPECT_FALSE(row.source.empty()) << row.name;
     EXPECT_FALSE(row.meaning.empty()) << row.name;
     EXPECT_NE(readme.find("| `" + std::string(row.name) + "` |"), std::string::npos) << row.name;
-    for (const std::string_view dialect : {"fanuc", "haas"}) {
+    bool has_it = false;
+    for (const auto& [dialect, options] : model::kControlDefaults) {
       const std::string_view value = model::default_of(row, dialect);
+      has_it = has_it || value != "-";
       if (value == "-" || value.empty()) continue;
       EXPECT_EQ(model::control_option_fault(dialect, {std::string(row.name), std::string(value)}), "")
           << row.name;
     }
+    EXPECT_TRUE(has_it) << row.name << " belongs to no control";
+  }
+}
+
+TEST(ControlOptions, OfEachControlAreRowsOfTheTable) {
+  for (const auto& [dialect, options] : model::kControlDefaults) {
+    std::size_t found = 0;
+    for (const model::ControlOptionRow& row : model::kControlOptions)
+      found += model::default_of(row, dialect) != "-";
+    EXPECT_EQ(found, static_cast<std::size_t>(std::count(options.begin(), options.end(), '='))) << dialect;
   }
 }
 

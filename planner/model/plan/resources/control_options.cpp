@@ -1,5 +1,7 @@
 #include "planner/model/plan/resources/control_options.h"
 
+#include <cmath>
+
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/control_options.h"
 
@@ -29,8 +31,9 @@ std::string control_option_fault(std::string_view dialect, const ControlOption& 
                : "'" + option.value + "' is none of: " + std::string(row->words);
   if (row->least == 0.0 && row->most == 0.0) return {};
   const auto v = parse_double(option.value);
-  if (v && *v >= row->least && *v <= row->most) return {};
-  return "'" + option.value + "' is no number from " + shortest(row->least) + " to " + shortest(row->most);
+  if (v && *v >= row->least && *v <= row->most && (!row->whole || *v == std::floor(*v))) return {};
+  return "'" + option.value + "' is no " + (row->whole ? "whole number from " : "number from ") +
+         shortest(row->least) + " to " + shortest(row->most);
 }
 
 }  // namespace capstan::model

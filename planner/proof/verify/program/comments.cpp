@@ -66,6 +66,12 @@ int offset_code(std::string_view name) {
     return n && *n >= 1.0 && *n < kMostExtended && *n == std::floor(*n) ? code + static_cast<int>(*n) : 0;
   }
   static constexpr std::string_view kDigits = "0123456789";
+  if (name.size() == 4 && name.starts_with("G5")) {  // Siemens: G505 to G599
+    const auto code = number(std::string(name.substr(1)));
+    return code && *code >= 505.0 && *code <= 599.0 && *code == std::floor(*code)
+               ? 10 * static_cast<int>(*code)
+               : 0;
+  }
   if (!name.starts_with("G5") || name.size() < 3 || name[2] < '4' || name[2] > '9') return 0;
   const int whole = 500 + 10 * (name[2] - '0');
   if (name.size() == 3) return whole;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/ground/base/number.h"
 
@@ -25,6 +26,7 @@ constexpr double kArcMostMm = 0.002;
 /// Arcs flatter than half a unit, and those of less than 20 units, have no shape left after rounding.
 constexpr double kFlatUnits = 0.6, kShortUnits = 22.0;
 constexpr double kPitchSlack = 1e-5;
+constexpr double kPi = std::numbers::pi;
 
 bool known(const Block& b) { return b.known_to[0] && b.known_to[1] && b.known_to[2]; }
 bool known_from(const Block& b) { return b.known_from[0] && b.known_from[1] && b.known_from[2]; }
@@ -82,6 +84,15 @@ std::string Following::text_of(Vec3 v) const {
   return "(" + trimmed(v.x, decimals_) + ", " + trimmed(v.y, decimals_) + ", " + trimmed(v.z, decimals_) +
          ")";
 }
+Move Following::planned(std::size_t i) const {
+  Move m;
+  m.kind = path_.kind[i];
+  m.from = path_.point(i - 1);
+  m.to = path_.point(i);
+  m.centre = {path_.cx[i], path_.cy[i]};
+  return m;
+}
+double Following::radius_of(std::size_t i) const { return norm(xy(path_.point(i)) - planned(i).centre); }
 double Following::feed_of(std::size_t i) const {
   return step_.schedule ? step_.schedule->feed_mm_min[i] : step_.feed_mm_min;
 }
@@ -252,8 +263,8 @@ bool Following::one(std::size_t i) {
   if (const auto made = hole_way(i)) return *made;
   const Vec3 goal = round(path_.point(i));
   const bool arcs = is_arc(path_.kind[i]);
-  const bool full =
-      arcs && same(goal, last_) && std::hypot(path_.x[i] - path_.cx[i], path_.y[i] - path_.cy[i]) > unit_;
+  // A whole turn ends where it begins; so does an arc that is shorter than the last decimal.
+  const bool full = arcs && same(goal, last_) && radius_of(i) > unit_ && sweep_of(planned(i)) > kPi;
   if (same(goal, last_) && !full) return true;
   const Vec3 begin = last_;
   last_ = goal;
@@ -271,7 +282,10 @@ bool Following::one(std::size_t i) {
 /// a way in pieces of its own. By rapid where the plan goes through air at feed to R, and above R on the way
 /// out. Handled only where the text is a cycle's; `done_to_` is then the last move of the way.
 std::optional<bool> Following::hole_way(std::size_t i) {
-  if (at_ >= text_.size() || !text_[at_]->from_cycle) return std::nullopt;
+  // A modal call follows a move to where the tool already is.
+  std::size_t first = at_;
+  while (first < text_.size() && still(*text_[first])) ++first;
+  if (first >= text_.size() || !text_[first]->from_cycle) return std::nullopt;
   const auto straight = [&](std::size_t k, Vec3 from) {
     return path_.kind[k] != MoveKind::kDwell && !is_arc(path_.kind[k]) && same(path_.x[k], from.x) &&
            same(path_.y[k], from.y);
@@ -334,11 +348,7 @@ bool Following::rapid(std::size_t i, Vec3 begin, Vec3 goal) {
 
 /// Piece by piece along the plan's arc, never back, until its whole angle is behind.
 bool Following::arc(std::size_t i, Vec3 goal) {
-  Move whole;
-  whole.kind = path_.kind[i];
-  whole.from = path_.point(i - 1);
-  whole.to = path_.point(i);
-  whole.centre = {path_.cx[i], path_.cy[i]};
+  const Move whole = planned(i);
   const double radius = norm(xy(whole.to) - whole.centre);
   const double slack = arc_off_ / std::max(radius, unit_) + 1e-9;
   const double sweep = sweep_of(whole);
@@ -347,7 +357,9 @@ bool Following::arc(std::size_t i, Vec3 goal) {
     const Block* b = next(i, goal);
     if (b == nullptr || !kind_agrees(i, *b) || !arc_piece(i, *b, whole, done) || !numbers_agree(i, *b))
       return false;
-    if (std::abs(done - sweep) <= slack && same(b->to, goal)) return true;
+    // Within a helix of one block the path's arcs end where no number of the text is rounded.
+    const bool there = same(b->to, goal) || (b->from_turns && norm(b->to - path_.point(i)) <= arc_off_);
+    if (std::abs(done - sweep) <= slack && there) return true;
     if (done > sweep - slack)
       return say(b->line, "the text goes to " + text_of(b->to) + "; the plan's arc ends at " + text_of(goal),
                  static_cast<long>(i));

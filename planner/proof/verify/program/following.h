@@ -47,6 +47,9 @@ class Following {
   [[nodiscard]] bool same(double a, double b) const;
   [[nodiscard]] bool same(geometry::Vec3 a, geometry::Vec3 b) const;
   [[nodiscard]] std::string text_of(geometry::Vec3 v) const;
+  /// The plan's move, as it is before rounding.
+  [[nodiscard]] Move planned(std::size_t i) const;
+  [[nodiscard]] double radius_of(std::size_t i) const;
   [[nodiscard]] double feed_of(std::size_t i) const;
   [[nodiscard]] double speed_of(std::size_t i) const;
   bool say(long line, const std::string& what, long move, int property = 33, const char* code = "CHK-TEXT");

@@ -1,9 +1,12 @@
+#include <cmath>
+
 #include "planner/proof/verify/program/program_checks.h"
 
 namespace capstan::verify {
 
 std::vector<StepMoves> moves_of(const ProgramCase& c) {
   std::vector<StepMoves> out;
+  const double half_unit = 0.5 * std::pow(10.0, -c.machine.control.decimals);
   for (const Block& b : c.program.blocks) {
     if ((b.kind != Block::Kind::kMove && b.kind != Block::Kind::kDwell) || b.in_machine) continue;
     const model::Cutter* cutter = c.cutter(b.tool);
@@ -34,6 +37,7 @@ std::vector<StepMoves> moves_of(const ProgramCase& c) {
     m.feed_mm_min = b.feed_mm_min;
     m.spindle_rpm = b.spindle_rpm;
     m.dwell_s = b.dwell_s;
+    m.rounding_mm = half_unit;
     m.where = b.line;
     out.back().moves.push_back(m);
   }

@@ -50,6 +50,7 @@ struct Block {
   bool synchronised = false;              ///< G33.1 or a tapping cycle
   bool in_machine = false;                ///< G53: `to` is in machine coordinates where a word was given
   bool from_cycle = false;                ///< expanded from a canned cycle
+  bool from_turns = false;                ///< half a turn of a helix that one block makes
   bool words[3] = {false, false, false};  ///< which axes the block names
   bool known_from[3] = {false, false, false}, known_to[3] = {false, false, false};
   geometry::Vec3 from, to;
@@ -118,7 +119,8 @@ struct Program {
   long lines = 0;
 };
 
-/// "G54" .. "G59.9" as a code times ten; "G54.1P7" is 541007, "G154P7" 1540007; 0 for anything else.
+/// "G54" .. "G59.9" as a code times ten, and so "G505" .. "G599"; "G54.1P7" is 541007, "G154P7" 1540007; 0
+/// for anything else.
 [[nodiscard]] int offset_code(std::string_view name);
 /// 551 is "G55.1".
 [[nodiscard]] std::string offset_name(int code);

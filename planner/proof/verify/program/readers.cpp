@@ -4,6 +4,7 @@
 
 #include "planner/proof/verify/program/fanuc/reader.h"
 #include "planner/proof/verify/program/linuxcnc/reader.h"
+#include "planner/proof/verify/program/siemens/reader.h"
 
 namespace capstan::verify {
 namespace {
@@ -18,6 +19,8 @@ constexpr std::array kReaders{
     DialectReader{"linuxcnc", "LinuxCNC", linuxcnc::kWorkOffsets, &read_linuxcnc, &linuxcnc::read_tool_table},
     DialectReader{"fanuc", "Fanuc", fanuc::kFanucOffsets, &fanuc::read_program, nullptr, 0, false},
     DialectReader{"haas", "Haas", fanuc::kHaasOffsets, &fanuc::read_program, nullptr, 0, true},
+    DialectReader{"siemens", "Siemens 840D sl", siemens::kOffsets, &siemens::read_program, nullptr, 0, true,
+                  "G0 SUPA Z", " D0", "D1"},
 };
 
 }  // namespace

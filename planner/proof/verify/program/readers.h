@@ -21,6 +21,8 @@ struct DialectReader {
   ToolTable (*tool_table)(std::string_view text);  ///< null for a control that reads no tool table
   int speed_decimals = 1;                          ///< of S, 1/min
   bool states_tolerance = true;                    ///< its programs say how far corners are rounded
+  /// As it says them, for messages: to the top of Z, which follows, and the length of a tool.
+  std::string_view to_top = "G53 G0 Z", to_top_end = "", length = "G43";
 };
 
 /// The reader for programs of that control; null when there is none.

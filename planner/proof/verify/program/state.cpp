@@ -113,6 +113,10 @@ class StateChecks {
   }
 
  private:
+  [[nodiscard]] std::string retract() const {
+    return std::string(c_.reader.to_top) + plain(top_of(c_.machine)) + std::string(c_.reader.to_top_end);
+  }
+
   void tool_change(const Block& b) {
     if (b.spindle_rpm != 0.0)
       out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
@@ -121,7 +125,7 @@ class StateChecks {
     if (!at_top(b, c_.machine) && (c_.plan != nullptr || !b.unmoved))
       out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
                  (b.known_to[2] ? "M6 at z = " + plain(b.to.z) : std::string("M6 at an unknown height")) +
-                     ", not retracted: G53 G0 Z" + plain(top_of(c_.machine)) + " comes before it");
+                     ", not retracted: " + retract() + " comes before it");
     if (b.cycle_active)
       out_.error(26, "CHK-CYCLE", c_.where(b),
                  "M6 changes the tool while a cycle is active; cancel it before (G80)");
@@ -162,7 +166,8 @@ class StateChecks {
     const bool low = security_ < 1e299 ? b.to.z < security_ - 1e-6 : true;
     if (b.length_offset < 0 && low && (named_z || feeds) && said_.insert({8, b.marker}).second)
       out_.error(8, "CHK-LENGTH-OFFSET", c_.where(b),
-                 "the tool goes to Z" + plain(b.to.z) + " without a length offset; state G43 before");
+                 "the tool goes to Z" + plain(b.to.z) + " without a length offset; state " +
+                     std::string(c_.reader.length) + " before");
     const bool cutting = feeds && !b.in_machine;
     if (cutting && !b.known_from[2] && !b.words[2] && said_.insert({27, b.line}).second)
       out_.error(27, "CHK-POSITION", c_.where(b),
@@ -185,8 +190,7 @@ class StateChecks {
       if (b.move != MoveKind::kRapid || !across || b.known_from[2] || was_at_top_) return;
       if (said_.insert({9, b.line}).second)
         out_.error(9, "CHK-HEIGHT", c_.where(b),
-                   "a rapid across where the height of the tool is not known; retract first, G53 G0 Z" +
-                       plain(top_of(c_.machine)));
+                   "a rapid across where the height of the tool is not known; retract first, " + retract());
       return;
     }
     if (across && (b.words[2] || !was_at_top_))

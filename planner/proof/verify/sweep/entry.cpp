@@ -54,7 +54,9 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
     return;
   }
   const double along = is_arc(m.kind) ? norm(xy(m.to) - m.centre) * sweep_of(m) : norm(xy(m.to) - xy(m.from));
+  // Both ends are rounded: the move that was meant may have been as much flatter.
   const double angle = std::atan2(-dz, along);
+  const double least = std::atan2(std::max(0.0, -dz - 2.0 * m.rounding_mm), along + 2.0 * m.rounding_mm);
   const bool core = bite.core_mm > 0.05;
   if (along < 1e-6 || angle > 1.5533) {  // steeper than 89 degrees
     if (core && !cuts_to_centre(cutter_)) {
@@ -69,13 +71,13 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
   if (!core || mills_threads(cutter_.cutter_class) || (shaped && !ramp)) return;
   const double most = cutter_.maximum_ramp_angle_rad;
   const double degrees = 180.0 / std::numbers::pi;
-  if (angle > most + 1e-4) {
+  if (least > most + 1e-4) {
     out_.error(14, "CHK-RAMP", at(m),
                "a ramp of " + plain(angle * degrees) + " degrees; the tool may " +
                    (most > 0.0 ? "ramp at " + plain(most * degrees) + " degrees at most" : "not ramp"),
                angle);
   } else if (ramp && ramp_chosen_) {
-    chosen_ramp(m, angle);
+    chosen_ramp(m, least);
   }
   if (!is_arc(m.kind)) return;
   // A helix turns round one centre, or near it by less than its core is wide; the corners of a ramp along a

@@ -17,7 +17,7 @@ O0001
 (set-up 1: what holds the piece is not planned: fixtures and clamps are not checked)
 
 G21
-G17 G40 G80 G90 G94
+G17 G40 G80 G90 G94 G98
 G64
 G187 P3 E0.01
 G0 G49 G53 Z0.
@@ -26,7 +26,7 @@ M9
 
 (CAPSTAN STEP id="H1$20drill" n=1 tool=3 setup=1)
 N1 G21
-G17 G40 G80 G90 G94
+G17 G40 G80 G90 G94 G98
 G64
 G187 P3 E0.01
 G54
@@ -41,8 +41,8 @@ G98 G81 X20. Y20. Z-18.2 R2. F180.
 G80
 
 (CAPSTAN STEP id="H2$20drill" n=2 tool=3 setup=1)
-N2 G21
-G17 G40 G80 G90 G94
+G21
+G17 G40 G80 G90 G94 G98
 G64
 G187 P3 E0.01
 G54
@@ -60,7 +60,7 @@ M9
 M1
 (CAPSTAN STEP id="H3$20ream" n=3 tool=4 setup=1)
 N3 G21
-G17 G40 G80 G90 G94
+G17 G40 G80 G90 G94 G98
 G64
 G187 P3 E0.01
 G54
@@ -80,7 +80,7 @@ M9
 M1
 (CAPSTAN STEP id="H4$20tap" n=4 tool=2 setup=1)
 N4 G21
-G17 G40 G80 G90 G94
+G17 G40 G80 G90 G94 G98
 G64
 G187 P3 E0.01
 G54

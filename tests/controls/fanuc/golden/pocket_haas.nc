@@ -15,7 +15,7 @@ O0001
 (set-up 1: what holds the piece is not planned: fixtures and clamps are not checked)
 
 G21
-G17 G40 G80 G90 G94
+G17 G40 G80 G90 G94 G98
 G64
 G187 P3 E0.01
 G0 G49 G53 Z0.
@@ -24,7 +24,7 @@ M9
 
 (CAPSTAN STEP id="rough$20pocket" n=1 tool=1 setup=1)
 N1 G21
-G17 G40 G80 G90 G94
+G17 G40 G80 G90 G94 G98
 G64
 G187 P3 E0.05
 G54

@@ -70,6 +70,26 @@ int group_of_m(int m) {
 
 }  // namespace
 
+/// Numbers that no control of these takes: N has five digits (0i 12.2) and so has S, a length five before the
+/// point (increment system IS-B), O four, at Haas five. F and T: default, unsourced.
+void Interpreter::range_rules(const BlockWords& s) {
+  struct Most {
+    char letter;
+    double value;
+  };
+  constexpr double kLength = 99999.999, kFeed = 240000.0, kFeedPerTurn = 500.0;
+  const bool per_turn = s.code(950) || (feed_mode_ == 95 && !s.code(940));
+  for (const Most& m : {Most{'N', 99999.0}, Most{'O', ways_.haas ? 99999.0 : 9999.0}, Most{'S', 99999.0},
+                        Most{'T', 99999999.0}, Most{'X', kLength}, Most{'Y', kLength}, Most{'Z', kLength},
+                        Most{'I', kLength}, Most{'J', kLength}, Most{'R', kLength}, Most{'Q', kLength},
+                        Most{'F', per_turn ? kFeedPerTurn : kFeed}}) {
+    if (s.is(m.letter) && std::abs(s.of(m.letter)) > m.value)
+      fault(33, "CHK-WORD",
+            std::string(1, m.letter) + plain(s.of(m.letter)) + " is more than the control takes, " +
+                plain(m.value));
+  }
+}
+
 void Interpreter::word_rules(const BlockWords& s) {
   int motion = motion_;
   bool cycles = false;

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "planner/proof/verify/findings.h"
-#include "planner/proof/verify/program/fanuc/options.h"
+#include "planner/proof/verify/reader_options.h"
 
 // One block after another: the frame of the tape, words, codes before the move, the move, codes behind it.
 // FANUC B-63844EN/02, 11: M00, M01, M02, M05, M09 and M30 act when the block's move has ended.
@@ -277,8 +277,9 @@ void Interpreter::line(const Line& l, long number) {
   BlockWords s;
   if (!gather(l, s)) return;
   // A stop that may be passed over is as good as one that the operator chooses.
+  const std::size_t words = s.is('N') ? 2 : 1;
   const bool only_stop =
-      s.g_count == 0 && s.m_count == 1 && (s.m[0] == 0 || s.m[0] == 1) && l.words.size() == 1;
+      s.g_count == 0 && s.m_count == 1 && (s.m[0] == 0 || s.m[0] == 1) && l.words.size() == words;
   if (l.skipped && only_stop) return optional_stop();
   if (l.skipped)
     fault(33, "CHK-UNVERIFIABLE", "a block that may be skipped (/) is taken as not skipped", true);
@@ -288,6 +289,7 @@ void Interpreter::line(const Line& l, long number) {
               std::to_string(ways_.longest_block) + " at most: write it as several");
   known_codes(s);
   word_rules(s);
+  range_rules(s);
   code_rules(s);
   point_rules(s);
   for (int i = 0; i < s.g_count; ++i) {

@@ -54,6 +54,7 @@ class Interpreter : private BlockState {
   bool gather(const Line& l, BlockWords& s);
   /// What a control refuses, or what one reads otherwise than another: block_rules.cpp.
   void word_rules(const BlockWords& s);
+  void range_rules(const BlockWords& s);
   void code_rules(const BlockWords& s);
   void point_rules(const BlockWords& s);
   void known_codes(const BlockWords& s);

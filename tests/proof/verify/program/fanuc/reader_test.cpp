@@ -381,5 +381,18 @@ TEST(FanucComments, InCapitalsSayWhatTheySaidInSmallLetters) {
   EXPECT_EQ(plain_comment("MAKE IT SO"), "MAKE IT SO");
 }
 
+// 12.2: the slash of a block that may be skipped stands before its number.
+TEST(FanucStops, OneThatMayBeSkippedMayHaveANumber) {
+  EXPECT_EQ(faults(read("G0 G49 G53 Z0.\nM5\nM9\n/N40 M0\n", "fanuc", {{"prove_out", "skip_m0"}})), "");
+  EXPECT_TRUE(finds(read("N40 /M0\n", "fanuc", {{"prove_out", "skip_m0"}}), "CHK-SYNTAX"));
+}
+
+TEST(FanucWords, NumbersThatNoControlTakesAreFaults) {
+  for (const char* body : {"N123456 G0 X1.\n", "G1 X1. F250000.\n", "G0 X100000.\n", "S100000\n",
+                           "G95\nG1 X1. F501.\n", "T123456789\n"})
+    EXPECT_TRUE(finds(read(body), "CHK-WORD")) << body;
+  EXPECT_EQ(faults(read("N99999 G1 X1. F240000.\n")), "");
+}
+
 }  // namespace
 }  // namespace capstan::verify::fanuc

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "planner/controls/gcode/words.h"
+#include "planner/ground/base/result.h"
+#include "planner/model/plan/plan.h"
+
+namespace capstan::controls::gcode {
+
+/// What the machine's options say that several controls have (ground/vocabulary/control_options.h).
+[[nodiscard]] BlockNumbers block_numbers_of(const model::Machine& machine);
+/// The block behind the last step of each tool; empty for none.
+[[nodiscard]] std::string tool_end_of(const model::Machine& machine);
+
+/// Fails  OUT-OPTION for an option of the plan's machine that its control does not have, or not so.
+[[nodiscard]] Status options_right(const model::Plan& plan);
+
+}  // namespace capstan::controls::gcode

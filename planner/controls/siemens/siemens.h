@@ -1,0 +1,47 @@
+#pragma once
+
+#include "planner/controls/dialect.h"
+#include "planner/controls/gcode/words.h"
+#include "planner/model/plan/resources/machine.h"
+
+namespace capstan::controls::siemens {
+
+/// SINUMERIK 840D sl in its own language (G290), main programs `.mpf`: comments behind `;`, numbers with a
+/// point only where they need one.
+///
+/// State    `G17 G40 G90 G94 G710` and `MCALL` alone, which ends a modal call. G710 holds for feeds too; G71
+///          leaves them in the unit of the machine's basic system.
+///
+/// Path     `CYCLE832(tolerance, 1 or 3, 1)`, finishing or roughing, or `G642 CTOL=`, or `G641 ADIS=
+///          ADISPOS=` of the same size; `CYCLE832(0,0,1)` and `G60` without a tolerance.
+///
+/// Tool     `T5 M6` or `T="name" M6`; its length by `D1` in the block of the first move of Z.
+///
+/// Top      of Z by `G0 SUPA Z D0`: SUPA suppresses all frames of its block and keeps the tool's length,
+/// which
+///          D0 takes away.
+///
+/// Arcs     centre from the start by I and J; a helix of more than one turn by `TURN=`, the further turns.
+///
+/// Holes    `MCALL CYCLE81`, `82`, `85` and `84`, a positioning block, `MCALL`: RTP is where the tool came
+///          from, RFP + SDIS where it is fed from, DP absolute. Pecks are explicit moves: the plan counts the
+///          first from the raw piece, and CYCLE83 counts it from RFP. Modes of the later lists of parameters
+///          (_GMODE, _DMODE, _AMODE) are left out: 0, as the shorter lists.
+///
+/// Stops    `MSG("...")` of 124 characters at most, then `M0`.
+///
+/// Not written yet: POCKET3, POCKET4, SLOT1, HOLES1, HOLES2, CYCLE61, 71, 72, CYCLE800.
+///
+/// Source   SINUMERIK 840D sl programming manuals: Fundamentals 6FC5398-1BP40, Job planning 6FC5398-2BP40,
+///          Cycles 6FC5398-3BP20, "Programming cycles externally" of 03/2009; NC programming 6FC5398-2EP40
+///          (TURN=, CYCLE832, CTOL). What of them was at hand: tests/controls/siemens/golden/README.md.
+extern const Dialect kDialect;
+
+/// The words of the machine's control.
+[[nodiscard]] gcode::Words words_of(const model::Machine& machine);
+
+/// Characters of a tool's name at most, and whether it may be one: printable, without quotes.
+inline constexpr std::size_t kLongestToolName = 32;
+[[nodiscard]] bool is_tool_name(std::string_view name);
+
+}  // namespace capstan::controls::siemens

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "planner/controls/gcode/options.h"
+#include "planner/controls/siemens/siemens.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/control_options.h"
+
+// What the machine's options make of the words of its programs.
+
+namespace capstan::controls::siemens {
+namespace {
+
+using gcode::HoleCycle;
+
+/// RFP lies so far below where the tool is fed from, for cycles refuse a return plane at the reference plane.
+constexpr double kClearanceMm = 1.0;
+constexpr int kPitchDecimals = 4;
+/// Of MSG(): default, unsourced here.
+constexpr std::size_t kLongestMessage = 124;
+/// Of I and J: the control computes with all digits, and takes radii that differ by 0.01 mm (its circle end
+/// point tolerance, default of the machine data).
+constexpr int kMoreCentreDecimals = 2;
+
+/// RTP, RFP, SDIS, DP and an empty DPR.
+std::string planes(const HoleCycle& h) {
+  const double clearance = rounded(std::min(kClearanceMm, 0.5 * (h.r_z - h.bottom_z)), h.decimals);
+  const auto n = [&](double v) { return trimmed(v, h.decimals); };
+  return n(h.initial_z) + "," + n(h.r_z - clearance) + "," + n(clearance) + "," + n(h.bottom_z) + ",";
+}
+
+/// The call, the hole's place, and the end of the call.
+std::string called(const HoleCycle& h, const std::string& call) {
+  return "MCALL " + call + "\nG0 X" + trimmed(h.at.x, h.decimals) + " Y" + trimmed(h.at.y, h.decimals) +
+         "\nMCALL";
+}
+
+std::string hole_text(const HoleCycle& h) {
+  const std::string feed = trimmed(h.feed_mm_min, h.feed_decimals), dwell = trimmed(h.dwell_s, 3);
+  if (h.feeds_out) return called(h, "CYCLE85(" + planes(h) + "," + dwell + "," + feed + "," + feed + ")");
+  const std::string f = "F" + feed + "\n";
+  if (rounded(h.dwell_s, 3) > 0.0) return f + called(h, "CYCLE82(" + planes(h) + "," + dwell + ")");
+  return f + called(h, "CYCLE81(" + planes(h) + ")");
+}
+
+/// SDAC 5: the spindle stands behind it; PIT below 0 for left-hand threads; POSS 0; SST and SST1 alike.
+std::string tap_text(const HoleCycle& h) {
+  const std::string rpm = trimmed(rounded(std::abs(h.rpm), 0), 0);
+  const double pitch = h.rpm < 0.0 ? -h.pitch_mm : h.pitch_mm;
+  return called(
+      h, "CYCLE84(" + planes(h) + ",0,5,," + trimmed(pitch, kPitchDecimals) + ",0," + rpm + "," + rpm + ")");
+}
+
+std::string path_mode(std::string_view smoothing, const std::string& tolerance, bool finishes) {
+  if (smoothing == "g642") return tolerance.empty() ? "G60" : "G642 CTOL=" + tolerance;
+  if (smoothing == "g641")
+    return tolerance.empty() ? "G60" : "G641 ADIS=" + tolerance + " ADISPOS=" + tolerance;
+  if (tolerance.empty()) return "CYCLE832(0,0,1)\nG60";
+  return "CYCLE832(" + tolerance + "," + (finishes ? "1" : "3") + ",1)";
+}
+
+std::string without_quotes(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  return text;
+}
+
+}  // namespace
+
+bool is_tool_name(std::string_view name) {
+  return !name.empty() && name.size() <= kLongestToolName &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return c > ' ' && c <= '~' && c != '"' && c != ';'; });
+}
+
+gcode::Words words_of(const model::Machine& machine) {
+  const auto is = [&](std::string_view name, std::string_view value) {
+    return model::control_option(machine, name) == value;
+  };
+  const bool by_name = is("tool_call", "name");
+  const std::string smoothing(model::control_option(machine, "smoothing"));
+  const auto tool = [by_name](const std::string& number, const std::string& id) {
+    return by_name ? "T=\"" + id + "\"" : "T" + number;
+  };
+  gcode::Words w;
+  w.longest_line = static_cast<std::size_t>(model::control_number(machine, "line_length", 200.0));
+  w.longest_message = kLongestMessage;
+  w.speed_decimals = 0;
+  w.dwell_decimals = 3;
+  w.last = smoothing == "cycle832" ? "CYCLE832(0,0,1)\nM30" : "M30";
+  w.comment_begin = ";";
+  w.comment_end = "";
+  w.first_state = w.step_state = "G17 G40 G90 G94 G710\nMCALL";
+  w.block_numbers = gcode::block_numbers_of(machine);
+  w.change_tool = [tool](const std::string& number, const std::string& id) {
+    return tool(number, id) + " M6";
+  };
+  if (is("next_tool", "staged")) w.stage_tool = tool;
+  w.tool_end = gcode::tool_end_of(machine);
+  w.length_offset = [](const std::string& /*tool*/) { return std::string("D1"); };
+  w.offset_moves_z = true;
+  w.number = &trimmed;
+  w.path_mode = [smoothing](const std::string& tolerance, bool finishes) {
+    return path_mode(smoothing, tolerance, finishes);
+  };
+  w.retract = [](const std::string& z) { return "G0 SUPA Z" + z + " D0"; };
+  w.message = [](const std::string& text) { return "MSG(\"" + without_quotes(text) + "\")"; };
+  w.dwell = [](const std::string& seconds) { return "G4 F" + seconds; };
+  w.tap = &tap_text;
+  w.tap_stops_spindle = true;
+  if (is("cycles", "feature")) w.cycle = [](const HoleCycle& h) { return std::optional(hole_text(h)); };
+  w.more_centre_decimals = kMoreCentreDecimals;
+  w.turns = is("turns", "yes");
+  return w;
+}
+
+}  // namespace capstan::controls::siemens

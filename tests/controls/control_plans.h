@@ -1,0 +1,104 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "planner/controls/controls.h"
+#include "tests/support/empty_plan.h"
+
+// Plans that the golden programs of several controls are written of.
+
+namespace capstan::controls::plans {
+
+using model::CutterPath;
+using model::MoveRole;
+using model::Plan;
+
+inline Plan plan_for(const char* dialect) {
+  Plan plan = capstan::testing::empty_plan();
+  plan.machine.axes[2].travel_min_mm = -400.0;
+  plan.machine = with_control(plan.machine, dialect);
+  return plan;
+}
+
+inline void choose(Plan& plan, const char* name, const char* value) {
+  if (!plan.machine.control_options) plan.machine.control_options.emplace();
+  plan.machine.control_options->chosen.push_back({name, value});
+}
+
+/// A pocket 30 x 20, corners of 5 mm, entered on a helix.
+inline CutterPath pocket() {
+  CutterPath p;
+  p.start({0, 0, 10});
+  p.rapid({0, 0, 2});
+  p.line({0, 0, 0.5}, MoveRole::kApproach);
+  p.arc({6, 0, -1}, {3, 0}, true, MoveRole::kRamp);
+  p.arc({0, 0, -2.5}, {3, 0}, true, MoveRole::kRamp);
+  p.line({0, -5.5, -2.5}, MoveRole::kCut);
+  p.line({10.123, -5.5, -2.5}, MoveRole::kCut);
+  p.arc({15.123, -0.5, -2.5}, {10.123, -0.5}, false, MoveRole::kCut);
+  p.line({15.123, 0, -2.5}, MoveRole::kCut);
+  p.arc({-15.123, 0, -2.5}, {0, 0}, false, MoveRole::kCut);
+  p.rapid({-15.123, 0, 10}, MoveRole::kRetract);
+  return p;
+}
+
+inline Plan pocket_plan(const char* dialect) {
+  Plan plan = plan_for(dialect);
+  capstan::testing::add_step(plan, "rough pocket", "em18", pocket(), 3000.4).contour_tolerance_mm = 0.05;
+  return plan;
+}
+
+inline CutterPath hole(double x, double y, bool feeds_out, bool dwells) {
+  CutterPath p;
+  p.start({x, y, 10});
+  p.rapid({x, y, 2});
+  p.line({x, y, -18.2}, MoveRole::kDrill);
+  if (dwells) p.dwell();
+  if (feeds_out) {
+    p.line({x, y, 10}, MoveRole::kRetract);
+  } else {
+    p.rapid({x, y, 10}, MoveRole::kRetract);
+  }
+  return p;
+}
+
+inline void add_hole(Plan& plan, const char* id, const char* cutter, double x, double y, bool feeds_out,
+                     double dwell_s) {
+  auto& step = capstan::testing::add_step(plan, id, cutter, hole(x, y, feeds_out, dwell_s > 0.0), 1200, 180);
+  model::FeedSchedule s = *step.schedule;
+  if (dwell_s > 0.0) s.dwell_s[3] = dwell_s;
+  step.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+}
+
+inline void add_tap(Plan& plan, const char* id, double x, double y) {
+  CutterPath p;
+  p.start({x, y, 10});
+  p.rapid({x, y, 5});
+  p.line({x, y, -12}, MoveRole::kTap);
+  p.line({x, y, 5}, MoveRole::kTap);
+  p.rapid({x, y, 10}, MoveRole::kRetract);
+  capstan::testing::add_step(plan, id, "tap_m6", std::move(p), 400.2, 400.2);
+}
+
+/// Four holes: two drilled, one of them with a dwell, one reamed out at feed, one tapped.
+inline Plan holes_plan(const char* dialect) {
+  Plan plan = plan_for(dialect);
+  model::Cutter drill = plan.cutters[0], reamer = plan.cutters[0];
+  drill.id = "d8";
+  drill.cutter_class = model::CutterClass::kTwistDrill;
+  drill.cutting_diameter_mm = 8;
+  drill.pocket = 3;
+  reamer.id = "r8";
+  reamer.cutter_class = model::CutterClass::kReamer;
+  reamer.pocket = 4;
+  plan.cutters.push_back(drill);
+  plan.cutters.push_back(reamer);
+  add_hole(plan, "H1 drill", "d8", 20, 20, false, 0.0);
+  add_hole(plan, "H2 drill", "d8", 40, 20, false, 0.35);
+  add_hole(plan, "H3 ream", "r8", 20, 20, true, 0.0);
+  add_tap(plan, "H4 tap", 60, 20);
+  return plan;
+}
+
+}  // namespace capstan::controls::plans

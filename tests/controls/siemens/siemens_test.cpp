@@ -1,0 +1,134 @@
+#include "planner/controls/siemens/siemens.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/controls/controls.h"
+#include "tests/controls/control_plans.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::controls::siemens {
+namespace {
+
+using model::CutterPath;
+using model::MoveRole;
+using model::Plan;
+using plans::choose;
+using plans::holes_plan;
+using plans::plan_for;
+using plans::pocket_plan;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Result<std::string> written(const Plan& plan) {
+  Job job;
+  return write_program(plan, job);
+}
+std::string program_of(const Plan& plan) {
+  const auto text = written(plan);
+  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
+  return text.value_or("");
+}
+std::string golden(const char* name) {
+  return capstan::testing::slurp(capstan::testing::source_dir() + "/tests/controls/siemens/golden/" + name);
+}
+
+/// Down a helix of 5 mm radius in half turns, so many, a millimetre each, and a last piece of a quarter.
+Plan helix_plan(int half_turns, bool and_a_quarter) {
+  Plan plan = plan_for("siemens");
+  CutterPath p;
+  p.start({5, 0, 10});
+  p.rapid({5, 0, 1});
+  double z = 1.0;
+  for (int i = 0; i < half_turns; ++i)
+    p.arc({i % 2 == 0 ? -5.0 : 5.0, 0, z -= 1.0}, {0, 0}, false, MoveRole::kRamp);
+  const double side = half_turns % 2 == 0 ? 1.0 : -1.0;
+  if (and_a_quarter) p.arc({0, 5.0 * side, z - 0.5}, {0, 0}, false, MoveRole::kRamp);
+  p.rapid({and_a_quarter ? 0.0 : 5.0 * side, and_a_quarter ? 5.0 * side : 0.0, 10}, MoveRole::kRetract);
+  capstan::testing::add_step(plan, "bore", "em18", std::move(p), 3000);
+  return plan;
+}
+
+TEST(SiemensGolden, APocketIsWrittenAsReviewed) {
+  EXPECT_EQ(program_of(pocket_plan("siemens")), golden("pocket.mpf"));
+}
+
+TEST(SiemensGolden, HolesAreWrittenAsReviewedWithCyclesAndWithExplicitMoves) {
+  EXPECT_EQ(program_of(holes_plan("siemens")), golden("holes_cycles.mpf"));
+  Plan plan = holes_plan("siemens");
+  choose(plan, "cycles", "explicit");
+  EXPECT_EQ(program_of(plan), golden("holes_explicit.mpf"));
+}
+
+TEST(SiemensProgram, EachOptionOfTheMachineChangesWhatItSays) {
+  const auto with = [](const char* name, const char* value) {
+    Plan plan = holes_plan("siemens");
+    choose(plan, name, value);
+    return program_of(plan);
+  };
+  EXPECT_THAT(with("next_tool", "staged"), HasSubstr("\nT3 M6\nT4\n"));
+  EXPECT_THAT(with("next_tool", "called"), Not(HasSubstr("\nT4\n")));
+  EXPECT_THAT(with("tool_call", "name"), HasSubstr("\nT=\"d8\" M6\n"));
+  EXPECT_THAT(with("smoothing", "g642"), HasSubstr("\nG642 CTOL=0.01\n"));
+  EXPECT_THAT(with("smoothing", "g641"), HasSubstr("\nG641 ADIS=0.01 ADISPOS=0.01\n"));
+  EXPECT_THAT(with("smoothing", "g642"), Not(HasSubstr("CYCLE832")));
+  EXPECT_THAT(with("block_numbers", "all"), HasSubstr("\nN10 G17 G40 G90 G94 G710\nN20 MCALL\n"));
+  EXPECT_THAT(with("prove_out", "none"), Not(HasSubstr("\nM1\n")));
+  EXPECT_THAT(with("prove_out", "skip_m0"), HasSubstr("\nM5\nM9\n/M0\n"));
+}
+
+TEST(SiemensProgram, AHelixOfMoreThanOneTurnIsOneBlockWithItsFurtherTurns) {
+  // Five half turns and a quarter: 2.75 turns, two of them further ones, from Z1 to Z-4.5.
+  EXPECT_THAT(program_of(helix_plan(5, true)), HasSubstr("\nG3 X0 Y-5 Z-4.5 I-5 J0 TURN=2 F"));
+  // Two whole turns: one, and a further one; it ends where it began.
+  EXPECT_THAT(program_of(helix_plan(4, false)), HasSubstr("\nG3 X5 Y0 Z-3 I-5 J0 TURN=1 F"));
+  // One turn is two arcs.
+  EXPECT_THAT(program_of(helix_plan(2, false)), Not(HasSubstr("TURN")));
+  Plan plan = helix_plan(5, true);
+  choose(plan, "turns", "no");
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("TURN")));
+}
+
+TEST(SiemensProgram, WithoutATolerancePathsAreExact) {
+  Plan plan = pocket_plan("siemens");
+  plan.machine.control.path_tolerance_mm = 0.0;
+  EXPECT_THAT(program_of(plan), HasSubstr("\nCYCLE832(0,0,1)\nG60\n"));
+}
+
+TEST(SiemensProgram, WorkOffsetsBeyondG57GoOnWithG505) {
+  Plan plan = pocket_plan("siemens");
+  plan.setups[0].work_offset = "G505";
+  EXPECT_THAT(program_of(plan), HasSubstr("\nG505\n"));
+  plan.setups[0].work_offset = "G58";  // a programmed shift on this control
+  EXPECT_EQ(written(plan).error().code, "OUT-SETUP");
+}
+
+TEST(SiemensProgram, AToolIsCalledByItsIdOnlyWhereThatMayBeAName) {
+  Plan plan = holes_plan("siemens");
+  choose(plan, "tool_call", "name");
+  plan.cutters[0].id = "em 18 long";
+  EXPECT_EQ(written(plan).error().code, "OUT-TOOL");
+  EXPECT_TRUE(is_tool_name("generic/endmill_4f_short/12"));
+  EXPECT_FALSE(is_tool_name("a\"b"));
+  EXPECT_FALSE(is_tool_name(std::string(33, 'a')));
+}
+
+TEST(SiemensProgram, AnOptionThatTheControlDoesNotHaveIsRefused) {
+  Plan plan = pocket_plan("siemens");
+  choose(plan, "dwell", "seconds");
+  EXPECT_EQ(written(plan).error().code, "OUT-OPTION");
+}
+
+// Left-hand threads have a pitch below zero; the return plane is above the reference plane.
+TEST(SiemensProgram, ALeftHandTapHasItsPitchBelowZero) {
+  Plan plan = holes_plan("siemens");
+  auto& tap = plan.steps.back();
+  model::FeedSchedule s = *tap.schedule;
+  for (double& rpm : s.spindle_rpm) rpm = -rpm;
+  tap.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+  EXPECT_THAT(program_of(plan),
+              HasSubstr("\nMCALL CYCLE84(5,4,1,-12,,0,5,,-1,0,400,400)\nG0 X60 Y20\nMCALL\n"));
+}
+
+}  // namespace
+}  // namespace capstan::controls::siemens
