@@ -15,6 +15,10 @@
 /// Plans as they come to a machine, and the tool tables there.
 namespace capstan::late {
 
+inline const std::string kPlate = testing::source_dir() + "/examples/plate_bound.p21";
+inline const std::string kMagazine = testing::source_dir() + "/tests/door/late/magazine.tbl";
+inline const std::string kOneTool = testing::source_dir() + "/tests/door/late/one_tool.tbl";
+
 inline pipeline::Inputs shop(const std::string& tools, const std::string& machine = {}) {
   Job job;
   auto in = pipeline::load_shop({.machine = machine, .tools = tools, .rules = {}, .material = {}}, job);
@@ -37,6 +41,14 @@ inline double machining_s(const model::Plan& plan) {
 
 /// Number of the 8 mm end mill in the plan of the bracket.
 inline constexpr int kEightMill = 9;
+
+/// The plan of the plate, its tools and feeds open.
+inline model::Plan plate() {
+  Job job;
+  auto plan = pipeline::read_plan(testing::slurp(kPlate), kPlate, job);
+  EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  return plan ? *std::move(plan) : model::Plan{};
+}
 
 /// A plan with all its paths, as it comes to a machine, and the tool table that it was made for.
 struct Brought {

@@ -13,8 +13,6 @@ namespace capstan::late {
 namespace {
 
 const std::string kBracket = capstan::testing::source_dir() + "/examples/bracket.p21";
-const std::string kPlate = capstan::testing::source_dir() + "/examples/plate_bound.p21";
-const std::string kMagazine = capstan::testing::source_dir() + "/tests/door/late/magazine.tbl";
 
 const Brought& bracket() {
   static const Brought kBrought = brought(kBracket, pipeline::Format::kJson);
@@ -66,8 +64,7 @@ TEST(LateChanges, OfAPlanThatStandsThereAreNone) {
 TEST(LateChanges, AWornToolIsToldWithItsSizeAndItsPathIsNoDecision) {
   const auto worn = bound(bracket().plan, shop_of(with(bracket().table, kEightMill, "D", -0.05)));
   ASSERT_TRUE(worn) << to_text(worn.error());
-  EXPECT_NE(worn->words.find("T9 endmill 7.95 mm as measured, instead of T9 endmill 8 mm"),
-            std::string::npos)
+  EXPECT_NE(worn->words.find("T9 endmill 7.95 mm as measured, instead of T9 endmill 8 mm"), std::string::npos)
       << worn->words;
   EXPECT_NE(worn->words.find("Time in all: "), std::string::npos) << worn->words;
   for (const Change& c : worn->changes) {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "planner/proof/verify/verify.h"
-#include "tests/proof/verify/plans.h"
+#include "tests/proof/verify/checked.h"
 
 // Feeds that are too high for what the cutter meets, and cuts that meet more than they were planned for.
 //
@@ -18,14 +18,7 @@ namespace {
 
 using testing::MoveRole;
 using testing::PlanMaker;
-
-std::string told(const std::vector<model::Finding>& findings) {
-  std::string out;
-  for (const auto& f : findings)
-    out += std::to_string(f.property) + " " + f.code + " [" + f.step + " " + std::to_string(f.move) + "] " +
-           f.message + "\n";
-  return out;
-}
+using testing::told;
 
 /// Findings of the plan, or of the program that is written from it.
 std::vector<model::Finding> check(const model::Plan& plan, bool as_program) {

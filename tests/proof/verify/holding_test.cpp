@@ -3,26 +3,15 @@
 #include <algorithm>
 
 #include "planner/proof/verify/verify.h"
-#include "tests/proof/verify/plans.h"
+#include "tests/proof/verify/checked.h"
 
 namespace capstan::verify {
 namespace {
 
+using testing::check;
 using testing::PlanMaker;
 using testing::replaced;
-
-std::string told(const std::vector<model::Finding>& findings) {
-  std::string out;
-  for (const auto& f : findings)
-    out += std::to_string(f.property) + " " + f.code + " [" + f.step + " " + std::to_string(f.move) + "] " +
-           f.message + "\n";
-  return out;
-}
-
-std::vector<model::Finding> check(const model::Plan& plan) {
-  Job job;
-  return check_plan(plan, job);
-}
+using testing::told;
 
 std::vector<model::Finding> check(const std::string& text, const model::Plan& plan) {
   Job job;

@@ -5,30 +5,19 @@
 #include <limits>
 
 #include "planner/proof/verify/verify.h"
-#include "tests/proof/verify/plans.h"
+#include "tests/proof/verify/checked.h"
 
 namespace capstan::verify {
 namespace {
 
+using testing::check;
 using testing::PlanMaker;
-
-std::string told(const std::vector<model::Finding>& findings) {
-  std::string out;
-  for (const auto& f : findings)
-    out += std::to_string(f.property) + " " + f.code + " [" + f.step + " " + std::to_string(f.move) + "] " +
-           f.message + "\n";
-  return out;
-}
+using testing::told;
 
 bool has(const std::vector<model::Finding>& findings, int property, const std::string& step = "?") {
   return std::any_of(findings.begin(), findings.end(), [&](const auto& f) {
     return f.property == property && f.severity == Severity::kError && (step == "?" || f.step == step);
   });
-}
-
-std::vector<model::Finding> check(const model::Plan& plan) {
-  Job job;
-  return check_plan(plan, job);
 }
 
 TEST(CheckPlan, APlanThatIsRightHasNoFinding) {

@@ -4,7 +4,7 @@
 
 #include "planner/proof/verify/program/linuxcnc/reader.h"
 #include "planner/proof/verify/verify.h"
-#include "tests/proof/verify/plans.h"
+#include "tests/proof/verify/checked.h"
 #include "tests/support/rs274.h"
 
 // Departures of a program from its plan that once passed the check, each under its own name.
@@ -13,20 +13,13 @@ namespace capstan::verify {
 namespace {
 
 using testing::replaced;
+using testing::told;
 
 std::vector<model::Finding> check(const std::string& text, const model::Plan& plan, bool with_plan = true,
                                   const std::string& table = {}) {
   Job job;
   return check_program({"part.ngc", text, table.empty() ? testing::tool_table_of(plan) : table},
                        with_plan ? &plan : nullptr, plan.machine, plan.cutters, job);
-}
-
-std::string told(const std::vector<model::Finding>& findings) {
-  std::string out;
-  for (const auto& f : findings)
-    out += std::to_string(f.property) + " " + f.code + " [" + f.step + " " + std::to_string(f.move) + "] " +
-           f.message + "\n";
-  return out;
 }
 
 bool refused(const std::vector<model::Finding>& findings) {

@@ -5,22 +5,14 @@
 #include <optional>
 
 #include "planner/proof/verify/verify.h"
-#include "tests/proof/verify/plans.h"
+#include "tests/proof/verify/checked.h"
 
 namespace capstan::verify {
 namespace {
 
 using testing::PlanMaker;
 using testing::replaced;
-
-std::string told(const std::vector<model::Finding>& findings) {
-  std::string out;
-  for (const auto& f : findings) {
-    out += std::to_string(f.property) + " " + f.code + " [" + f.step + " " + std::to_string(f.move) + "] " +
-           f.message + "\n";
-  }
-  return out;
-}
+using testing::told;
 
 long line_of(const std::string& text, const std::string& part) {
   return 1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find(part)), '\n');

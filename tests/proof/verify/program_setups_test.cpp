@@ -3,21 +3,14 @@
 #include <algorithm>
 
 #include "planner/proof/verify/verify.h"
-#include "tests/proof/verify/plans.h"
+#include "tests/proof/verify/checked.h"
 
 namespace capstan::verify {
 namespace {
 
 using testing::PlanMaker;
 using testing::replaced;
-
-std::string told(const std::vector<model::Finding>& findings) {
-  std::string out;
-  for (const auto& f : findings)
-    out += std::to_string(f.property) + " " + f.code + " [" + f.step + " " + std::to_string(f.move) + "] " +
-           f.message + "\n";
-  return out;
-}
+using testing::told;
 
 const model::Finding* find(const std::vector<model::Finding>& findings, const std::string& code) {
   const auto at =
