@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "planner/making/draft/setup_nouns.h"
-#include "planner/making/given/open_values.h"
-#include "planner/making/given/safety_changes.h"
+#include "planner/making/given/steps/open_values.h"
+#include "planner/making/given/steps/safety_changes.h"
 #include "planner/making/piece/piece.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"

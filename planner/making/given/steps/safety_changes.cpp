@@ -1,4 +1,4 @@
-#include "planner/making/given/safety_changes.h"
+#include "planner/making/given/steps/safety_changes.h"
 
 #include <algorithm>
 #include <string>
