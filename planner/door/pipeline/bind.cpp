@@ -140,7 +140,10 @@ Result<std::optional<Drafted>> choose_steps(model::Plan plan, Drafts drafts, con
   auto held = hold_workpieces(now.plan, now.drafts, asked, job);
   if (!held) return tl::unexpected(held.error());
   put_held(now.plan, now.drafts, *std::move(held), asked.inputs.workholding);
-  given::raise_security_planes(now.plan, now.drafts.setups, now.drafts.steps, job);
+  auto raised =
+      given::raise_security_planes(std::move(now.plan), std::move(now.drafts.setups), now.drafts.steps, job);
+  now.plan = std::move(raised.plan);
+  now.drafts.setups = std::move(raised.setups);
   return std::optional<Drafted>(std::move(now));
 }
 
@@ -186,9 +189,9 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   piece::report_outside(plan, job);
   poll();
   const std::size_t most = policy.window ? policy.window->first + policy.window->count : given::kAllSteps;
-  auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job, most);
+  auto listed = given::list_steps(std::move(plan), policy.reopen, not_made, grown_mm(inputs), job, most);
   if (!listed) return tl::unexpected(listed.error());
-  Drafted now{std::move(plan), {std::move(listed->setups), std::move(listed->steps), {}}};
+  Drafted now{std::move(listed->plan), {std::move(listed->setups), std::move(listed->steps), {}}};
   for (model::Provenance& row : piece::kept_corner_rests(corners, now.drafts.steps))
     now.plan.provenance.push_back(std::move(row));
   poll();

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "planner/making/draft/setup_nouns.h"
-#include "planner/making/given/open_values.h"
-#include "planner/making/given/safety_changes.h"
+#include "planner/making/given/steps/open_values.h"
+#include "planner/making/given/steps/safety_changes.h"
 #include "planner/making/piece/piece.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
@@ -23,10 +23,16 @@ using model::AnyRef;
 using model::Ref;
 using model::TypeId;
 
+/// Set-ups and steps, as the walk finds them.
+struct Found {
+  std::vector<SetupDraft> setups;
+  std::vector<StepDraft> steps;
+};
+
 /// Walks program structure in order of execution, without recursion.
 class Walker {
  public:
-  Walker(const model::Plan& plan, const std::map<AnyRef, std::string>& unreadable, Listed& out, Job& job)
+  Walker(const model::Plan& plan, const std::map<AnyRef, std::string>& unreadable, Found& out, Job& job)
       : plan_(plan), unreadable_(unreadable), out_(out), job_(job) {}
 
   /// From the project's workplan on.
@@ -169,7 +175,7 @@ class Walker {
   const model::Plan& plan_;
   const std::map<AnyRef, std::string>& unreadable_;
   std::vector<model::Unplanned> not_done_;
-  Listed& out_;
+  Found& out_;
   Job& job_;
   std::vector<Item> pending_;
   std::set<AnyRef> entered_;
@@ -263,9 +269,9 @@ void say_assumptions(const model::Plan& plan, const std::vector<StepDraft>& step
 
 }  // namespace
 
-Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRef, std::string>& unreadable,
+Result<Listed> list_steps(model::Plan plan, Reopen reopen, const std::map<AnyRef, std::string>& unreadable,
                           double grown_mm, Job& job, std::size_t most) {
-  Listed out;
+  Found out;
   Walker walker(plan, unreadable, out, job);
   walker.walk();
   if (out.steps.size() > most) out.steps.resize(most);
@@ -313,11 +319,11 @@ Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRe
   }
   out.steps = std::move(kept);
   say_assumptions(plan, out.steps, job);
-  return out;
+  return Listed{std::move(plan), std::move(out.setups), std::move(out.steps)};
 }
 
 std::vector<AnyRef> steps_in_order(const model::Plan& plan) {
-  Listed listed;
+  Found listed;
   Job silent;
   Walker(plan, {}, listed, silent).walk();
   std::vector<AnyRef> out;

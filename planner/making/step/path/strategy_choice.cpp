@@ -17,7 +17,7 @@
 // with more of the cutter than on the straight, inwards they go round the corner of what is left with less;
 // and the longest ring, the slot along the wall, is cut by the ramp on its way down. But that slot is longer
 // than one in the middle. None wins everywhere, so all are made and the quickest is kept
-// (door/pipeline/make_paths.cpp).
+// (door/pipeline/paths/make_paths.cpp).
 
 namespace capstan::step {
 namespace {

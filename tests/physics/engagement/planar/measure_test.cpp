@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "planner/physics/stock/height_map/height_map.h"
+#include "planner/physics/stock/height_map.h"
 #include "tests/physics/engagement/planar/skewed.h"
 
 // What holds of every measurement: sums, refusals, the height map's agreement, other grids.

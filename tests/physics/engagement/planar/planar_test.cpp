@@ -13,19 +13,6 @@
 namespace capstan::engagement {
 namespace {
 
-/// Largest relative error of the CSA of the samples of a move between two places.
-double worst_csa(const Measurement& m, std::uint32_t move, double lo, double hi, double expected) {
-  double worst = 0.0;
-  int n = 0;
-  for (std::size_t i = 0; i < m.sections.size(); ++i) {
-    if (m.sections.move[i] != move || m.sections.at_mm[i] < lo || m.sections.at_mm[i] > hi) continue;
-    worst = std::max(worst, std::abs(m.sections.csa_mm2[i] / expected - 1.0));
-    ++n;
-  }
-  EXPECT_GT(n, 0);
-  return worst;
-}
-
 TEST(PlanarSlot, EverythingIsThatOfAFullCut) {
   auto stock = PlanarStock::from_box(kBlock);
   const auto m = measure(line(0.0, -3.0, 40.0), cutter(CutterClass::kEndmill, 10.0), stock);

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
@@ -65,6 +69,19 @@ inline CutterPath pocket(double stepover, double depth, int levels) {
     p.rapid(skewed(0.0, 0.0, 5.0));
   }
   return p;
+}
+
+/// Largest relative error of the CSA of the samples of a move between two places.
+inline double worst_csa(const Measurement& m, std::uint32_t move, double lo, double hi, double expected) {
+  double worst = 0.0;
+  int n = 0;
+  for (std::size_t i = 0; i < m.sections.size(); ++i) {
+    if (m.sections.move[i] != move || m.sections.at_mm[i] < lo || m.sections.at_mm[i] > hi) continue;
+    worst = std::max(worst, std::abs(m.sections.csa_mm2[i] / expected - 1.0));
+    ++n;
+  }
+  EXPECT_GT(n, 0);
+  return worst;
 }
 
 }  // namespace capstan::engagement

@@ -1,4 +1,4 @@
-#include "planner/door/pipeline/try_cutter.h"
+#include "planner/door/pipeline/paths/try_cutter.h"
 
 #include <cmath>
 #include <utility>

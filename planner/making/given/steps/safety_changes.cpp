@@ -1,4 +1,4 @@
-#include "planner/making/given/safety_changes.h"
+#include "planner/making/given/steps/safety_changes.h"
 
 #include <algorithm>
 #include <string>
@@ -135,9 +135,10 @@ void change_for_safety(model::Plan& plan, const StepDraft& step, Job& job) {
   overrule_coolant(plan, step, job);
 }
 
-void raise_security_planes(model::Plan& plan, std::vector<SetupDraft>& setups,
-                           const std::vector<StepDraft>& steps, Job& job) {
+Raised raise_security_planes(model::Plan plan, std::vector<SetupDraft> setups,
+                             const std::vector<StepDraft>& steps, Job& job) {
   for (std::size_t i = 0; i < setups.size(); ++i) raise_security_plane(plan, setups[i], i, steps, job);
+  return {std::move(plan), std::move(setups)};
 }
 
 }  // namespace capstan::given

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "planner/door/pipeline/paths/try_cutter.h"
 #include "planner/door/pipeline/stages.h"
-#include "planner/door/pipeline/try_cutter.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/operation.h"

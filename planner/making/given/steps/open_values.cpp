@@ -1,4 +1,4 @@
-#include "planner/making/given/open_values.h"
+#include "planner/making/given/steps/open_values.h"
 
 #include "planner/making/step/path/job_of.h"
 #include "planner/model/nouns/all.h"
