@@ -14,6 +14,7 @@
 
 #include "planner/door/service/session.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/model/plan/plan.h"
 #include "tests/support/corpus.h"
