@@ -456,8 +456,8 @@ TEST_F(Shapes, EdgesWithoutLengthAreMendedOrNamed) {
   auto corners = StepPart::box_corners({0, 0, 0}, {1, 1, 1});
   corners.push_back(corners[0]);  // twice at one place
   auto faces = StepPart::box_faces();
-  faces[0] = {0, 2, 3, 1, 8};
-  faces[2] = {0, 8, 1, 5, 4};
+  faces[0] = {2, 3, 1, 8, 0};
+  faces[2] = {1, 5, 4, 0, 8};
   part.product({part.solid(part.flat_faces(corners, faces))}, part.context());
   const auto read_back = read(part.text());
   if (!read_back) return;  // refused: said by one fault
