@@ -386,13 +386,78 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"plane_moved", "PLANE('',#", "PLANE('',#1"}),
     [](const auto& row) { return row.param.name; });
 
+TEST_F(Shapes, ACavityIsTakenFromTheVolume) {
+  StepPart part;
+  const int outer = part.add(
+      "CLOSED_SHELL(''," +
+      StepPart::list(part.flat_faces(StepPart::box_corners({0, 0, 0}, {9, 9, 9}), StepPart::box_faces())) +
+      ")");
+  const int inner = part.add(
+      "CLOSED_SHELL(''," +
+      StepPart::list(part.flat_faces(StepPart::box_corners({3, 3, 3}, {5, 5, 5}), StepPart::box_faces())) +
+      ")");
+  const int turned = part.add("ORIENTED_CLOSED_SHELL('',*," + StepPart::ref(inner) + ",.F.)");
+  const int solid =
+      part.add("BREP_WITH_VOIDS('hollow'," + StepPart::ref(outer) + "," + StepPart::list({turned}) + ")");
+  part.product({solid}, part.context());
+  const Brep b = brep(part);
+  ASSERT_EQ(b.bodies.size(), 1U);
+  EXPECT_EQ(b.bodies[0].name, "hollow");
+  EXPECT_NEAR(b.bodies[0].volume, 9 * 9 * 9 - 8, 1e-6);
+  EXPECT_NEAR(closed_volume(b, b.bodies[0]), 9 * 9 * 9 - 8, 1e-6);
+  // The walls of the cavity meet in edges with three quarters of a turn of material.
+  EXPECT_EQ(count(b, Convexity::kConvex), 12U);
+  EXPECT_EQ(count(b, Convexity::kConcave), 12U);
+  expect_consistent(b);
+}
+
+// Two triangles whose tips meet where its edges cross: one half is inside out. OpenCASCADE parts it there,
+// and finds nothing wrong. The crossing is off the middle, so that the halves do not cancel.
+TEST_F(Shapes, AnOutlineThatCrossesItselfIsRefused) {
+  for (const double far : {10.0, 14.0}) {
+    StepPart part;
+    std::vector<Vec3> corners;
+    for (const double z : {0.0, 3.0}) {
+      for (const geometry::Vec2 p : {geometry::Vec2{0, 0}, {10, far}, {10, 0}, {0, 10}})
+        corners.push_back({p.x, p.y, z});
+    }
+    std::vector<std::vector<int>> faces{{3, 2, 1, 0}, {4, 5, 6, 7}};
+    for (int i = 0; i < 4; ++i) faces.push_back({i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4});
+    part.product({part.solid(part.flat_faces(corners, faces))}, part.context());
+    EXPECT_THAT(refusal(part.text()), HasSubstr("the surface of the solid crosses or touches itself")) << far;
+  }
+}
+
+// All control points at one place: a surface without a normal anywhere.
+TEST_F(Shapes, ASplineSurfaceOfOnePointIsRefusedOrTold) {
+  StepPart part;
+  auto faces = part.flat_faces(StepPart::box_corners(kLo, kHi), StepPart::box_faces());
+  const std::string p = StepPart::ref(part.point(kHi));
+  const int surface = part.add("B_SPLINE_SURFACE_WITH_KNOTS('',1,1,((" + p + "," + p + "),(" + p + "," + p +
+                               ")),.UNSPECIFIED.,.F.,.F.,.F.,(2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)");
+  std::string text;
+  part.product({part.solid(faces)}, part.context());
+  text = part.text();
+  const auto at = text.find("ADVANCED_FACE('5',");
+  ASSERT_NE(at, std::string::npos);
+  const auto comma = text.find(",#", text.find(")", at));
+  text.replace(comma, text.find(",", comma + 1) - comma, "," + StepPart::ref(surface));
+  const auto read_back = read(text);
+  EXPECT_EQ(testing::children(), 0U);
+  if (!read_back) {
+    EXPECT_FALSE(read_back.error().message.empty());
+    return;
+  }
+  EXPECT_GT(job_.diagnostics().size(), 0U);
+}
+
 TEST_F(Shapes, EdgesWithoutLengthAreMendedOrNamed) {
   StepPart part;
   auto corners = StepPart::box_corners({0, 0, 0}, {1, 1, 1});
   corners.push_back(corners[0]);  // twice at one place
   auto faces = StepPart::box_faces();
-  faces[0] = {0, 2, 3, 1, 8};
-  faces[2] = {0, 8, 1, 5, 4};
+  faces[0] = {2, 3, 1, 8, 0};
+  faces[2] = {1, 5, 4, 0, 8};
   part.product({part.solid(part.flat_faces(corners, faces))}, part.context());
   const auto read_back = read(part.text());
   if (!read_back) return;  // refused: said by one fault

@@ -10,6 +10,9 @@
 namespace capstan::exchange {
 namespace {
 
+/// A solid whose volume is less than this times its area has no inside. A default without a source.
+constexpr double kLeastThicknessMm = 1e-6;
+
 bool finite(const geometry::Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -111,6 +114,10 @@ void judge_volumes(BrepMessage& message) {
     std::sort(sides.begin(), sides.end());
     std::sort(turned.begin(), turned.end());
     if (sides != turned) return refuse(body, "BREP-MESH", "the tessellation of the solid is not closed");
+    if (std::adjacent_find(sides.begin(), sides.end()) != sides.end())
+      return refuse(body, "BREP-MESH", "the surface of the solid crosses or touches itself along an edge");
+    if (!(body.volume > kLeastThicknessMm * body.area))
+      return refuse(body, "BREP-VOLUME", "the solid holds no volume");
     // No point of the tessellation is further from its face than the chord, twice for faces that bend both
     // ways.
     const double volume = six_volumes / 6.0;

@@ -23,6 +23,7 @@
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepShape_ConnectedFaceSet.hxx>
 #include <StepShape_FaceSurface.hxx>
@@ -55,6 +56,8 @@ namespace capstan::exchange {
 namespace {
 
 constexpr const char* kExport = "export the part again from the CAD system";
+constexpr const char* kMemory = "the shape needs more memory than it may take";
+constexpr const char* kSimplify = "simplify the part";
 constexpr const char* kCompare = "compare its volume and box with the CAD system, or export it again";
 /// Above these the distance between an edge and its faces is told, or too large to plan on. Defaults without
 /// a source: a tenth of a fine tolerance, and a coarse one.
@@ -465,13 +468,17 @@ BrepMessage read_shape(const std::string& step, double chord_mm) {
   };
   try {
     read(step, chord_mm, out);
+  } catch (const Standard_OutOfMemory&) {
+    fail_with("BREP-MEMORY", kMemory, kSimplify);
   } catch (const std::bad_alloc&) {
-    fail_with("BREP-MEMORY", "the shape needs more memory than it may take", "simplify the part");
+    fail_with("BREP-MEMORY", kMemory, kSimplify);
   } catch (const Standard_Failure& e) {
     fail_with(
         "BREP-OCCT",
         std::string("OpenCASCADE gave the shape up: ") + e.DynamicType()->Name() + " " + e.GetMessageString(),
         kExport);
+  } catch (const std::exception& e) {
+    fail_with("BREP-OCCT", std::string("reading the shape failed: ") + e.what(), kExport);
   }
   return out;
 }

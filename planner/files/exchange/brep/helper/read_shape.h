@@ -14,9 +14,9 @@ namespace capstan::exchange {
 ///         BREP-EMPTY (no shape in it), BREP-LOST (faces of which no body can be made), BREP-WIRE (shapes
 ///         without faces), BREP-TESSELLATED (faces without a surface), BREP-OPEN (a solid that is not
 ///         closed), BREP-GAPS (edges far beside their faces), BREP-MESH (a solid whose tessellation is not
-///         closed), BREP-VOLUME (faces and tessellation of a solid hold different volumes), BREP-NUMBER (a
-///         figure that is not finite), BREP-MEMORY, BREP-OCCT (what OpenCASCADE threw). It may crash or never
-///         return: only a process of its own may call it.
+///         closed), BREP-VOLUME (a solid without volume, or with another than its tessellation), BREP-NUMBER
+///         (a figure that is not finite), BREP-MEMORY, BREP-OCCT (what OpenCASCADE threw). It may crash or
+///         never return: only a process of its own may call it.
 /// Warns   BREP-INVALID (inconsistent, and not mended), BREP-MENDED, BREP-GAPS, BREP-LOST (some faces),
 ///         BREP-SHEET, BREP-LOOP, BREP-CROWDED, BREP-SHORT, BREP-MESH (single faces). Notes BREP-PLACED.
 [[nodiscard]] BrepMessage read_shape(const std::string& step, double chord_mm);
