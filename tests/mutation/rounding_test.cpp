@@ -58,7 +58,8 @@ TEST(Rounding, AnArcShorterThanTheLastDecimalIsNoWholeTurn) {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Whether the program of a ramp of so many degrees has CHK-RAMP; the tool may ramp at 3. Its last piece is
-/// 0.6 mm long: from Z-1.00045, written -1, to -1.0319, written -1.032, is 3.05 degrees in the text.
+/// 1.204 mm long: from Z-1.00045, written -1, to -1.06355, written -1.064, is 3.04 degrees in the text.
+constexpr double kPiece = 1.204;
 bool ramp_is_blamed(double degrees) {
   auto k = plans::empty_plan();
   model::Cutter& c = k.plan.cutters[0];
@@ -68,8 +69,8 @@ bool ramp_is_blamed(double degrees) {
   p.start({36, 50, 10});
   p.rapid({36, 50, 0.2});
   p.line({36 + along, 50, z}, MoveRole::kRamp);
-  p.line({36.6 + along, 50, z - 0.6 * std::tan(degrees * kDegree)}, MoveRole::kRamp);
-  p.rapid({36.6 + along, 50, 10}, MoveRole::kRetract);
+  p.line({36 + along + kPiece, 50, z - kPiece * std::tan(degrees * kDegree)}, MoveRole::kRamp);
+  p.rapid({36 + along + kPiece, 50, 10}, MoveRole::kRetract);
   auto& s =
       k.step<model::BottomAndSideRoughMilling>("pocket", k.pocket("P", 50, 50, 40, 20), "em10", p, 600, 3000);
   const auto op = k.plan.model.get<model::MachiningWorkingstep>(s.step)->its_operation;
