@@ -55,6 +55,41 @@ TEST(Rounding, AnArcShorterThanTheLastDecimalIsNoWholeTurn) {
   }
 }
 
+/// An arc of 2 mm radius: its start is rounded by half a unit and its centre to three decimals, so that its
+/// text turns by 0.001 rad less.
+model::Plan with_a_small_arc(const char* control) {
+  auto k = plans::good_plan();
+  const std::size_t before = k.plan.steps[0].path->size();
+  plans::edit_path(k.plan, 0, [](auto& p) {
+    const auto at = p.point(p.size() - 1);
+    constexpr double kRadius = 2.00560582854, kTurn = 2.49785;
+    const geometry::Vec2 c{at.x + 0.99991, at.y - 0.00011525};
+    p.line({c.x + kRadius, c.y, at.z}, MoveRole::kLink);
+    p.arc({c.x + kRadius * std::cos(kTurn), c.y + kRadius * std::sin(kTurn), at.z}, c, false,
+          MoveRole::kLink);
+    p.rapid(at, MoveRole::kRetract);
+  });
+  plans::edit_schedule(k.plan, 0, [&](auto& s) {
+    for (std::size_t i = before; i < before + 3; ++i) {
+      s.feed_mm_min.push_back(600);
+      s.spindle_rpm.push_back(3000);
+      s.dwell_s.push_back(0.0);
+    }
+  });
+  k.plan.machine = controls::with_control(k.plan.machine, control);
+  return k.plan;
+}
+
+TEST(Rounding, ASmallArcWhoseCentreIsRoundedEndsWhereItIsMeant) {
+  for (const char* control : {"fanuc", "haas", "siemens"}) {
+    const model::Plan plan = with_a_small_arc(control);
+    const auto findings =
+        verify::check_program_text({"part", program_of(plan), ""}, &plan, plan.machine, plan.cutters);
+    for (const auto& f : findings)
+      EXPECT_EQ(f.severity, Severity::kNote) << control << ": " << f.code << " " << f.message;
+  }
+}
+
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Whether the program of a ramp of so many degrees has CHK-RAMP; the tool may ramp at 3. Its last piece is
