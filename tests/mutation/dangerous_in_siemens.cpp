@@ -125,10 +125,9 @@ std::vector<Class> dangerous_in_siemens() {
        [](const Emitted& e, Random& r) {
          return parameter_changed(e, r, is_tapping, 10, [&](double v) { return v * r.between(1.1, 4.0); });
        }},
-      {"tap drawn away by a turning spindle", Kind::kDangerous, false,
+      {"tap drawn away by a spindle that turns back", Kind::kDangerous, false,
        [](const Emitted& e, Random& r) {
-         return parameter_changed(e, r, is_tapping, 6,
-                                  [&](double) { return 3.0 + static_cast<double>(r.below(2)); });
+         return parameter_changed(e, r, is_tapping, 6, [](double) { return 4.0; });
        }},
       {"tap without a pitch", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {

@@ -32,9 +32,10 @@ namespace capstan::controls::siemens {
 ///
 /// Not written yet: POCKET3, POCKET4, SLOT1, HOLES1, HOLES2, CYCLE61, 71, 72, CYCLE800.
 ///
-/// Source   SINUMERIK 840D sl programming manuals: Fundamentals 6FC5398-1BP40, Job planning 6FC5398-2BP40,
-///          Cycles 6FC5398-3BP20, "Programming cycles externally" of 03/2009; NC programming 6FC5398-2EP40
-///          (TURN=, CYCLE832, CTOL). What of them was at hand: tests/controls/siemens/golden/README.md.
+/// Source   SINUMERIK NC programming 12/2019, 6FC5398-2EP40 (helices, CYCLE832, CTOL); fundamentals 10.2004,
+///          6FC5298-7AB00 (G641); 802D sl 06/2006, 6FC5398-3CP10 (G710); function manual W1 11/2006 (tools);
+///          ISO Milling 04.07 (SUPA); help texts of the cycles. Pages of these were at hand, not all of
+///          them: tests/controls/siemens/golden/README.md says what is from where, and what is remembered.
 extern const Dialect kDialect;
 
 /// The words of the machine's control.

@@ -350,7 +350,8 @@ bool Following::rapid(std::size_t i, Vec3 begin, Vec3 goal) {
 bool Following::arc(std::size_t i, Vec3 goal) {
   const Move whole = planned(i);
   const double radius = norm(xy(whole.to) - whole.centre);
-  const double slack = arc_off_ / std::max(radius, unit_) + 1e-9;
+  // Centre and end are rounded: each end may lie as far along the arc as the arc may stand off.
+  const double slack = 2.0 * arc_off_ / std::max(radius, unit_) + 1e-9;
   const double sweep = sweep_of(whole);
   double done = 0.0;
   for (;;) {
@@ -360,7 +361,7 @@ bool Following::arc(std::size_t i, Vec3 goal) {
     // Within a helix of one block the path's arcs end where no number of the text is rounded.
     const bool there = same(b->to, goal) || (b->from_turns && norm(b->to - path_.point(i)) <= arc_off_);
     if (std::abs(done - sweep) <= slack && there) return true;
-    if (done > sweep - slack)
+    if (done > sweep + slack)
       return say(b->line, "the text goes to " + text_of(b->to) + "; the plan's arc ends at " + text_of(goal),
                  static_cast<long>(i));
   }
