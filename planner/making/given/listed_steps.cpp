@@ -7,6 +7,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/draft/setup_nouns.h"
+#include "planner/making/given/placed_setups.h"
 #include "planner/making/piece/piece.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/model/features/resolve.h"
@@ -175,80 +176,6 @@ class Walker {
   std::vector<Item> pending_;
   std::set<AnyRef> entered_;
 };
-
-Status resolve_setup(const model::Plan& plan, SetupDraft& s, Job& job) {
-  const model::Model& m = plan.model;
-  const auto* setup = m.get<model::Setup>(s.setup);
-  bool placed = false;
-  if (setup != nullptr) {
-    for (std::size_t i = 0; i < setup->its_workpiece_setup.size(); ++i) {
-      const auto* ws = m.get<model::WorkpieceSetup>(setup->its_workpiece_setup[i]);
-      if (ws == nullptr) continue;
-      const auto frame = model::placement_or_identity(m, ws->its_origin);
-      if (!frame) return tl::unexpected(frame.error());
-      s.workpiece = *frame;
-      placed = true;
-      break;
-    }
-  }
-  s.stock = transformed(plan.stock.box, s.workpiece);
-  const double lowest = s.stock.hi.z + draft::kSecurityAboveMm;
-  s.security_z_mm = lowest;
-  if (!placed) {
-    job.warn("PIP-SETUP", "no set-up places the workpiece; its own coordinates are taken as the set-up's");
-  }
-  if (setup == nullptr) return {};
-  if (const auto* plane = m.get<model::ElementarySurface>(setup->its_secplane)) {
-    const auto frame = model::placement(m, plane->position);
-    if (!frame) return tl::unexpected(frame.error());
-    s.security_z_mm = frame->origin.z;
-  }
-  return {};
-}
-
-/// The security plane must lie above the raw piece and every feature; a given one that does not is raised.
-void raise_security_plane(model::Plan& plan, SetupDraft& s, std::size_t index,
-                          const std::vector<StepDraft>& steps, Job& job) {
-  double top = s.stock.hi.z;
-  for (const StepDraft& step : steps) {
-    if (step.setup != index) continue;
-    for (const auto& shape : step.shapes) {
-      const auto frame = compose(s.workpiece, shape.frame);
-      top = std::max(top, frame.origin.z);
-    }
-  }
-  double least = 2.0;
-  for (const auto& solid : s.holding.solids) {
-    top = std::max(top, solid.top_mm);
-    least = std::max(least, s.holding.clearance_mm);
-  }
-  // Rapids cross at this height: it must clear the material, with the margin that the checker asks too.
-  if (s.security_z_mm >= top + least) return;
-  const double raised = top + std::max(draft::kSecurityAboveMm, least);
-  job.warn("PIP-SECPLANE", "the security plane at z = " + trimmed(s.security_z_mm, 3) +
-                               " mm does not clear the material and the features up to z = " +
-                               trimmed(top, 3) + " mm; raised to " + trimmed(raised, 3) + " mm");
-  plan.ledger.bind(s.setup, "its_secplane", model::Binder::kRule,
-                   {"setup.secplane.raised", "raised so that rapid moves clear raw piece and features",
-                    "safety: a rapid clears the material"});
-  s.security_z_mm = raised;
-  model::Model& m = plan.model;
-  model::CartesianPoint at;
-  at.name = "";
-  at.coordinates = {{0.0, 0.0, raised}, true};
-  model::Axis2Placement3d frame;
-  frame.name = "";
-  frame.location = m.add(at);
-  model::Plane plane;
-  plane.name = "SECURITY PLANE";
-  plane.position = m.add(frame);
-  const auto made = m.add(plane);
-  if (auto* setup = m.get<model::Setup>(s.setup)) setup->its_secplane = made;
-  for (const StepDraft& step : steps) {
-    auto* ws = m.get<model::Workingstep>(step.step);
-    if (step.setup == index && ws != nullptr) ws->its_secplane = made;
-  }
-}
 
 /// Removes open depths and widths, which were chosen for another cut; they are chosen again.
 void drop_open_depths(model::Plan& plan, const StepDraft& step) {
@@ -467,7 +394,7 @@ Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRe
     out.steps.clear();
   }
   for (SetupDraft& s : out.setups) {
-    if (auto ok = resolve_setup(plan, s, job); !ok) return tl::unexpected(ok.error());
+    if (auto ok = place_setup(plan, s, job); !ok) return tl::unexpected(ok.error());
   }
   const piece::Shapes none;  // shapes are known when the requirements are
   const piece::Piece piece{plan, none, grown_mm};
@@ -484,6 +411,7 @@ Result<Listed> list_steps(model::Plan& plan, Reopen reopen, const std::map<AnyRe
       }
       // An operation with its own path needs no shape; others say later why they cannot be done.
     }
+    if (step.unreadable.empty()) step.unreadable = leans_in_setup(plan, out.setups[step.setup], step);
     if (plan.model.holds<model::MachiningWorkingstep>(step.step) &&
         !plan.model.holds<model::MachiningOperation>(step.operation)) {
       continue;  // open: rules propose for its feature
@@ -506,11 +434,6 @@ std::vector<AnyRef> steps_in_order(const model::Plan& plan) {
   std::vector<AnyRef> out;
   for (const StepDraft& s : listed.steps) out.push_back(s.step);
   return out;
-}
-
-void raise_security_planes(model::Plan& plan, std::vector<SetupDraft>& setups,
-                           const std::vector<StepDraft>& steps, Job& job) {
-  for (std::size_t i = 0; i < setups.size(); ++i) raise_security_plane(plan, setups[i], i, steps, job);
 }
 
 }  // namespace capstan::given

@@ -117,7 +117,7 @@ const Target::Walls& Target::walls(double z) {
     }
     if (!r.empty()) parts.push_back({c.box, std::move(r.loops)});
   }
-  Region part = geometry::rectangle(xy(part_box_.lo), xy(part_box_.hi));
+  Region part = outline(part_.part);
   if (round_)
     part = geometry::intersect(part, geometry::disc(0.5 * (xy(stock_.lo) + xy(stock_.hi)), *round_));
   const auto add = [&](const Region& region, bool taken) {
@@ -131,7 +131,7 @@ const Target::Walls& Target::walls(double z) {
   std::vector<geometry::Loop> across;
   for (Part& p : apart(std::move(parts))) {
     tick();
-    const bool within = !round_ && p.box.lo.x > part_box_.lo.x + kApartMm &&
+    const bool within = !round_ && !turned_ && p.box.lo.x > part_box_.lo.x + kApartMm &&
                         p.box.lo.y > part_box_.lo.y + kApartMm && p.box.hi.x < part_box_.hi.x - kApartMm &&
                         p.box.hi.y < part_box_.hi.y - kApartMm;
     if (within)
