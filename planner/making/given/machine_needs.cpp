@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/physics/mechanics/constants.h"
 
 namespace capstan::given {
@@ -127,7 +128,7 @@ void tell_loading(model::Plan& plan, const std::vector<model::Cutter>& library, 
     list += (list.empty() ? "" : "; ") + ("T" + std::to_string(c.pocket)) + " " + c.id;
   }
   if (known && missing > 0) job.note("PIP-TO-LOAD", "to load: " + list);
-  if (plan.machine.magazine_pockets == 1 && plan.cutters.size() > 1)
+  if (model::changed_by_hand(plan.machine) && plan.cutters.size() > 1)
     job.note("PIP-BY-HAND", "machine '" + plan.machine.id + "' has no tool changer: the " +
                                 std::to_string(plan.cutters.size()) + " tools are changed by hand");
 }
