@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
+#include "planner/controls/controls.h"
 #include "planner/controls/profile/profile.h"
 #include "planner/controls/specification.h"
 #include "planner/controls/suitability.h"
-#include "planner/controls/controls.h"
 #include "planner/door/late/unbound.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/ending/last_line.h"
@@ -150,7 +150,8 @@ class Check {
       return;
     }
     const model::CutBefore before{*plan, part->before};
-    p.findings = verify::check_program(text, &part->plan, shop_.machine, shop_.cutters, job, nullptr, &before);
+    p.findings =
+        verify::check_program(text, &part->plan, shop_.machine, shop_.cutters, job, nullptr, &before);
     if (part->before > 0) p.findings.push_back(late::taken_as_cut(*part));
   }
 

@@ -206,12 +206,13 @@ void tell_leaning_setups(const model::Plan& plan, const std::vector<SetupDraft>&
     const auto* d = plan.ledger.find(s.setup, "its_origin");
     return d != nullptr && d->binder == model::Binder::kRule;
   };
-  const auto steps_in = [&](std::size_t i) {
-    return std::count_if(steps.begin(), steps.end(), [i](const StepDraft& s) { return s.setup == i; });
+  const auto steps_in = [&](std::size_t i, bool cut) {
+    return std::count_if(steps.begin(), steps.end(),
+                         [&](const StepDraft& s) { return s.setup == i && (!cut || s.unreadable.empty()); });
   };
   std::string instead;
   for (std::size_t i = 0; i < setups.size(); ++i) {
-    if (made_here(setups[i]) && steps_in(i) > 0)
+    if (made_here(setups[i]) && steps_in(i, true) > 0)
       instead += (instead.empty() ? "" : ", ") + name_of(plan, setups[i].setup);
   }
   if (instead.empty()) return;
@@ -220,14 +221,15 @@ void tell_leaning_setups(const model::Plan& plan, const std::vector<SetupDraft>&
     const std::string by =
         model::leaning_attributes(plan.model, setups[i].setup, model::workpiece_of(plan.model, plan.project));
     if (by.empty() || model::lean_rad(setups[i].workpiece) <= model::kUprightRad) continue;
-    const auto n = steps_in(i);
+    const auto n = steps_in(i, true);
     Diagnostic d =
         about(plan, setups[i].setup, "PIP-SETUP-LEANS", Severity::kWarning,
               name_of(plan, setups[i].setup) + ": " + by + " has the workpiece " +
                   model::turn_text({}, setups[i].workpiece) + ", " +
                   degrees(model::lean_rad(setups[i].workpiece)) + " off the tool axis; " +
-                  (n == 0 ? "no feature can be cut so by a tool along Z, and it is not used"
-                          : "only " + std::to_string(n) + " steps can be cut so by a tool along Z") +
+                  (n == 0 ? std::string("no feature can be cut so by a tool along Z") +
+                                (steps_in(i, false) == 0 ? ", and it is not used" : "")
+                          : "only " + std::to_string(n) + " of its steps can be cut so by a tool along Z") +
                   "; the piece is clamped anew for " + instead);
     d.hint = "clamp it as the program's set-up lines say; if the placement is not meant, correct " + by;
     job.report(std::move(d));

@@ -1,7 +1,7 @@
 #include "planner/model/plan/decision/fresh_edits.h"
 
-// A decision that was read has the hash of its value (Decision::value_hash), and writing computes it anew: 0 is
-// left by `take_edits` only.
+// A decision that was read has the hash of its value (Decision::value_hash), and writing computes it anew: 0
+// is left by `take_edits` only.
 
 namespace capstan::model {
 

@@ -11,8 +11,8 @@
 
 namespace capstan::model {
 
-/// The workpiece's frame in that of the set-up's program (features/setup_place.h); the program's own where the
-/// set-up's nouns place no workpiece.
+/// The workpiece's frame in that of the set-up's program (features/setup_place.h); the program's own where
+/// the set-up's nouns place no workpiece.
 [[nodiscard]] geometry::Placement placed_in(const Plan& plan, std::size_t setup);
 
 /// "+Z" of the workpiece for a direction of the set-up; "(0.6, 0, 0.8)" when it lies between its axes.
