@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
 #include "planner/model/plan/requirement.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/drilling.h"
 #include "planner/physics/mechanics/force/immersion.h"
@@ -212,8 +213,7 @@ std::optional<std::string> not_in_magazine(const Cutter& c, const Machine& m, co
   const auto used = [&](const std::string& id) {
     return std::find(p.used.begin(), p.used.end(), id) != p.used.end();
   };
-  // One pocket is the spindle itself, and tools are changed by hand.
-  if (pockets > 1 && p.used.size() >= pockets && !used(c.id)) {
+  if (!model::changed_by_hand(m) && p.used.size() >= pockets && !used(c.id)) {
     return "the plan uses " + std::to_string(p.used.size()) + " tools, and the magazine has " +
            std::to_string(pockets) + " pockets";
   }

@@ -8,6 +8,7 @@
 
 #include "planner/door/late/kept.h"
 #include "planner/door/late/record.h"
+#include "planner/door/late/unbound.h"
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/said_before.h"
@@ -18,6 +19,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/by_planning.h"
+#include "planner/model/plan/decision/fresh_edits.h"
 
 // A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
 // takes; then an improvement on the rest of the time. Each answer passes the same four questions: is anything
@@ -329,8 +331,10 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
     auto meant = window_of(plan, *policy.next, steps);
     if (!meant) return tl::unexpected(meant.error());
     window = *meant;
+    if (auto ok = cut_as_bound(plan, *policy.next, *window, steps); !ok) return tl::unexpected(ok.error());
     operations = operations_of(plan, *window, steps);
   }
+  model::settle_edits(plan.model, plan.ledger);
   // Of a large plan a copy costs more than a workingstep: it is made where a tool will be re-opened.
   std::optional<model::Plan> as_it_came;
   const auto missing = [&](model::AnyRef op) { return given::missing_tool(plan, op, magazine).has_value(); };

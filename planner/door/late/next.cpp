@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "planner/door/late/unbound.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
@@ -19,22 +20,6 @@ namespace {
 using model::AnyRef;
 using model::Plan;
 using model::StepResult;
-
-/// Whether the k-th result is that of the k-th step, whole.
-bool has_result(const Plan& plan, std::size_t k, const std::vector<AnyRef>& steps) {
-  return k < plan.steps.size() && plan.steps[k].step == steps[k] && plan.steps[k].path != nullptr;
-}
-
-bool is_open(const Plan& plan, AnyRef step) {
-  const auto* ws = plan.model.get<model::MachiningWorkingstep>(step);
-  const auto* op = ws == nullptr ? nullptr : plan.model.get<model::MachiningOperation>(ws->its_operation);
-  if (op == nullptr) return ws != nullptr;
-  const auto open = [&](AnyRef object, const char* attribute) {
-    return object.set() && plan.ledger.is_open(object, attribute);
-  };
-  return open(ws->its_operation, "its_tool") || open(ws->its_operation, "its_toolpath") ||
-         open(op->its_technology, "feedrate") || open(op->its_technology, "spindle");
-}
 
 Diagnostic no_such(const Plan& plan, const std::string& what, const std::string& expected) {
   return {.code = "LATE-NEXT", .message = what, .file = plan.file_name, .expected = expected};

@@ -266,6 +266,11 @@ void tell_altered_cases(const Inputs& inputs, Job& job) {
 
 Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                 Tries& tries, Job& job) {
+  if (const std::string beyond = model::beyond_range(plan); !beyond.empty())
+    return fail({.code = "PIP-RANGE",
+                 .message = beyond,
+                 .file = plan.file_name,
+                 .hint = "correct it in the file; lengths are in mm unless it says otherwise"});
   if (!tries.memo) tries.memo = inputs.memo ? inputs.memo : std::make_shared<memo::Memo>();
   if (inputs.objective != Objective::kProfit) return bind_settled(plan, inputs, policy, 0.0, tries, job);
   if (!inputs.revenue) {
@@ -289,11 +294,6 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
 }
 
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
-  if (const std::string beyond = model::beyond_range(plan); !beyond.empty())
-    return fail({.code = "PIP-RANGE",
-                 .message = beyond,
-                 .file = plan.file_name,
-                 .hint = "correct it in the file; lengths are in mm unless it says otherwise"});
   Tries tries;
   auto out = bind_within(plan, inputs, policy, tries, job);
   if (out) tell_tries(tries, job);

@@ -5,6 +5,7 @@
 
 #include "planner/door/pipeline/stages.h"
 #include "planner/ground/vocabulary/operation.h"
+#include "planner/making/given/placed_setups.h"
 #include "planner/making/probing/add_probings.h"
 #include "planner/making/sequence/order.h"
 
@@ -241,6 +242,7 @@ void drop_empty_setups(Drafts& drafts) {
 Result<Drafted> order_steps(model::Plan plan, Drafts drafts, const Required& required, Job& job) {
   const piece::Demands& demands = required.demands;
   Learned learned;
+  given::tell_leaning_setups(plan, drafts.setups, drafts.steps, job);
   drop_empty_setups(drafts);
   std::vector<StepDraft>& steps = drafts.steps;
   std::vector<std::size_t> given;

@@ -8,10 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "planner/controls/controls.h"
 #include "planner/controls/profile/profile.h"
 #include "planner/controls/specification.h"
 #include "planner/controls/suitability.h"
-#include "planner/controls/controls.h"
+#include "planner/door/late/unbound.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/formats.h"
@@ -28,6 +29,7 @@
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/edited.h"
 #include "planner/model/plan/decision/unreadable.h"
+#include "planner/proof/verify/program_signs.h"
 #include "planner/proof/verify/verify.h"
 #include "tooling/library/library.h"
 #include "tooling/shop/machine/machine.h"
@@ -119,7 +121,10 @@ class Check {
   void check(Part& p, Job& job) const {
     if (p.plan) {
       const model::Plan& plan = plans_[*p.plan];
-      p.findings = verify::check_plan(plan, job);
+      const auto open = late::unbound_steps(plan);
+      const model::CutBefore none{plan, 0};  // the rest is to come
+      p.findings = verify::check_plan(plan, job, nullptr, open.empty() ? nullptr : &none);
+      if (!open.empty()) p.findings.push_back(late::not_bound(plan, open));
       auto more = beside_the_check(plan);
       auto other = other_tool_materials(plan, loaded_);
       if (control_) {
@@ -129,10 +134,25 @@ class Check {
       std::move(other.begin(), other.end(), std::back_inserter(more));
       std::move(more.begin(), more.end(), std::back_inserter(p.findings));
     } else {
-      const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
-      p.findings = verify::check_program({p.program->path, p.program->bytes, shop_.tool_table}, plan,
-                                         shop_.machine, shop_.cutters, job);
+      check_program(p, job);
     }
+  }
+
+  /// A program of a plan that is bound in part has some of its bound steps: it is held against these.
+  void check_program(Part& p, Job& job) const {
+    const verify::ProgramText text{p.program->path, p.program->bytes, shop_.tool_table};
+    const model::Plan* plan = plans_.empty() ? nullptr : &plans_.front();
+    std::optional<late::PartOfPlan> part;
+    if (plan != nullptr && !late::unbound_steps(*plan).empty())
+      part = late::part_of(*plan, verify::steps_of_program(text.text, shop_.machine));
+    if (!part) {
+      p.findings = verify::check_program(text, plan, shop_.machine, shop_.cutters, job);
+      return;
+    }
+    const model::CutBefore before{*plan, part->before};
+    p.findings =
+        verify::check_program(text, &part->plan, shop_.machine, shop_.cutters, job, nullptr, &before);
+    if (part->before > 0) p.findings.push_back(late::taken_as_cut(*part));
   }
 
   void tell_parts() {
@@ -360,6 +380,7 @@ class Check {
         job_.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
     if (o.control) shop_.machine = controls::with_control(std::move(shop_.machine), *o.control);
+    if (const auto d = take_control_of_programs(has_plan)) return d;
     const tooling::LibraryOptions counts{
         .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
     if (o.tools) {
@@ -378,6 +399,43 @@ class Check {
         loaded_ = *std::move(table);
     }
     return std::nullopt;
+  }
+
+  /// Where no control is named, a program that only another control reads is checked for that one; beside a
+  /// plan or a named machine, which say otherwise, it is refused.
+  std::optional<Diagnostic> take_control_of_programs(bool has_plan) {
+    if (request_.control) return std::nullopt;
+    const bool free = !has_plan && !request_.machine;
+    std::string told_by;
+    for (const Input& in : inputs_) {
+      if (in.content != Content::kProgram) continue;
+      const auto sign = verify::dialect_sign(in.bytes);
+      const std::string& dialect = shop_.machine.control.dialect;
+      if (!sign || std::find(sign->dialects.begin(), sign->dialects.end(), dialect) != sign->dialects.end())
+        continue;
+      const std::string other(sign->dialects.front());
+      if (!free || !told_by.empty())
+        return Diagnostic{.code = "OPTION-CONTROL",
+                          .message = "the program is written for " + name_of_control(other) + " (" +
+                                     sign->text + "), and " +
+                                     (told_by.empty() ? has_plan ? "the plan" : "the machine" : told_by) +
+                                     " for " + name_of_control(dialect),
+                          .file = in.path,
+                          .line = static_cast<std::uint64_t>(sign->line),
+                          .hint = "name its control (" + request_.sign + "control " + other + ")" +
+                                  (told_by.empty() ? "" : ", or check the programs one by one")};
+      shop_.machine = controls::with_control(std::move(shop_.machine), other);
+      told_by = in.path;
+      job_.note("APP-CONTROL", in.path + " is read as a program of " + name_of_control(other) + ", for " +
+                                   sign->text + " stands in line " + std::to_string(sign->line) + "; " +
+                                   request_.sign + "control names another");
+    }
+    return std::nullopt;
+  }
+
+  static std::string name_of_control(const std::string& dialect) {
+    const controls::Dialect* d = controls::find_dialect(dialect);
+    return d == nullptr ? dialect : std::string(d->name);
   }
 
   [[nodiscard]] bool programs() const {

@@ -7,6 +7,7 @@
 
 #include "planner/controls/suitability.h"
 #include "planner/door/late/late.h"
+#include "planner/door/late/measured_names.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
@@ -155,6 +156,7 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
   if (request.measured) {
     auto measured = late::parse_measured(*request.measured);
     if (!measured) return failed(measured.error(), Code::kUsage);
+    if (auto ok = late::only_read(plan, *measured); !ok) return failed(ok.error(), Code::kUsage);
     policy.measured = *std::move(measured);
   }
   if (request.next || request.from) policy.next = late::Next{request.next.value_or(1), request.from};

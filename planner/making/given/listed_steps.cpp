@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/making/draft/setup_nouns.h"
+#include "planner/making/given/placed_setups.h"
 #include "planner/making/given/steps/open_values.h"
 #include "planner/making/given/steps/safety_changes.h"
 #include "planner/making/piece/piece.h"
@@ -181,36 +182,6 @@ class Walker {
   std::set<AnyRef> entered_;
 };
 
-Status resolve_setup(const model::Plan& plan, SetupDraft& s, Job& job) {
-  const model::Model& m = plan.model;
-  const auto* setup = m.get<model::Setup>(s.setup);
-  bool placed = false;
-  if (setup != nullptr) {
-    for (std::size_t i = 0; i < setup->its_workpiece_setup.size(); ++i) {
-      const auto* ws = m.get<model::WorkpieceSetup>(setup->its_workpiece_setup[i]);
-      if (ws == nullptr) continue;
-      const auto frame = model::placement_or_identity(m, ws->its_origin);
-      if (!frame) return tl::unexpected(frame.error());
-      s.workpiece = *frame;
-      placed = true;
-      break;
-    }
-  }
-  s.stock = transformed(plan.stock.box, s.workpiece);
-  const double lowest = s.stock.hi.z + draft::kSecurityAboveMm;
-  s.security_z_mm = lowest;
-  if (!placed) {
-    job.warn("PIP-SETUP", "no set-up places the workpiece; its own coordinates are taken as the set-up's");
-  }
-  if (setup == nullptr) return {};
-  if (const auto* plane = m.get<model::ElementarySurface>(setup->its_secplane)) {
-    const auto frame = model::placement(m, plane->position);
-    if (!frame) return tl::unexpected(frame.error());
-    s.security_z_mm = frame->origin.z;
-  }
-  return {};
-}
-
 /// A step on a compound or a pattern is for the members that its name begins with ('HOLE[2] drill'), and all
 /// that are like them; without such a name, for all.
 std::vector<model::FeatureShape> members_meant(std::vector<model::FeatureShape> shapes,
@@ -292,7 +263,7 @@ Result<Listed> list_steps(model::Plan plan, Reopen reopen, const std::map<AnyRef
     out.steps.clear();
   }
   for (SetupDraft& s : out.setups) {
-    if (auto ok = resolve_setup(plan, s, job); !ok) return tl::unexpected(ok.error());
+    if (auto ok = place_setup(plan, s, job); !ok) return tl::unexpected(ok.error());
   }
   const piece::Shapes none;  // shapes are known when the requirements are
   const piece::Piece piece{plan, none, grown_mm};
@@ -309,6 +280,7 @@ Result<Listed> list_steps(model::Plan plan, Reopen reopen, const std::map<AnyRef
       }
       // An operation with its own path needs no shape; others say later why they cannot be done.
     }
+    if (step.unreadable.empty()) step.unreadable = leans_in_setup(plan, out.setups[step.setup], step);
     if (plan.model.holds<model::MachiningWorkingstep>(step.step) &&
         !plan.model.holds<model::MachiningOperation>(step.operation)) {
       continue;  // open: rules propose for its feature

@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/physics/mechanics/constants.h"
 
 namespace capstan::given {
@@ -129,7 +130,7 @@ std::vector<model::Cutter> loaded_of(const model::Plan& plan, const std::vector<
     list += (list.empty() ? "" : "; ") + ("T" + std::to_string(c.pocket)) + " " + c.id;
   }
   if (known && missing > 0) job.note("PIP-TO-LOAD", "to load: " + list);
-  if (plan.machine.magazine_pockets == 1 && cutters.size() > 1)
+  if (model::changed_by_hand(plan.machine) && cutters.size() > 1)
     job.note("PIP-BY-HAND", "machine '" + plan.machine.id + "' has no tool changer: the " +
                                 std::to_string(cutters.size()) + " tools are changed by hand");
   return cutters;

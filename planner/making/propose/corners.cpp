@@ -6,6 +6,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/model/features/in_piece.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 
 // Rest material in inside corners. The radii that may stay in place of the stated one are half the diameters
 // of the mills that there are, for between two of them no other mill enters. They are tried from the least
@@ -129,7 +130,7 @@ std::string full_magazine(const Choice& choice, const rules::RuleBase& rules, co
                           const model::Proposal& p, const FeatureShape& shape, const draft::Member& member,
                           const std::vector<std::string>& used) {
   const int pockets = choice.piece.plan.machine.magazine_pockets;
-  if (pockets < 2 || used.empty()) return {};
+  if (model::changed_by_hand(choice.piece.plan.machine) || used.empty()) return {};
   Job unsaid;
   const Chosen alone = choose_in_corners(choice, rules, context, p, shape, member, {}, {}, unsaid).chosen;
   if (alone.chain == nullptr) return {};

@@ -21,6 +21,7 @@
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"
 
@@ -352,7 +353,8 @@ class Proposer {
     std::size_t longest = 0;
     for (const auto& chain : p.chains) longest = std::max(longest, chain.size());
     const int pockets = plan_.machine.magazine_pockets;
-    if (pockets < 1 || before + longest <= static_cast<std::size_t>(pockets)) return false;
+    if (model::changed_by_hand(plan_.machine) || before + longest <= static_cast<std::size_t>(pockets))
+      return false;
     out_.drafts.used = share_tools(plan_, out_.drafts.steps,
                                    {magazine_known(choice_.usable), choice_.batch, choice_.thrift});
     return out_.drafts.used.size() < before;

@@ -207,6 +207,13 @@ const HoldingWish* wish_for(const Clampings& c, std::size_t i, const std::vector
   return nullptr;
 }
 
+/// Why a set-up has no place for fixtures, whose sides face the axes; empty: it has.
+std::string lies_askew(const SetupDraft& s) {
+  if (model::faces_axes(s.workpiece)) return {};
+  return "the workpiece is " + model::turn_text({}, s.workpiece) +
+         " in it, so that its sides face no axis, and fixtures are placed square to the axes only";
+}
+
 Result<std::vector<Workholding>> by_file(const Clampings& c, const tooling::HoldingFile& file, Job& job) {
   for (const HoldingWish& wish : file.setups) {
     bool used = false;
@@ -228,6 +235,12 @@ Result<std::vector<Workholding>> by_file(const Clampings& c, const tooling::Hold
                    " is missing in the file of workholding: no fixture is checked there; add it");
       continue;
     }
+    if (const std::string askew = lies_askew(c.setups[i]); !askew.empty())
+      return fail({.code = "HOLD-ASKEW",
+                   .message = "set-up '" + wish->setup + "': " + askew,
+                   .file = file.file,
+                   .line = wish->line,
+                   .hint = "state it square in its set-up, or leave that set-up out of the file"});
     auto h = place(*wish, remaining(c.setups, c.steps, i), file.fixtures, file.file);
     if (!h) return tl::unexpected(h.error());
     out[i] = *std::move(h);
@@ -239,6 +252,11 @@ std::vector<Workholding> chosen(const Clampings& c, const std::vector<Fixture>& 
                                 const std::string& id, Job& job) {
   std::vector<Workholding> out(c.setups.size());
   for (std::size_t i = 0; i < c.setups.size(); ++i) {
+    if (const std::string askew = lies_askew(c.setups[i]); !askew.empty()) {
+      job.warn("PIP-HOLDING", "set-up " + std::to_string(i + 1) + " is not held by '" + id + "': " + askew +
+                                  "; no fixture is checked there");
+      continue;
+    }
     Chooser chooser(c.setups, c.steps, i, fixtures);
     std::optional<Workholding> h;
     if (id == "auto") {

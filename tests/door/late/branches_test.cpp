@@ -6,6 +6,8 @@
 #include <string>
 
 #include "planner/door/late/late.h"
+#include "planner/door/late/measured_names.h"
+#include "planner/ground/base/nearest_names.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/model/nouns/all.h"
 #include "tests/door/late/brought.h"
@@ -109,6 +111,21 @@ TEST(LateBranches, WhatWasNotMeasuredIsNotDecided) {
   put_last(p, if_it_stands(p));
   EXPECT_THAT(taken(p, {{"floor", 1.0}}), IsEmpty());
   EXPECT_THAT(steps(p), ElementsAre(AnyRef(p.rough)));
+}
+
+TEST(LateBranches, AMeasuredNameThatNoStatementReadsIsRefusedWithTheNearestOnes) {
+  Pocket p = pocket();
+  EXPECT_TRUE(only_read(p.plan, {}));
+  const auto nothing = only_read(p.plan, {{"wall", 0.05}});
+  ASSERT_FALSE(nothing);
+  EXPECT_THAT(nothing.error().hint, HasSubstr("no if or while statement"));
+  put_last(p, if_it_stands(p));
+  EXPECT_TRUE(only_read(p.plan, {{"wall", 0.05}}));
+  const auto wrong = only_read(p.plan, {{"wall", 0.05}, {"wal", 0.05}});
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, kUnknownName);
+  EXPECT_THAT(wrong.error().message, HasSubstr("'wal'. Did you mean 'wall'?"));
+  EXPECT_THAT(wrong.error().hint, HasSubstr("read wall"));
 }
 
 TEST(LateBranches, AWhileIsDoneOnceMoreEachTimeThatItsConditionHoldsWhenItIsReached) {

@@ -35,6 +35,16 @@ TEST(ThreadBound, IsTheArcFromTheWallToWhereTheCircleLeavesTheCore) {
   EXPECT_EQ(b.ap_mm, 1.5);
 }
 
+// By hand: (10 - 8) / 10; of M20 and 13.8 mm (20 - 13.8) / 20.
+TEST(ThreadBound, FeedsTheCentreSlowerThanTheEdgeByTheirCircles) {
+  EXPECT_NEAR(thread_bound(mill(8.0, 1.5), m10()).centre_share, 0.2, 1e-12);
+  model::FeatureShape m20 = m10();
+  m20.thread_major_mm = 20.0;
+  m20.thread_pitch_mm = 2.5;
+  m20.diameter.nominal_mm = 17.5;
+  EXPECT_NEAR(thread_bound(mill(13.8, 3.75), m20).centre_share, 0.31, 1e-12);
+}
+
 TEST(ThreadBound, IsAsDeepAsAllProfilesOrTheThread) {
   EXPECT_EQ(thread_bound(mill(8.0, 12.0), m10()).ap_mm, 12.0);
   EXPECT_EQ(thread_bound(mill(8.0, 25.0), m10()).ap_mm, 15.0);

@@ -11,6 +11,7 @@
 #include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/edited.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/motion/time.h"
 
@@ -397,7 +398,7 @@ void loading_list(const Plan& plan, std::string& out) {
     if (known && !c.loaded) rows.push_back({"T" + std::to_string(c.pocket), c.id, cutter_text(plan, c.id)});
   }
   if (!rows.empty()) out += "\nTo load\n" + table(rows);
-  if (plan.machine.magazine_pockets == 1 && plan.cutters.size() > 1)
+  if (model::changed_by_hand(plan.machine) && plan.cutters.size() > 1)
     out += "\nThe machine has no tool changer: tools are changed by hand.\n";
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/model/features/resolve.h"
+#include "planner/model/features/setup_place.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/standing.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -95,19 +96,16 @@ Result<Placement> frame_of_step(const model::Plan& plan, model::Ref<model::Execu
     if (!outer) return fail(outer.error());
     *local = geometry::compose(*outer, *local);
   }
+  if (!m.holds<model::Setup>(where.setup)) return *local;
   const auto* f = m.get<model::ManufacturingFeature>(feature);
-  const auto* setup = m.get<model::Setup>(where.setup);
-  if (setup == nullptr || f == nullptr) return *local;
-  for (const AnyRef at : setup->its_workpiece_setup.items) {
-    const auto* piece = m.get<model::WorkpieceSetup>(at);
-    const bool ours = piece != nullptr &&
-                      (piece->its_workpiece == f->its_workpiece || setup->its_workpiece_setup.size() == 1);
-    if (!ours) continue;
-    const auto outer = read(piece->its_origin);
-    if (!outer) return fail(outer.error());
-    return geometry::compose(*outer, *local);
+  if (f == nullptr) {
+    const auto turn = model::turn_of_setup(m, where.setup);
+    if (!turn) return fail(turn.error());
+    return *turn == Placement{} ? *local : geometry::compose(*turn, *local);
   }
-  return *local;
+  const auto outer = model::workpiece_in_program(m, where.setup, m.get<model::Workpiece>(f->its_workpiece));
+  if (!outer) return fail(outer.error());
+  return *outer ? geometry::compose(**outer, *local) : *local;
 }
 
 }  // namespace capstan::exchange

@@ -6,10 +6,11 @@
 
 namespace capstan::exchange {
 
-/// The frame of a step's toolpath coordinates, seen from its set-up:
+/// The frame of a step's toolpath coordinates, seen from the program of its set-up
+/// (model/features/setup_place.h):
 ///
-///     workingstep      workpiece's place in the set-up x orientations x the feature's placement
-///     rapid movement   the set-up itself x orientations
+///     workingstep      workpiece's place in the program x orientations x the feature's placement
+///     rapid movement   the set-up's turn in the program x orientations
 ///
 /// The set-up is that of the innermost workplan around the step that has one. Orientations are the
 /// toolpath_orientation of each workplan around the step, outermost first, then the step's own, which

@@ -1,64 +1,16 @@
 #include "planner/making/given/steps/safety_changes.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/draft/setup_nouns.h"
-#include "planner/making/given/listed_steps.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::given {
 namespace {
 
-using draft::SetupDraft;
 using draft::StepDraft;
 using model::AnyRef;
-
-/// The security plane must lie above the raw piece and every feature; a given one that does not is raised.
-void raise_security_plane(model::Plan& plan, SetupDraft& s, std::size_t index,
-                          const std::vector<StepDraft>& steps, Job& job) {
-  double top = s.stock.hi.z;
-  for (const StepDraft& step : steps) {
-    if (step.setup != index) continue;
-    for (const auto& shape : step.shapes) {
-      const auto frame = compose(s.workpiece, shape.frame);
-      top = std::max(top, frame.origin.z);
-    }
-  }
-  double least = 2.0;
-  for (const auto& solid : s.holding.solids) {
-    top = std::max(top, solid.top_mm);
-    least = std::max(least, s.holding.clearance_mm);
-  }
-  // Rapids cross at this height: it must clear the material, with the margin that the checker asks too.
-  if (s.security_z_mm >= top + least) return;
-  const double raised = top + std::max(draft::kSecurityAboveMm, least);
-  job.warn("PIP-SECPLANE", "the security plane at z = " + trimmed(s.security_z_mm, 3) +
-                               " mm does not clear the material and the features up to z = " +
-                               trimmed(top, 3) + " mm; raised to " + trimmed(raised, 3) + " mm");
-  plan.ledger.bind(s.setup, "its_secplane", model::Binder::kRule,
-                   {"setup.secplane.raised", "raised so that rapid moves clear raw piece and features",
-                    "safety: a rapid clears the material"});
-  s.security_z_mm = raised;
-  model::Model& m = plan.model;
-  model::CartesianPoint at;
-  at.name = "";
-  at.coordinates = {{0.0, 0.0, raised}, true};
-  model::Axis2Placement3d frame;
-  frame.name = "";
-  frame.location = m.add(at);
-  model::Plane plane;
-  plane.name = "SECURITY PLANE";
-  plane.position = m.add(frame);
-  const auto made = m.add(plane);
-  if (auto* setup = m.get<model::Setup>(s.setup)) setup->its_secplane = made;
-  for (const StepDraft& step : steps) {
-    auto* ws = m.get<model::Workingstep>(step.step);
-    if (step.setup == index && ws != nullptr) ws->its_secplane = made;
-  }
-}
 
 /// A tool cannot be withdrawn at no feed: such a value is taken as not stated, for this operation only.
 void overrule_retract(model::Plan& plan, const StepDraft& step, Job& job) {
@@ -133,12 +85,6 @@ void change_for_safety(model::Plan& plan, const StepDraft& step, Job& job) {
   overrule_stop(plan, step, job);
   overrule_retract(plan, step, job);
   overrule_coolant(plan, step, job);
-}
-
-Raised raise_security_planes(model::Plan plan, std::vector<SetupDraft> setups,
-                             const std::vector<StepDraft>& steps, Job& job) {
-  for (std::size_t i = 0; i < setups.size(); ++i) raise_security_plane(plan, setups[i], i, steps, job);
-  return {std::move(plan), std::move(setups)};
 }
 
 }  // namespace capstan::given

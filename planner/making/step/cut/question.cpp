@@ -362,6 +362,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
       const ThreadBound bound = thread_bound(step.cutter, job.shape);
       q.width_mm = bound.ae_mm;
       q.ap_mm = bound.ap_mm;
+      q.fz_start_mm *= bound.centre_share;
     }
   }
   // A ball as wide as a round slot, milling it into the solid, cuts as in roughing; its deflection limit

@@ -15,6 +15,7 @@
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/strategy_choice.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 #include "tooling/library/nouns/nouns.h"
 
 namespace capstan::step {
@@ -33,7 +34,7 @@ void take_cutter(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& st
 
 void keep_in_magazine(const model::Machine& machine, const std::vector<StepDraft>& steps, StepDraft& step) {
   const auto pockets = static_cast<std::size_t>(std::max(0, machine.magazine_pockets));
-  if (pockets < 2 || step.candidates.size() < 2) return;
+  if (model::changed_by_hand(machine) || step.candidates.size() < 2) return;
   const std::string own = std::exchange(step.cutter.id, {});
   const std::vector<std::string> others = draft::cutters_of(steps);
   step.cutter.id = own;

@@ -16,6 +16,14 @@
 // less deep than on the turn; integrated over the front of the mill, its torque and its largest chip stay
 // below 0.7 of the rectangle's for M3 to M24 and mills of 0.33 to 0.8 of the major diameter. A mill with
 // several profiles has all of them in the cut on its first turn.
+//
+// A feed per tooth is that of the edge at the thread's major diameter D; programs and this planner feed the
+// centre, whose circle is smaller:
+//
+//     centre feed = edge feed (D - d) / D        d = 2 R
+//
+// The chip grows with the arc: edge feed per tooth = chip / sin t, of the t and a_e above.
+// Source  Sandvik Coromant, Threading, thread milling formulas: internal thread milling (p. 117).
 
 namespace capstan::step {
 
@@ -28,7 +36,7 @@ ThreadBound thread_bound(const model::Cutter& cutter, const model::FeatureShape&
   const double r = 0.5 * thread.thread_major_mm - big, k = 0.5 * thread.diameter.nominal_mm;
   if (!(r > 0.0) || !(big > 0.0)) return {ap, cutter.cutting_diameter_mm};
   const double cosine = std::clamp((k * k - r * r - big * big) / (2.0 * r * big), -1.0, 1.0);
-  return {ap, big * (1.0 - cosine)};
+  return {ap, big * (1.0 - cosine), r / (r + big)};
 }
 
 std::vector<optimise::CutSample> bound_samples(const ThreadBound& bound, const model::CutterPath& path) {

@@ -13,6 +13,8 @@ namespace capstan::step {
 /// under an overhang and is not measured.
 struct ThreadBound {
   double ap_mm = 0.0, ae_mm = 0.0;
+  /// Feed of the cutter's centre over that of its edge at the thread's major diameter.
+  double centre_share = 1.0;
 };
 [[nodiscard]] ThreadBound thread_bound(const model::Cutter& cutter, const model::FeatureShape& thread);
 

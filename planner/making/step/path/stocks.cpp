@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/making/step/path/remembered_sections.h"
+#include "planner/model/plan/resources/setup_position.h"
 #include "planner/physics/stock/sweep.h"
 #include "planner/physics/stock/turned.h"
 
@@ -20,6 +21,19 @@ constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 SameSetup same_setup(const draft::SetupDraft& s) {
   const geometry::Placement& at = s.workpiece;
   return {s.setup, {at.origin.x, at.origin.y, at.origin.z, at.x.x, at.x.y, at.x.z, at.z.x, at.z.y, at.z.z}};
+}
+
+/// Empties the columns beside a box that is turned about Z; a column that it may touch stays.
+void clear_beside(stock::HeightMap& map, const geometry::Box3& raw, const geometry::Placement& workpiece) {
+  const double reach = 0.5 * std::sqrt(2.0) * map.cell_mm;
+  for (int iy = 0; iy < map.ny; ++iy) {
+    for (int ix = 0; ix < map.nx; ++ix) {
+      const geometry::Vec3 p = workpiece.to_local({map.x_of(ix), map.y_of(iy), workpiece.origin.z});
+      if (p.x < raw.lo.x - reach || p.x > raw.hi.x + reach || p.y < raw.lo.y - reach ||
+          p.y > raw.hi.y + reach)
+        map.set(ix, iy, {});
+    }
+  }
 }
 
 }  // namespace
@@ -64,6 +78,10 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
     map = round && upright ? stock::from_cylinder(box, *round, cell) : stock::from_box(box, cell);
     exact_[setup] =
         round && upright ? stock::PlanarStock::from_cylinder(box, *round) : stock::PlanarStock::from_box(box);
+    if (!round && upright && !model::faces_axes(setups_[setup].workpiece)) {
+      clear_beside(*map, raw_.box, setups_[setup].workpiece);
+      exact_[setup]->lose("the raw piece's sides face no axis");
+    }
   }
   if (setup != last_) {
     // Another clamping: what the others took away is gone here, too.

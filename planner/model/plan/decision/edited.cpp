@@ -7,6 +7,7 @@
 
 #include "planner/model/nouns/arena/model.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/decision/fresh_edits.h"
 
 // An edit breaks what was decided from the value, downstream along `depends_on`; upstream only the reasons
 // that one answer of the optimiser shares: these name the limits that held with the value as it was.
@@ -141,8 +142,8 @@ std::vector<Edited> take_edits(const Model& model, Ledger& ledger) {
     if (!has_value_now(model, e.key)) now.state = DecisionState::kOpen;
     const std::string by =
         e.was_open ? "it was left open" : "planning chose it (" + binder_words(e.was) + ")";
-    now.reason = ledger.reason({"given.edited", "edited in the file since " + by, "the file"});
-    now.value_hash = hash_attribute(model, e.key.object, e.key.attribute);
+    now.reason = ledger.reason({std::string(kEditedReason), "edited in the file since " + by, "the file"});
+    now.value_hash = 0;  // of an edit since it was written: `fresh_edits`
     ledger.set(e.key, std::move(now));
   }
   return out;

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
-#include "planner/model/features/resolve.h"
-#include "planner/model/nouns/all.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/model/features/setup_place.h"
 
 namespace capstan::model {
 namespace {
@@ -61,14 +61,9 @@ std::string one_zero(const Sides& s, double lo, double hi, int decimals) {
 
 geometry::Placement placed_in(const Plan& plan, std::size_t setup) {
   if (setup >= plan.setups.size()) return {};
-  const auto* s = plan.model.get<Setup>(plan.setups[setup].setup);
-  if (s == nullptr) return {};
-  for (const auto& item : s->its_workpiece_setup.items) {
-    const auto* piece = plan.model.get<WorkpieceSetup>(item);
-    if (piece == nullptr) continue;
-    if (const auto frame = placement_or_identity(plan.model, piece->its_origin)) return *frame;
-  }
-  return {};
+  const auto frame =
+      workpiece_in_program(plan.model, plan.setups[setup].setup, workpiece_of(plan.model, plan.project));
+  return frame ? frame->value_or(geometry::Placement{}) : geometry::Placement{};
 }
 
 std::string axis_text(const geometry::Placement& workpiece, Vec3 direction) {
@@ -94,11 +89,13 @@ std::string turn_text(const geometry::Placement& before, const geometry::Placeme
          trimmed(turn.angle_rad * 180.0 / std::numbers::pi, 2) + " deg about its " + axis + " axis";
 }
 
+bool faces_axes(const geometry::Placement& workpiece) {
+  const auto faces = [](Vec3 d) { return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) >= kNear; };
+  return faces(workpiece.x) && faces(workpiece.y) && faces(workpiece.z);
+}
+
 std::string zero_text(const geometry::Box3& raw, const geometry::Placement& workpiece, int decimals) {
-  if (raw.empty()) return {};
-  for (const Vec3 d : {workpiece.x, workpiece.y, workpiece.z}) {
-    if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) < kNear) return {};
-  }
+  if (raw.empty() || !faces_axes(workpiece)) return {};
   geometry::Box3 box;
   box.add(workpiece.to_parent(raw.lo));
   box.add(workpiece.to_parent(raw.hi));

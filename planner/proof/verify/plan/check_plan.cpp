@@ -2,6 +2,7 @@
 #include "planner/model/plan/range/positions.h"
 #include "planner/proof/verify/compared/feature_readings.h"
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/plan/setups.h"
 #include "planner/proof/verify/stopped.h"
 #include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/sweep/target/target.h"
@@ -38,6 +39,7 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   poll();
   check_meaning(plan, findings, before != nullptr);
   poll();
+  check_setups(plan, part, findings);
   check_within(plan, part, findings);
   poll();
   std::vector<double> speed_shares;

@@ -135,6 +135,27 @@ TEST_F(Planned, BindPastItsDeadlineEndsWithFive) {
   EXPECT_EQ(run(bind), 0) << said_;  // nobody waits
 }
 
+TEST_F(Planned, AMeasuredNameThatNoStatementReadsIsWrongUsage) {
+  const std::string source = capstan::testing::source_dir();
+  EXPECT_EQ(run("bind '" + source + "/examples/plate_bound.p21' --tools '" + source +
+                "/tests/door/late/magazine.tbl' --measured wall=0.04 -o x.json"),
+            2)
+      << said_;
+  EXPECT_THAT(said_, HasSubstr("unknown measured variable 'wall'"));
+  EXPECT_FALSE(fs::exists(folder_ / "x.json"));
+}
+
+TEST_F(Planned, CoordinatesOfAKilometreAreAnErrorOfTheFileAndNoFaultOfTheProgram) {
+  for (const char* point : {"#49=CARTESIAN_POINT('POCKET',(48.", "#24=CARTESIAN_POINT('RAW PIECE',(0.",
+                            "#32=CARTESIAN_POINT('WORKPIECE',(0."}) {
+    const std::string from = point;
+    part("bracket.p21", {{from, from.substr(0, from.find('(', from.find('(') + 1) + 1) + "1.E6"}});
+    EXPECT_EQ(run("plan p.p21 -o p.json"), 4) << said_;  // as a raw piece larger than any machine
+    EXPECT_THAT(said_, HasSubstr("CARTESIAN_POINT.coordinates is 1000000; it can be -100000 to 100000"));
+    EXPECT_THAT(said_, Not(HasSubstr("fault of the program itself")));
+  }
+}
+
 TEST_F(Planned, BindWithoutToolsTakesThoseOfThePlanInTheirPockets) {
   part("two_setups.p21", {});
   ASSERT_EQ(run("plan p.p21 -o p.json -o p.o.p21 -o p.tbl"), 0) << said_;

@@ -48,6 +48,21 @@ TEST_P(MagazineOfAnySize, HoldsTheToolsOfThePlanWhateverFeaturesThatCosts) {
 
 INSTANTIATE_TEST_SUITE_P(OfPockets, MagazineOfAnySize, ::testing::Values(2, 3, 4, 5, 6, 8));
 
+TEST(Magazine, OfNoPocketOrOneIsChangedByHandWithAsManyToolsAsItTakesAndThatIsTold) {
+  const auto with_changer = bracket_with(24);
+  ASSERT_THAT(with_changer.plan.unplanned, IsEmpty());
+  for (const int pockets : {0, 1}) {
+    const auto by_hand = bracket_with(pockets);
+    EXPECT_THAT(by_hand.plan.unplanned, IsEmpty()) << by_hand.said;
+    EXPECT_EQ(by_hand.plan.cutters.size(), with_changer.plan.cutters.size());
+    EXPECT_THAT(by_hand.said, ::testing::HasSubstr("PIP-BY-HAND")) << pockets;
+    Job job;
+    for (const auto& f : verify::check_plan(by_hand.plan, job))
+      EXPECT_NE(f.severity, Severity::kError) << f.message;
+  }
+  EXPECT_THAT(with_changer.said, ::testing::Not(::testing::HasSubstr("PIP-BY-HAND")));
+}
+
 TEST(Magazine, LosesNoFeatureThatFewerToolsMake) {
   // Best are nine tools; six make all of it: the face by the end mill, the counterbore and the slot by one.
   EXPECT_THAT(bracket_with(6).plan.unplanned, IsEmpty());

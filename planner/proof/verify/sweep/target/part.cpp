@@ -73,16 +73,35 @@ Box3 placed(const Box3& box, const Placement& at) {
   return out;
 }
 
+std::optional<Placement> turn_of(const model::Model& m, const model::Setup& setup) {
+  auto frame = volumes::frame_or_same(m, setup.its_origin);
+  if (frame) frame->origin = {};
+  return frame;
+}
+
+const model::WorkpieceSetup* piece_of(const model::Plan& plan, const model::Setup& setup) {
+  const auto* made = workpiece_of(plan);
+  const model::WorkpieceSetup* first = nullptr;
+  for (const auto& item : setup.its_workpiece_setup.items) {
+    const auto* ws = plan.model.get<model::WorkpieceSetup>(item);
+    if (ws == nullptr) continue;
+    if (made != nullptr && plan.model.get<model::Workpiece>(ws->its_workpiece) == made) return ws;
+    if (first == nullptr) first = ws;
+  }
+  return first;
+}
+
+// A work offset shifts and does not turn: a program's axes are the machine's, so that a set-up whose axes are
+// turned on the machine has its workpiece turned in the program.
 Placement workpiece_in(const model::Plan& plan, std::size_t setup) {
   if (setup >= plan.setups.size()) return {};
   const auto* s = plan.model.get<model::Setup>(plan.setups[setup].setup);
   if (s == nullptr) return {};
-  for (const auto& item : s->its_workpiece_setup.items) {
-    const auto* ws = plan.model.get<model::WorkpieceSetup>(item);
-    if (ws == nullptr) continue;
-    if (const auto frame = volumes::frame_or_same(plan.model, ws->its_origin)) return *frame;
-  }
-  return {};
+  const Placement turn = turn_of(plan.model, *s).value_or(Placement{});
+  const auto* ws = piece_of(plan, *s);
+  const Placement inside =
+      ws == nullptr ? Placement{} : volumes::frame_or_same(plan.model, ws->its_origin).value_or(Placement{});
+  return turn == Placement{} ? inside : compose(turn, inside);
 }
 
 const PartShapes::Entry* PartShapes::find(model::AnyRef feature) const {

@@ -28,6 +28,7 @@ using volumes::Form;
 namespace {
 
 constexpr double kUpright = 1.0 - 1e-9;
+constexpr double kSquare = 1e-9;          ///< sine of a turn that counts as none
 constexpr double kMostEdgeBreakMm = 1.0;  ///< deeper is a chamfer, and must be a feature; default, unsourced
 
 Region moved(const Region& r, const Placement& to) {
@@ -73,6 +74,11 @@ struct Runs {
   }
 };
 
+/// Beside a box, seen along its z.
+bool beside(const Box3& box, Vec3 p) {
+  return p.x < box.lo.x || p.x > box.hi.x || p.y < box.lo.y || p.y > box.hi.y;
+}
+
 bool representable(const Form& s) {
   switch (s.kind) {
     case ShapeKind::kToolpath:
@@ -115,7 +121,9 @@ Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setu
       part_(part),
       frame_(workpiece_in(plan, setup)),
       stock_(placed(plan.stock.box, frame_)),
-      part_box_(placed(part.part, frame_)) {
+      part_box_(placed(part.part, frame_)),
+      turned_(std::abs(frame_.z.z) > kUpright &&
+              std::min(std::abs(frame_.x.x), std::abs(frame_.x.y)) > kSquare) {
   if (plan.target_mesh) {
     const geometry::MeshForm form = geometry::form_of(*plan.target_mesh);
     sheet_ = form.kind == geometry::MeshForm::Kind::kSheet;
@@ -201,9 +209,23 @@ void Target::add_broken_edges() {
 bool Target::outside(Vec2 p) const {
   if (p.x < part_box_.lo.x || p.x > part_box_.hi.x || p.y < part_box_.lo.y || p.y > part_box_.hi.y)
     return true;
+  if (turned_ && !round_ && beside(part_.part, frame_.to_local({p.x, p.y, frame_.origin.z}))) return true;
   if (!round_) return false;
   const Vec2 middle = 0.5 * (xy(stock_.lo) + xy(stock_.hi));
   return norm(p - middle) > *round_;
+}
+
+bool Target::beside_stock(Vec2 p) const {
+  if (round_) return norm(p - 0.5 * (xy(stock_.lo) + xy(stock_.hi))) > *round_;
+  return turned_ && beside(plan_.stock.box, frame_.to_local({p.x, p.y, frame_.origin.z}));
+}
+
+Region Target::outline(const Box3& box) const {
+  if (!turned_ || round_) {
+    const Box3 there = placed(box, frame_);
+    return geometry::rectangle(xy(there.lo), xy(there.hi));
+  }
+  return moved(geometry::rectangle(xy(box.lo), xy(box.hi)), frame_);
 }
 
 double Target::floor_of(const Cavity& c, Vec2 p) const {
@@ -234,8 +256,7 @@ void Target::fill(Grid& grid) {
     poll();
     for (int ix = 0; ix < grid.nx(); ++ix) {
       const Vec2 p = grid.centre(ix, iy);
-      const bool there = !round_ || norm(p - 0.5 * (xy(stock_.lo) + xy(stock_.hi))) <= *round_;
-      grid.stock[grid.index(ix, iy)] = there ? stock_.hi.z : Grid::kNothing;
+      grid.stock[grid.index(ix, iy)] = beside_stock(p) ? Grid::kNothing : stock_.hi.z;
       grid.base[grid.index(ix, iy)] = stock_.lo.z;
       const bool nothing = outside(p) || (plan_.target_mesh && !sheet_);
       grid.part[grid.index(ix, iy)] = nothing ? Grid::kNothing : part_box_.hi.z;
@@ -333,6 +354,10 @@ void Target::describe(std::string& bytes) const {
   memo::pack(bytes, stock_);
   memo::pack(bytes, part_box_);
   memo::pack(bytes, round_);
+  if (turned_) {
+    memo::pack(bytes, plan_.stock.box);
+    memo::pack(bytes, part_.part);
+  }
   for (const Form& b : bevels_) memo::pack(bytes, b);
 }
 

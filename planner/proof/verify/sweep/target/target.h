@@ -63,7 +63,12 @@ struct Asked {
 /// Features with steps, but those that are unplanned in part. `before`: what was cut before counts, too.
 [[nodiscard]] std::vector<Asked> asked_of(const model::Plan& plan, const CutBefore* before = nullptr);
 
-/// Where the workpiece lies in a set-up's frame.
+/// The axes of a set-up in those of the machine, zero at its origin; nothing: they cannot be read.
+[[nodiscard]] std::optional<geometry::Placement> turn_of(const model::Model& m, const model::Setup& setup);
+/// The WORKPIECE_SETUP of a set-up that places what the plan makes; the first where none does; null: none.
+[[nodiscard]] const model::WorkpieceSetup* piece_of(const model::Plan& plan, const model::Setup& setup);
+/// Where the workpiece lies in the program of a set-up: its zero is the set-up's, its axes are the machine's.
+/// What cannot be read counts as straight; check_setups tells it.
 [[nodiscard]] geometry::Placement workpiece_in(const model::Plan& plan, std::size_t setup);
 [[nodiscard]] geometry::Box3 placed(const geometry::Box3& box, const geometry::Placement& at);
 
@@ -171,12 +176,17 @@ class Target : public GougeJudge {
   /// there.
   [[nodiscard]] bool clear_of_walls(const Move& m, double z_mm, double reach_mm);
   [[nodiscard]] std::size_t level(double z_mm) const;
+  /// Beside the part, or the raw piece, seen from above; those are boxes of the workpiece's own axes.
   [[nodiscard]] bool outside(geometry::Vec2 p) const;
+  [[nodiscard]] bool beside_stock(geometry::Vec2 p) const;
+  /// The outline of a box of the workpiece's, set-up XY.
+  [[nodiscard]] geometry::Region outline(const geometry::Box3& box) const;
 
   const model::Plan& plan_;
   const PartShapes& part_;
   geometry::Placement frame_;
-  geometry::Box3 stock_, part_box_;
+  geometry::Box3 stock_, part_box_;  ///< around them, set-up frame
+  bool turned_ = false;              ///< upright, and about Z so that the piece's sides face no axis
   bool sheet_ = false;           ///< a mesh that says nothing of what lies outside its outline: that stays
   bool inside_out_ = false;      ///< a closed mesh whose triangles face inwards
   std::optional<double> round_;  ///< radius of a bar along the tool axis

@@ -140,7 +140,7 @@ std::vector<Target::Walls::Edge> Target::edges_at(double z) const {
     }
     if (!r.empty()) parts.push_back({c.box, std::move(r.loops)});
   }
-  Region part = geometry::rectangle(xy(part_box_.lo), xy(part_box_.hi));
+  Region part = outline(part_.part);
   if (round_)
     part = geometry::intersect(part, geometry::disc(0.5 * (xy(stock_.lo) + xy(stock_.hi)), *round_));
   const auto add = [&](const Region& region, bool taken) {
@@ -154,7 +154,7 @@ std::vector<Target::Walls::Edge> Target::edges_at(double z) const {
   std::vector<geometry::Loop> across;
   for (Part& p : apart(std::move(parts))) {
     tick();
-    const bool within = !round_ && p.box.lo.x > part_box_.lo.x + kApartMm &&
+    const bool within = !round_ && !turned_ && p.box.lo.x > part_box_.lo.x + kApartMm &&
                         p.box.lo.y > part_box_.lo.y + kApartMm && p.box.hi.x < part_box_.hi.x - kApartMm &&
                         p.box.hi.y < part_box_.hi.y - kApartMm;
     if (within)

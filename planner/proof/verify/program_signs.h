@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/model/plan/resources/machine.h"
+
+namespace capstan::verify {
+
+// What a program says of itself, before it is checked.
+
+/// What a program says of the control that it was written for.
+struct DialectSign {
+  std::vector<std::string_view> dialects;  ///< controls that read it so, as model::Control has them
+  std::string text;                        ///< "O0001, a program number"
+  long line = 0;                           ///< counted from 1
+};
+
+/// The first thing in a program that only some of the known controls read; nothing: any of them may.
+///
+/// Fanuc and Haas   a program number (O and digits alone in a block); G54.1, extended work offsets; M29 with
+/// S,
+///                  rigid tapping; Fanuc alone G5.1 Q, Haas alone G187 and G154
+/// LinuxCNC         O with a word of its own (O100 SUB, O<name> CALL); named parameters (#<name>); G64 with P
+/// Source  Fanuc series 30i user's manual B-63944; Haas mill operator's manual 96-8210; LinuxCNC 2.9, G-codes
+///         and O-codes.
+[[nodiscard]] std::optional<DialectSign> dialect_sign(std::string_view program);
+
+/// The ids of the steps that a program says it has, in its order; empty for one without markers, and for a
+/// control that nothing reads.
+[[nodiscard]] std::vector<std::string> steps_of_program(std::string_view text, const model::Machine& machine);
+
+}  // namespace capstan::verify
