@@ -12,6 +12,7 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/ends.h"
 #include "planner/making/given/machine_needs.h"
+#include "planner/making/given/operator_edits.h"
 #include "planner/making/given/tool_material.h"
 #include "planner/making/piece/corner_rests.h"
 #include "planner/making/piece/raw_piece_limits.h"
@@ -258,7 +259,7 @@ Result<bool> choose_steps(model::Plan& plan, Drafts& drafts, const Required& req
   tries.need(drafts.needed);
   if (tries.learn(leave_what_rests(plan, drafts))) return false;
   poll();
-  auto ordered = order_steps(plan, std::move(drafts), required, job);
+  auto ordered = order_steps(plan, std::move(drafts), required, asked, job);
   if (!ordered) return tl::unexpected(ordered.error());
   if (tries.learn(std::move(ordered->second))) return false;
   poll();
@@ -303,6 +304,11 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   piece::report_outside(plan, job);
   poll();
   const std::size_t most = policy.window ? policy.window->first + policy.window->count : given::kAllSteps;
+  if (policy.reopen < Reopen::kOperations) {
+    const std::size_t cut = policy.window ? policy.window->first : 0;
+    if (auto ok = given::open_beyond_edits(plan, inputs.edits, inputs.library, cut, job); !ok)
+      return tl::unexpected(ok.error());
+  }
   auto listed = given::list_steps(plan, policy.reopen, not_made, grown_mm(inputs), job, most);
   if (!listed) return tl::unexpected(listed.error());
   piece::keep_corner_rests(plan, corners, listed->steps);
@@ -318,9 +324,11 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
     if (!chosen) return tl::unexpected(chosen.error());
     if (!*chosen) return again;
   }
+  for (StepDraft& s : drafts.steps)
+    s.limits = model::limits_of(inputs.edits, draft::edit_names(plan.model, s));
   const piece::Piece piece{plan, required->shapes, grown_mm(inputs)};
-  const step::Wishes wishes{inputs.objective,      earning_per_min,    margin.deviations,
-                            inputs.constant_feeds, inputs.cases.get(), inputs.library};
+  const step::Wishes wishes{inputs.objective,   earning_per_min, margin.deviations, inputs.constant_feeds,
+                            inputs.cases.get(), inputs.library,  edits_of(inputs)};
   const step::PlanSoFar so_far{plan, drafts.setups, drafts.steps, piece, required->demands, recorded, wishes};
   if (policy.bind == Bind::kAll) {
     given::carry_tools(plan.model, drafts.steps);

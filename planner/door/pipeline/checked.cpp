@@ -165,9 +165,6 @@ Checked checked(model::Plan plan, Job& job, memo::Memo* proofs, const model::Cut
   return out;
 }
 
-namespace {
-
-/// `bind_checked`, left by a stop.
 Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                           const Anew& anew) {
   auto until = anew.until;
@@ -224,12 +221,14 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
   return best;
 }
 
-}  // namespace
-
 Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                              const Anew& anew) {
   auto out = stoppable(
-      job, [&] { return bind_anew(plan, inputs, policy, job, anew); },
+      job,
+      [&] {
+        return inputs.edits.empty() ? bind_anew(plan, inputs, policy, job, anew)
+                                    : bind_edited(plan, inputs, policy, job, anew);
+      },
       [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });
   tell_altered_cases(inputs, job);
   return out;

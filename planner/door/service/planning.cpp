@@ -12,7 +12,9 @@
 #include "planner/door/service/shop.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/making/given/operator_edits.h"
 #include "planner/model/nouns/executable.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::service {
@@ -71,7 +73,8 @@ std::size_t features_of(const model::Plan& plan) {
 Code code_of(const Diagnostic& fault, Code otherwise) {
   const bool usage = fault.code == kUnknownName || fault.code == "MACHINE-GEAR" ||
                      fault.code == "FILE-WRITE" || fault.code.starts_with("MEM-") ||
-                     fault.code == "APP-EDGES" || fault.code.starts_with("OPTION-");
+                     fault.code == "APP-EDGES" || fault.code.starts_with("EDIT-") ||
+                     fault.code.starts_with("OPTION-");
   // Wherever the stop came: in reading, planning or writing.
   const bool stopped = fault.code.ends_with("-STOPPED");
   return usage ? Code::kUsage : stopped ? Code::kImpossible : otherwise;
@@ -130,6 +133,26 @@ Status decisions_of(const Request& request, const model::Plan& plan, late::Decis
   return {};
 }
 
+/// Sets the operator's edits into a plan before it is bound, and opens what they do not allow.
+Status edit(const Request& request, model::Plan& plan, pipeline::Inputs& inputs, Job& job) {
+  if (inputs.edits.empty()) return {};
+  const bool some = request.next || request.from;
+  const bool sets = std::any_of(request.edits.begin(), request.edits.end(), [](const model::Edit& e) {
+    return e.kind == model::EditKind::kSet || e.kind == model::EditKind::kPin;
+  });
+  if (some && sets)
+    return fail({.code = "EDIT-NEXT",
+                 .message = "values are set into a whole plan, not while single workingsteps are bound",
+                 .hint = "bind it with the edits first, then its workingsteps"});
+  if (some) return {};  // limits hold for those that are bound
+  auto taken = given::take_edits(plan, inputs.edits, inputs.library, job);
+  if (!taken) return tl::unexpected(taken.error());
+  inputs.edits = std::move(taken->edits);
+  std::erase_if(plan.provenance, model::is_edit);
+  for (const model::Edit& e : inputs.edits) plan.provenance.push_back(model::provenance_of(e));
+  return given::open_beyond_edits(plan, inputs.edits, inputs.library, 0, job);
+}
+
 /// Closes a plan that was read, in a shop whose choices are taken.
 Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Inputs inputs,
                        std::chrono::steady_clock::time_point began, Job& job) {
@@ -145,6 +168,8 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
                                     "numbers; or a plan that holds its cutters"},
         Code::kUsage);
   }
+  if (auto ok = edit(request, plan, inputs, job); !ok)
+    return failed(ok.error(), code_of(ok.error(), Code::kImpossible));
   late::LatePolicy policy;
   if (auto ok = decisions_of(request, plan, policy.may); !ok) return failed(ok.error(), Code::kUsage);
   policy.time = request.time;
