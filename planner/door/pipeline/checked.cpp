@@ -12,6 +12,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/verify.h"
 
@@ -226,7 +227,7 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
   auto out = stoppable(
       job,
       [&] {
-        return inputs.edits.empty() ? bind_anew(plan, inputs, policy, job, anew)
+        return inputs.edits.empty() && !model::edits_are_all(inputs.provenance) ? bind_anew(plan, inputs, policy, job, anew)
                                     : bind_edited(plan, inputs, policy, job, anew);
       },
       [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });

@@ -7,7 +7,6 @@
 #include "planner/making/given/operator_edits.h"
 #include "planner/model/plan/edit/held.h"
 #include "planner/model/plan/edit/provenance.h"
-#include "planner/model/plan/order/step_ids.h"
 
 // The operator's edits: planned as if there were only the restrictions, then what is set is set, and what
 // depends on it is planned anew. So what no edit names stays as it was.
@@ -15,25 +14,10 @@
 namespace capstan::pipeline {
 namespace {
 
-/// The steps of which edits hold a value, by persistent id.
-std::map<std::string, std::string> held_steps(const model::Plan& plan) {
-  std::map<std::string, std::string> out;
-  const std::vector<std::string> ids = model::step_ids(plan);
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (auto words = model::edits_of_step(plan, plan.steps[i].step); !words.empty())
-      out.emplace(ids[i], words);
-  }
-  return out;
-}
-
 /// An error at a step whose values an edit holds names the edit beside the limit.
 void name_edits(Checked& c) {
-  const auto held = held_steps(c.plan);
-  if (held.empty()) return;
-  for (model::Finding& f : c.findings) {
-    const auto at = held.find(f.step);
-    if (f.severity != Severity::kNote && at != held.end()) f.message += "; held is " + at->second;
-  }
+  const auto held = model::held_steps(c.plan);
+  for (model::Finding& f : c.findings) model::name_edits(held, f);
   for (model::Unplanned& u : c.plan.unplanned) {
     std::string words;
     for (const model::AnyRef r : c.plan.model.all(model::TypeId::kMachiningWorkingstep)) {
@@ -54,7 +38,7 @@ void keep_rows(model::Plan& plan, const std::vector<model::Edit>& edits) {
 /// edit holds.
 void tell_first(const std::vector<Diagnostic>& first, const model::Plan& plan, Job& job) {
   std::vector<Diagnostic> second = job.take_diagnostics();
-  const auto held = held_steps(plan);
+  const auto held = model::held_steps(plan);
   for (const Diagnostic& d : first) {
     const bool again = std::find(second.begin(), second.end(), d) != second.end();
     const bool overtaken = std::any_of(held.begin(), held.end(), [&](const auto& h) {
@@ -73,7 +57,8 @@ Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const
   if (!out) return out;
   if (!policy.window) {
     model::Plan edited = out->plan;
-    auto taken = given::take_edits(edited, inputs.edits, inputs.library, job);
+    auto taken = given::take_edits(edited, inputs.edits, inputs.library,
+                                   model::edits_are_all(inputs.provenance));
     if (!taken) return tl::unexpected(taken.error());
     if (taken->opened && policy.bind == Bind::kAll) {
       const std::vector<Diagnostic> first = job.take_diagnostics();

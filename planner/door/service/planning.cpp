@@ -14,6 +14,7 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/operator_edits.h"
 #include "planner/model/nouns/executable.h"
+#include "planner/model/plan/edit/held.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/proof/verify/verify.h"
 
@@ -135,7 +136,8 @@ Status decisions_of(const Request& request, const model::Plan& plan, late::Decis
 
 /// Sets the operator's edits into a plan before it is bound, and opens what they do not allow.
 Status edit(const Request& request, model::Plan& plan, pipeline::Inputs& inputs, Job& job) {
-  if (inputs.edits.empty()) return {};
+  const bool all = model::edits_are_all(inputs.provenance);
+  if (inputs.edits.empty() && !all) return {};
   const bool some = request.next || request.from;
   const bool sets = std::any_of(request.edits.begin(), request.edits.end(), [](const model::Edit& e) {
     return e.kind == model::EditKind::kSet || e.kind == model::EditKind::kPin;
@@ -145,7 +147,7 @@ Status edit(const Request& request, model::Plan& plan, pipeline::Inputs& inputs,
                  .message = "values are set into a whole plan, not while single workingsteps are bound",
                  .hint = "bind it with the edits first, then its workingsteps"});
   if (some) return {};  // limits hold for those that are bound
-  auto taken = given::take_edits(plan, inputs.edits, inputs.library, job);
+  auto taken = given::take_edits(plan, inputs.edits, inputs.library, all);
   if (!taken) return tl::unexpected(taken.error());
   inputs.edits = std::move(taken->edits);
   std::erase_if(plan.provenance, model::is_edit);
@@ -228,7 +230,9 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
   const model::Plan& made = planned.part ? *planned.part : planned.plan;
   Verdict v;
   for (const auto& f : planned.findings) v.findings.push_back({made.file_name, f, false});
+  const auto held = model::held_steps(made);
   auto of_text = of_programs(planned, outputs, job);
+  for (FileFinding& f : of_text) model::name_edits(held, f.finding);
   std::vector<model::Finding> all = planned.findings;
   for (const FileFinding& f : of_text) all.push_back(f.finding);
   v.condemned = model::condemned(made, all);
@@ -242,6 +246,7 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
       o.bytes = std::move(text->bytes);
     }
     of_text = of_programs(planned, outputs, job);
+    for (FileFinding& f : of_text) model::name_edits(held, f.finding);
   }
   std::move(of_text.begin(), of_text.end(), std::back_inserter(v.findings));
   for (const FileFinding& f : v.findings) {

@@ -125,7 +125,7 @@ class Taker {
   Taker(model::Plan& plan, const std::vector<Edit>& edits, const std::vector<Cutter>& library)
       : plan_(plan), edits_(edits), library_(library), steps_(steps_of(plan)) {}
 
-  Result<Taken> run() {
+  Result<Taken> run(bool all) {
     for (const Edit& e : edits_) {
       if (auto ok = names_something(e.where, e); !ok) return tl::unexpected(ok.error());
       if (e.kind == EditKind::kOrder) {
@@ -133,7 +133,7 @@ class Taker {
       }
       if (auto ok = take(e); !ok) return tl::unexpected(ok.error());
     }
-    release();
+    if (all) release();
     return std::move(out_);
   }
 
@@ -413,8 +413,8 @@ class Taker {
 }  // namespace
 
 Result<Taken> take_edits(model::Plan& plan, const std::vector<Edit>& edits,
-                         const std::vector<Cutter>& library, Job&) {
-  return Taker(plan, edits, library).run();
+                         const std::vector<Cutter>& library, bool all) {
+  return Taker(plan, edits, library).run(all);
 }
 
 Status open_beyond_edits(model::Plan& plan, const std::vector<Edit>& edits,
@@ -458,8 +458,12 @@ Status open_beyond_edits(model::Plan& plan, const std::vector<Edit>& edits,
     const auto open = [&](AnyRef object, const char* attribute, const std::string& by) -> Status {
       if (is_pinned(plan.ledger, object, attribute))
         return fail(conflict(plan, what + ": its " + attribute + " is pinned, against " + by));
+      const auto* d = plan.ledger.find(object, attribute);
+      if (d != nullptr && d->state == model::DecisionState::kOpen) return {};
+      const std::string said = what + ": its " + attribute + " is chosen anew: " + by;
+      // What a file gives is changed openly; what planning chose is its own to change.
+      model::by_planning(d) ? job.note("EDIT-OPENED", said, "") : job.warn("EDIT-OPENED", said);
       model::reopen_all(plan.ledger, {{object, attribute}});
-      job.warn("EDIT-OPENED", what + ": its " + attribute + " is chosen anew: " + by);
       return {};
     };
     if (beyond(given.rpm, limits.speed_rpm)) {

@@ -28,14 +28,14 @@ struct Taken {
 
 /// Sets the values of the edits (set, pin) into the steps of a plan: bound by the operator, pinned, with the
 /// edit as the reason. Opens what depends on a value that changed: by the ledger, and of a tool also the cuts
-/// of the later steps of its feature, which meet what it leaves. A value that an edit held and none holds now
-/// is open again.
+/// of the later steps of its feature, which meet what it leaves. `all`: a value that an edit held and none
+/// holds now is open again.
 ///
 /// Fails  EDIT-NOTHING for a pattern that names no feature and no step, with those that there are;
 ///        NAME-UNKNOWN for a tool that neither library nor plan has; EDIT-VALUE for a value that a step has
 ///        not; EDIT-CONFLICT for a value that another edit rules out.
 [[nodiscard]] Result<Taken> take_edits(model::Plan& plan, const std::vector<model::Edit>& edits,
-                                       const std::vector<model::Cutter>& library, Job& job);
+                                       const std::vector<model::Cutter>& library, bool all);
 
 /// What of a whole plan breaks an edit: an error for each step, which names both.
 [[nodiscard]] std::vector<model::Finding> broken_edits(const model::Plan& plan,

@@ -5,6 +5,7 @@
 
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/edit/restrictions.h"
+#include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::model {
 
@@ -26,6 +27,20 @@ std::string edits_of_step(const Plan& plan, AnyRef step) {
   std::string out;
   for (const std::string& s : said) out += (out.empty() ? "" : "; ") + s;
   return out;
+}
+
+std::map<std::string, std::string> held_steps(const Plan& plan) {
+  std::map<std::string, std::string> out;
+  const std::vector<std::string> ids = step_ids(plan);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (auto words = edits_of_step(plan, plan.steps[i].step); !words.empty()) out.emplace(ids[i], words);
+  }
+  return out;
+}
+
+void name_edits(const std::map<std::string, std::string>& held, Finding& f) {
+  const auto at = held.find(f.step);
+  if (f.severity != Severity::kNote && at != held.end()) f.message += "; held is " + at->second;
 }
 
 }  // namespace capstan::model

@@ -1,5 +1,6 @@
 #include "planner/model/plan/edit/provenance.h"
 
+#include <algorithm>
 #include <string_view>
 
 namespace capstan::model {
@@ -27,6 +28,10 @@ std::vector<Edit> edits_of(const Plan& plan) {
     }
   }
   return out;
+}
+
+bool edits_are_all(const std::vector<Provenance>& inputs) {
+  return std::any_of(inputs.begin(), inputs.end(), [](const Provenance& p) { return p.what == kEditsFile; });
 }
 
 }  // namespace capstan::model
