@@ -63,6 +63,12 @@ struct PlanOptions {
   bool stop_at_deadline =
       false;                  ///< of `bind_...`: nothing, in time, where nothing is checked by the deadline
   std::string measured = {};  ///< of `bind_...`: "wall=0.04,floor=-0.01", what if and while statements ask
+  /// What a person decides of the plan, one edit each, as the command takes it: "POCKET*/tool=T5";
+  /// "POCKET*/tool"; "feed<=2000"; "tool=em12*"; "HOLE<POCKET". `edits` is a file of them.
+  std::vector<std::string> set = {}, pin = {}, limit = {}, forbid = {}, order = {};
+  std::string edits = {};
+  std::string shop = {};  ///< a file of the shop's settings (`capstan shop init` writes one); what is empty
+                          ///< here is as it says
 };
 
 /// A thing said about the input or the plan, as the command prints it.

@@ -7,6 +7,8 @@
 #include "casebase/casebase.h"
 #include "casebase/retain/join/import.h"
 #include "planner/controls/profile/profile.h"
+#include "planner/door/service/edits/edits_file.h"
+#include "planner/door/service/shop_file/shop_file.h"
 #include "planner/door/transport/serve/endpoints.h"
 #include "planner/door/transport/serve/wire/http.h"
 #include "planner/door/transport/serve/wire/json_request.h"
@@ -104,6 +106,20 @@ void workholding(std::string bytes) {
   if (!said(file)) return;
   for (const auto& wish : file->setups)
     (void)said(workholding::place(wish, {{0, 0, -20}, {80, 60, 0}}, file->fixtures));
+}
+/// Edits that are read are written as the same.
+void edits(std::string bytes) {
+  Job job;
+  const auto read = service::read_edits(bytes, "input.yaml", job);
+  if (!said(read)) return;
+  const auto again = service::read_edits(service::edits_text(*read), "input.yaml", job);
+  must(again.has_value() && *again == *read, "edits are not written as they were read\n");
+}
+void shop(std::string bytes) {
+  Job job;
+  service::Request request;
+  request.shop = "shop.yaml";
+  (void)said(service::with_shop_text(std::move(request), bytes, job));
 }
 void rules(std::string bytes) { (void)said(rules::rules_from_texts({{"input.yaml", std::move(bytes)}})); }
 void cases(std::string bytes) { (void)said(casebase::from_csv(bytes, "input.csv")); }
@@ -238,6 +254,8 @@ const std::vector<Reader>& readers() {
       {"workholding",
        workholding,
        {"examples/two_setups_holding.yaml", "examples/two_setups_clamp_in_way.yaml"}},
+      {"edits", edits, {"examples/bracket.edits.yaml"}},
+      {"shop", shop, {}},
       {"rules",
        rules,
        {"rules/data/slot.yaml", "rules/data/thread.yaml", "rules/data/coolant.yaml",

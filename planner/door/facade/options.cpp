@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "planner/door/service/options.h"
+#include "planner/door/service/shop_file/shop_file.h"
+#include "planner/ground/base/job.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/solver/solvers.h"
 
@@ -22,6 +24,17 @@ struct Field {
 std::string number(double v) { return std::isfinite(v) ? shortest(v) : "not finite"; }
 std::string above_zero(double v) { return v <= 0.0 ? std::string() : number(v); }
 std::string flag(bool v) { return v ? "yes" : ""; }
+
+/// An option that may be repeated, and its field.
+struct ListField {
+  std::string_view name;
+  const std::vector<std::string> PlanOptions::*texts;
+};
+constexpr std::array kListFields = {
+    ListField{"set", &PlanOptions::set},     ListField{"pin", &PlanOptions::pin},
+    ListField{"limit", &PlanOptions::limit}, ListField{"forbid", &PlanOptions::forbid},
+    ListField{"order", &PlanOptions::order},
+};
 
 constexpr std::array kFields = {
     Field{"machine", [](const PlanOptions& o) { return o.machine; }},
@@ -49,6 +62,8 @@ constexpr std::array kFields = {
     Field{"batch", [](const PlanOptions& o) { return std::to_string(o.batch); }},
     Field{"edges",
           [](const PlanOptions& o) { return o.edge_break_mm == 0.0 ? "" : number(o.edge_break_mm); }},
+    Field{"shop", [](const PlanOptions& o) { return o.shop; }},
+    Field{"edits", [](const PlanOptions& o) { return o.edits; }},
     Field{"bind", [](const PlanOptions& o) { return o.bind; }},
     Field{"reopen", [](const PlanOptions& o) { return o.reopen; }},
     Field{"deadline", [](const PlanOptions& o) { return o.deadline; }},
@@ -74,14 +89,21 @@ Result<service::Request> request_of(const PlanOptions& options) {
     if (text.empty()) continue;
     if (auto ok = service::set(request, field.name, text); !ok) return tl::unexpected(ok.error());
   }
+  for (const ListField& field : kListFields) {
+    for (const std::string& text : options.*field.texts) {
+      if (auto ok = service::set(request, field.name, text); !ok) return tl::unexpected(ok.error());
+    }
+  }
   if (std::string wrong = service::contradiction(request); !wrong.empty())
     return fail({.code = "OPTION-VALUE", .message = std::move(wrong)});
-  return request;
+  Job job;
+  return service::with_shop(std::move(request), job);
 }
 
 std::vector<std::string> option_names() {
   std::vector<std::string> out;
   for (const Field& field : kFields) out.emplace_back(field.name);
+  for (const ListField& field : kListFields) out.emplace_back(field.name);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/ends.h"
+#include "planner/making/given/operator_edits.h"
 #include "planner/making/piece/corner_rests.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
@@ -132,7 +133,7 @@ Result<std::optional<Drafted>> choose_steps(model::Plan plan, Drafts drafts, con
   tries.need(now.drafts.needed);
   if (tries.learn(leave_what_rests(now.plan, now.drafts))) return again;
   poll();
-  auto ordered = order_steps(std::move(now.plan), std::move(now.drafts), required, job);
+  auto ordered = order_steps(std::move(now.plan), std::move(now.drafts), required, asked, job);
   if (!ordered) return tl::unexpected(ordered.error());
   now = *std::move(ordered);
   if (tries.learn(std::move(now.learned))) return again;
@@ -189,6 +190,11 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   piece::report_outside(plan, job);
   poll();
   const std::size_t most = policy.window ? policy.window->first + policy.window->count : given::kAllSteps;
+  if (policy.reopen < Reopen::kOperations) {
+    const std::size_t cut = policy.window ? policy.window->first : 0;
+    if (auto ok = given::open_beyond_edits(plan, inputs.edits, inputs.library, cut, job); !ok)
+      return tl::unexpected(ok.error());
+  }
   auto listed = given::list_steps(std::move(plan), policy.reopen, not_made, grown_mm(inputs), job, most);
   if (!listed) return tl::unexpected(listed.error());
   Drafted now{std::move(listed->plan), {std::move(listed->setups), std::move(listed->steps), {}}};
@@ -206,6 +212,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
     if (!*chosen) return again;
     now = **std::move(chosen);
   }
+  for (StepDraft& s : now.drafts.steps)
+    s.limits = model::limits_of(inputs.edits, draft::edit_names(now.plan.model, s));
   if (policy.bind == Bind::kAll) {
     now.drafts.steps = given::carry_tools(now.plan.model, std::move(now.drafts.steps));
     auto made =

@@ -12,6 +12,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/condemned.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/verify.h"
 
@@ -165,9 +166,6 @@ Checked checked(model::Plan plan, Job& job, memo::Memo* proofs, const model::Cut
   return out;
 }
 
-namespace {
-
-/// `bind_checked`, left by a stop.
 Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                           const Anew& anew) {
   auto until = anew.until;
@@ -224,12 +222,14 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
   return best;
 }
 
-}  // namespace
-
 Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                              const Anew& anew) {
   auto out = stoppable(
-      job, [&] { return bind_anew(plan, inputs, policy, job, anew); },
+      job,
+      [&] {
+        return inputs.edits.empty() && !model::edits_are_all(inputs.provenance) ? bind_anew(plan, inputs, policy, job, anew)
+                                    : bind_edited(plan, inputs, policy, job, anew);
+      },
       [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });
   tell_altered_cases(inputs, job);
   return out;

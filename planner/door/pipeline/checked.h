@@ -11,6 +11,13 @@ namespace capstan::pipeline {
 [[nodiscard]] Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs,
                                               const Policy& policy, Tries& tries, Job& job);
 
+/// `bind_checked` without the values that edits set; left by a stop.
+[[nodiscard]] Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
+                                        Job& job, const Anew& anew);
+/// The same, then with them. Fails  also as given::take_edits.
+[[nodiscard]] Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
+                                          Job& job, const Anew& anew);
+
 /// Reports what of the case base was found altered or gone in planning (CASE-ROW), each row once.
 void tell_altered_cases(const Inputs& inputs, Job& job);
 

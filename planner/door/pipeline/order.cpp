@@ -116,9 +116,35 @@ void add_craft(const std::vector<StepDraft>& drafts, const std::vector<std::size
   }
 }
 
+/// Whether an edit wants step `a` before step `b`.
+bool wants(const model::Edit& e, const Model& m, const StepDraft& a, const StepDraft& b) {
+  if (e.kind != model::EditKind::kOrder) return false;
+  const auto first = draft::edit_names(m, a), second = draft::edit_names(m, b);
+  const auto means = [](const std::string& pattern, const model::StepNames& s) {
+    return model::names(pattern, s);
+  };
+  return means(e.where, first) && means(e.before, second) && !means(e.before, first) &&
+         !means(e.where, second);
+}
+
+/// The operator's orders, between items.
+void add_edits(const Model& m, const std::vector<model::Edit>& edits, const std::vector<StepDraft>& drafts,
+               const std::vector<std::size_t>& steps,
+               std::vector<std::pair<std::size_t, std::size_t>>& given) {
+  for (const model::Edit& e : edits) {
+    if (e.kind != model::EditKind::kOrder) continue;
+    for (std::size_t a = 0; a < steps.size(); ++a) {
+      for (std::size_t b = 0; b < steps.size(); ++b) {
+        if (a != b && wants(e, m, drafts[steps[a]], drafts[steps[b]])) given.emplace_back(a, b);
+      }
+    }
+  }
+}
+
 /// Steps of a file keep the file's order and come first; what rules proposed follows, ordered.
 Result<sequence::Order> order_of(const Model& m, const Drafts& drafts, const piece::Demands& demands,
-                                 const std::vector<std::size_t>& proposed, Job& job) {
+                                 const std::vector<std::size_t>& proposed,
+                                 const std::vector<model::Edit>& edits, Job& job) {
   std::vector<model::FeatureShape> shapes;
   std::vector<sequence::Item> items;
   std::map<std::size_t, std::size_t> item_of;  // step -> item
@@ -149,6 +175,7 @@ Result<sequence::Order> order_of(const Model& m, const Drafts& drafts, const pie
       if (item_of.contains(before)) options.given.emplace_back(item_of[before], item_of[i]);
     }
   }
+  add_edits(m, edits, drafts.steps, proposed, options.given);
   add_craft(drafts.steps, proposed, items, options.given);
   options.wishes = wishes_of(m, demands, shapes_of);
   for (const SetupDraft& s : drafts.setups)
@@ -239,7 +266,8 @@ void drop_empty_setups(Drafts& drafts) {
 
 }  // namespace
 
-Result<Drafted> order_steps(model::Plan plan, Drafts drafts, const Required& required, Job& job) {
+Result<Drafted> order_steps(model::Plan plan, Drafts drafts, const Required& required, const Asked& asked,
+                            Job& job) {
   const piece::Demands& demands = required.demands;
   Learned learned;
   given::tell_leaning_setups(plan, drafts.setups, drafts.steps, job);
@@ -252,10 +280,15 @@ Result<Drafted> order_steps(model::Plan plan, Drafts drafts, const Required& req
     warn_of_parted(plan.model, steps, demands, job);
     return Drafted{std::move(plan), std::move(drafts), std::move(learned)};
   }
-  const auto order = order_of(plan.model, drafts, demands, proposed, job);
+  const auto order = order_of(plan.model, drafts, demands, proposed, asked.inputs.edits, job);
   if (!order) return tl::unexpected(order.error());
-  if (!order->cannot.empty())
-    return fail("PIP-ORDER", "the steps have no order that keeps every rule: " + order->cannot);
+  if (!order->cannot.empty()) {
+    std::string wanted;
+    for (const model::Edit& e : asked.inputs.edits) {
+      if (e.kind == model::EditKind::kOrder) wanted += "; wanted is " + model::words_of(e);
+    }
+    return fail("PIP-ORDER", "the steps have no order that keeps every rule: " + order->cannot + wanted);
+  }
   std::vector<StepDraft> sorted;
   for (const std::size_t i : given) sorted.push_back(std::move(steps[i]));
   for (const auto& setup : order->setups) {

@@ -15,6 +15,7 @@
 #include "planner/making/given/tool_material_wish.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/edit/edit.h"
 #include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
@@ -63,6 +64,10 @@ struct Inputs {
   int batch = 1;    ///< pieces
   double edge_break_mm = 0.0;                 ///< chamfer on edges that the part leaves sharp; 0: none
   std::vector<model::Provenance> provenance;  ///< origin of each input: named or default
+  /// What the operator wants, in the order in which it was said. Restrictions hold while operations, tools
+  /// and cuts are chosen; values are set into the plan that comes of it, and what depends on them is planned
+  /// anew.
+  std::vector<model::Edit> edits;
   given::ToolMaterialWish tool_materials;     ///< of tools whose file or list does not state it
   /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one
   /// only.
@@ -144,9 +149,14 @@ struct Anew {
 /// recorded in the ledger among the rejected alternatives. A plan without errors costs one check. A plan with
 /// open decisions is not checked.
 ///
+/// With Inputs::edits the values that they set are set into that plan, and what depends on them is planned
+/// anew (given/operator_edits.h); findings name the edits of their step, and a broken edit is one
+/// (EDIT-BROKEN). `bind` alone knows only what edits restrict.
+///
 /// Determinism  as `bind`, unless `Anew::until` is past: then nothing more is made anew, and what is there so
 ///              far is given, with its findings.
-/// Fails        as `bind`; PIP-STOPPED when the job was stopped, or its deadline came, before all was done.
+/// Fails        as `bind`; EDIT-… for edits that cannot be; PIP-STOPPED when the job was stopped, or its
+/// deadline came, before all was done.
 [[nodiscard]] Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs,
                                            const Policy& policy, Job& job, const Anew& anew = {});
 

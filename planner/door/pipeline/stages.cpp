@@ -20,6 +20,10 @@ const std::vector<model::Cutter>& usable(const Asked& asked, std::vector<model::
 
 }  // namespace
 
+const std::vector<model::Edit>* edits_of(const Inputs& inputs) {
+  return inputs.edits.empty() ? nullptr : &inputs.edits;
+}
+
 double grown_mm(const Inputs& inputs) { return inputs.stock_allowance_mm.value_or(0.0); }
 
 optimise::Options options_of(const Inputs& inputs) {
@@ -50,8 +54,8 @@ Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, 
 
 step::Wishes wishes_of(const Asked& asked) {
   const Inputs& inputs = asked.inputs;
-  return {inputs.objective,      asked.earning_per_min, asked.margin.deviations,
-          inputs.constant_feeds, inputs.cases.get(),    inputs.library};
+  return {inputs.objective,      asked.earning_per_min, asked.margin.deviations, inputs.constant_feeds,
+          inputs.cases.get(),    inputs.library,        edits_of(inputs)};
 }
 
 std::size_t cut_before(const Asked& asked, const Drafts& drafts) {
@@ -71,7 +75,8 @@ Drafted propose_missing(model::Plan plan, Drafts drafts, const Required& require
                                asked.margin.deviations,
                                required.demands.batch,
                                asked.inputs.cases.get(),
-                               asked.thrift};
+                               asked.thrift,
+                               edits_of(asked.inputs)};
   const propose::Sources sources{asked.inputs.rules, required.demands, asked.unreadable, choice,
                                  asked.policy.reopen >= Reopen::kOperations};
   auto made = propose::propose_missing(plan, std::move(drafts), sources, job);
@@ -100,7 +105,8 @@ Drafted select_open_tools(model::Plan plan, Drafts drafts, const Required& requi
                              required.demands,
                              asked.recorded.cutters,
                              asked.inputs.tool_materials,
-                             asked.inputs.cases.get()};
+                             asked.inputs.cases.get(),
+                             edits_of(asked.inputs)};
   given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);
   drafts.used = propose::share_tools(
       plan, drafts.steps,

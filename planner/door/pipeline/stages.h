@@ -59,6 +59,9 @@ struct Required {
 /// Excess of the raw piece over the finished part, mm.
 [[nodiscard]] double grown_mm(const Inputs& inputs);
 
+/// The operator's edits; null where there are none.
+[[nodiscard]] const std::vector<model::Edit>* edits_of(const Inputs& inputs);
+
 /// What is cut, and how carefully.
 struct Resolved {
   model::WorkMaterial material;
@@ -82,7 +85,7 @@ struct Resolved {
                                                             const std::vector<draft::SetupDraft>& setups);
 /// Set-ups, order, and what is measured between the steps.
 [[nodiscard]] Result<Drafted> order_steps(model::Plan plan, Drafts drafts, const Required& required,
-                                          Job& job);
+                                          const Asked& asked, Job& job);
 /// Fixtures and clamps of each set-up, where that is wanted.
 [[nodiscard]] Result<workholding::Held> hold_workpieces(const model::Plan& plan, const Drafts& drafts,
                                                         const Asked& asked, Job& job);

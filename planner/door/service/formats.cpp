@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/door/service/edits/edits_file.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
+#include "planner/model/plan/edit/provenance.h"
 
 namespace capstan::service {
 namespace {
@@ -49,6 +51,10 @@ Result<Written> report(const Format& /*f*/, const model::Plan& plan, Job& /*job*
   return Written{report_of(plan), 0};
 }
 
+Result<Written> edits(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Condemned& /*c*/) {
+  return Written{edits_text(model::edits_of(plan)), 0};
+}
+
 constexpr std::string_view kPart21 = "model/step";  // RFC 6838 registry: ISO 10303-21 files
 
 std::vector<Format> table() {
@@ -73,6 +79,7 @@ std::vector<Format> table() {
   for (const controls::Unwritten& u : controls::unwritten())
     out.push_back({u.id, u.name, {u.ending}, {}, Holds::kProgram});
   out.push_back({"report", "report", {".html"}, "text/html", Holds::kReport, false, nullptr, &report});
+  out.push_back({"edits", "edits", {".yaml"}, "application/yaml", Holds::kEdits, false, nullptr, &edits});
   return out;
 }
 

@@ -15,7 +15,7 @@
 namespace capstan::service {
 
 /// The content of a file of a format.
-enum class Holds : std::uint8_t { kPlan, kProgram, kToolTable, kReport };
+enum class Holds : std::uint8_t { kPlan, kProgram, kToolTable, kReport, kEdits };
 
 /// Result of a writer.
 struct Written {

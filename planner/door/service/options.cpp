@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "planner/controls/profile/profile.h"
 #include "planner/door/late/branches.h"
 #include "planner/door/late/changes.h"
+#include "planner/door/service/edits/edit_options.h"
 #include "planner/door/service/formats.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
@@ -164,7 +166,14 @@ constexpr const char* kStrict = "write nothing when there are findings";
 constexpr std::array<const char*, kVerbs> both(const char* text) { return {text, text, nullptr}; }
 
 std::vector<Option> table() {
-  return {
+  constexpr const char* kShop =
+      "the shop's settings: a file, or none; without it shop.yaml of this folder or of ~/.config/capstan";
+  std::vector<Option> out = {
+      {"shop",
+       Value::kText,
+       {kShop, kShop, kShop},
+       [](Request& r, Text t) { return r.shop = t, std::string(); },
+       {}},
       {"machine",
        Value::kText,
        {"machine: a file, or the id of a built-in one", "machine: a file, or the id of a built-in one",
@@ -348,6 +357,17 @@ std::vector<Option> table() {
        {},
        true},
   };
+  // Before what any command takes.
+  const auto edits = edit_options();
+  out.insert(std::find_if(out.begin(), out.end(), [](const Option& o) { return o.name == "bind"; }),
+             edits.begin(), edits.end());
+  for (Option& o : out) {
+    static constexpr std::string_view kOfShop[] = {
+        "machine", "control", "tools", "material", "stock",       "objective",         "margin", "feeds",
+        "rules",   "cases",   "cache", "solver",   "workholding", "general-tolerance", "assume", "edges"};
+    o.of_shop = std::find(std::begin(kOfShop), std::end(kOfShop), o.name) != std::end(kOfShop);
+  }
+  return out;
 }
 
 /// The fault of the text itself, before its meaning is looked at; empty: none.
@@ -398,7 +418,10 @@ Status set(Request& request, std::string_view name, const std::string& text) {
   const std::string given =
       wrong.empty() && option->value == Value::kWhole ? trimmed(*parse_double(text), 0) : text;
   if (wrong.empty()) wrong = option->set(request, given);
-  if (wrong.empty()) return {};
+  if (wrong.empty()) {
+    request.given.insert(std::string(name));
+    return {};
+  }
   return fail({.code = "OPTION-VALUE", .message = request.sign + std::string(name) + ": " + wrong});
 }
 

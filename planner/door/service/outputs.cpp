@@ -1,6 +1,7 @@
 #include "planner/door/service/outputs.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -161,7 +162,8 @@ Status write_all(const std::vector<Output>& outputs, const Job& job) {
   for (const Output& o : outputs) {
     if (o.path != "-") continue;
     const bool put = std::fwrite(o.bytes.data(), 1, o.bytes.size(), stdout) == o.bytes.size();
-    if (!put || std::fflush(stdout) != 0)
+    // Who reads may have enough before the end: `| head`.
+    if ((!put || std::fflush(stdout) != 0) && errno != EPIPE)
       return fail({.code = "FILE-WRITE", .message = "standard output cannot be written", .file = "-"});
   }
   return {};

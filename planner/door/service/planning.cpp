@@ -13,7 +13,10 @@
 #include "planner/door/service/shop.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/making/given/operator_edits.h"
 #include "planner/model/nouns/executable.h"
+#include "planner/model/plan/edit/held.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::service {
@@ -72,7 +75,8 @@ std::size_t features_of(const model::Plan& plan) {
 Code code_of(const Diagnostic& fault, Code otherwise) {
   const bool usage = fault.code == kUnknownName || fault.code == "MACHINE-GEAR" ||
                      fault.code == "FILE-WRITE" || fault.code.starts_with("MEM-") ||
-                     fault.code == "APP-EDGES" || fault.code.starts_with("OPTION-");
+                     fault.code == "APP-EDGES" || fault.code.starts_with("EDIT-") ||
+                     fault.code.starts_with("OPTION-");
   // Wherever the stop came: in reading, planning or writing.
   const bool stopped = fault.code.ends_with("-STOPPED");
   return usage ? Code::kUsage : stopped ? Code::kImpossible : otherwise;
@@ -131,6 +135,27 @@ Status decisions_of(const Request& request, const model::Plan& plan, late::Decis
   return {};
 }
 
+/// Sets the operator's edits into a plan before it is bound, and opens what they do not allow.
+Status edit(const Request& request, model::Plan& plan, pipeline::Inputs& inputs, Job& job) {
+  const bool all = model::edits_are_all(inputs.provenance);
+  if (inputs.edits.empty() && !all) return {};
+  const bool some = request.next || request.from;
+  const bool sets = std::any_of(request.edits.begin(), request.edits.end(), [](const model::Edit& e) {
+    return e.kind == model::EditKind::kSet || e.kind == model::EditKind::kPin;
+  });
+  if (some && sets)
+    return fail({.code = "EDIT-NEXT",
+                 .message = "values are set into a whole plan, not while single workingsteps are bound",
+                 .hint = "bind it with the edits first, then its workingsteps"});
+  if (some) return {};  // limits hold for those that are bound
+  auto taken = given::take_edits(plan, inputs.edits, inputs.library, all);
+  if (!taken) return tl::unexpected(taken.error());
+  inputs.edits = std::move(taken->edits);
+  std::erase_if(plan.provenance, model::is_edit);
+  for (const model::Edit& e : inputs.edits) plan.provenance.push_back(model::provenance_of(e));
+  return given::open_beyond_edits(plan, inputs.edits, inputs.library, 0, job);
+}
+
 /// Closes a plan that was read, in a shop whose choices are taken.
 Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Inputs inputs,
                        std::chrono::steady_clock::time_point began, Job& job) {
@@ -146,6 +171,8 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
                                     "numbers; or a plan that holds its cutters"},
         Code::kUsage);
   }
+  if (auto ok = edit(request, plan, inputs, job); !ok)
+    return failed(ok.error(), code_of(ok.error(), Code::kImpossible));
   late::LatePolicy policy;
   if (auto ok = decisions_of(request, plan, policy.may); !ok) return failed(ok.error(), Code::kUsage);
   policy.time = request.time;
@@ -205,7 +232,9 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
   const model::Plan& made = planned.part ? *planned.part : planned.plan;
   Verdict v;
   for (const auto& f : planned.findings) v.findings.push_back({made.file_name, f, false});
+  const auto held = model::held_steps(made);
   auto of_text = of_programs(planned, outputs, job);
+  for (FileFinding& f : of_text) model::name_edits(held, f.finding);
   std::vector<model::Finding> all = planned.findings;
   for (const FileFinding& f : of_text) all.push_back(f.finding);
   v.condemned = model::condemned(made, all);
@@ -219,6 +248,7 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
       o.bytes = std::move(text->bytes);
     }
     of_text = of_programs(planned, outputs, job);
+    for (FileFinding& f : of_text) model::name_edits(held, f.finding);
   }
   std::move(of_text.begin(), of_text.end(), std::back_inserter(v.findings));
   for (const FileFinding& f : v.findings) {

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <utility>
 
+#include "planner/door/service/foreign/foreign_file.h"
+#include "planner/door/service/formats.h"
 #include "planner/files/exchange/cad/stl.h"
 #include "planner/files/exchange/common/standard.h"
 #include "planner/files/exchange/exchange.h"
@@ -63,6 +65,12 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& j
     if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
     return json::read_json(std::move(bytes), path, job);
   }
+  if (const auto foreign = foreign_file(bytes))
+    return fail({.code = "READ-FOREIGN",
+                 .message = "this is " + std::string(foreign->what) + ", which is no part and no plan",
+                 .file = path,
+                 .expected = read_text(),
+                 .hint = std::string(foreign->hint)});
   exchange::ReadOptions options;
   options.strict = strict;
   return exchange::read_bytes(std::move(bytes), path, options, job);

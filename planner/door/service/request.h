@@ -2,13 +2,17 @@
 
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/code.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/making/optimise/solver/solver.h"
+#include "planner/model/plan/edit/edit.h"
 
 namespace capstan::service {
 
@@ -40,6 +44,12 @@ struct Request {
   std::string time;                                   ///< bind: when it is, for the record
   std::optional<std::string> profile;                 ///< check: a control's profile, by id or file
   bool schema = false;                                ///< check: what reading found is a finding, too
+  std::vector<model::Edit> edits;                     ///< of the operator, in the order they were given
+  std::optional<std::string> edits_file;              ///< more of them, which come first
+  std::optional<std::string> shop;                    ///< a shop file (shop_file/shop_file.h)
+  std::vector<std::string> materials = {};            ///< files of the shop's own, beside the shipped table
+  std::set<std::string> given = {};                   ///< names of the options that were set
+  std::map<std::string, std::string> from_shop = {};  ///< which of them came from which shop file
   unsigned threads = 1;
 
   /// Solvers that this program links beside NLopt.

@@ -9,12 +9,14 @@
 #include "casebase/casebase.h"
 
 #include "planner/controls/controls.h"
+#include "planner/door/service/edits/edits_file.h"
 #include "planner/door/service/options.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/tool_material.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "rules/engine/check.h"
 #include "rules/rules.h"
 #include "tooling/library/cutters/generic.h"
@@ -42,7 +44,10 @@ std::string objective_text(pipeline::Objective o) {
 }
 
 /// Name of an option in the provenance of a plan.
-std::string option(const Request& o, const std::string& name) { return o.sign + name; }
+std::string option(const Request& o, const std::string& name) {
+  const auto of_shop = o.from_shop.find(name.substr(0, name.find(' ')));
+  return (of_shop == o.from_shop.end() ? o.sign : of_shop->second + ": ") + name;
+}
 
 /// A material that is at hand, as a plan holds it.
 Status take_material(pipeline::Inputs& in, model::WorkMaterial own) {
@@ -253,6 +258,26 @@ std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
   return file.error();
 }
 
+/// What the operator wants: a file says all of it, but for what the caller adds; without a file what the plan
+/// was made with holds, too.
+Result<std::vector<model::Edit>> edits_of(const Request& o, const model::Plan& plan, Job& job) {
+  std::vector<model::Edit> out;
+  if (o.edits_file) {
+    auto of_file = load_edits(*o.edits_file, job);
+    if (!of_file) return of_file;
+    out = *std::move(of_file);
+  } else {
+    out = model::edits_of(plan);
+  }
+  const auto same = [](const model::Edit& a, const model::Edit& b) {
+    return a.kind == b.kind && model::text_of(a) == model::text_of(b);
+  };
+  for (const model::Edit& e : o.edits) {
+    if (std::none_of(out.begin(), out.end(), [&](const auto& x) { return same(x, e); })) out.push_back(e);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool has_data(const model::Machine& machine) { return !machine.axes[0].name.empty(); }
@@ -289,6 +314,14 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   in.provenance.push_back(
       {"materials", "shipped table, " + std::to_string(in.materials.size()) + " materials", kDefault});
 
+  for (const std::string& file : o.materials) {
+    auto own = tooling::load_material(file, in.materials, job);
+    if (!own) return tl::unexpected(own.error());
+    in.provenance.push_back({"materials", own->id, o.shop.value_or("") + ": materials " + file});
+    if (auto ok = tooling::add_start_values(*own, in.library); !ok) return tl::unexpected(ok.error());
+    in.materials.push_back(*std::move(own));
+  }
+
   poll();
   auto rules = rules::load_rules(o.rules.value_or(""), job);
   if (!rules) return tl::unexpected(rules.error());
@@ -321,7 +354,12 @@ Status take_choices(const Request& o, const model::Plan& plan, pipeline::Inputs&
   choices(o, plan, in);
   if (auto wrong = edges_wrong(o, in)) return fail(*std::move(wrong));
   if (o.cases) in.provenance.push_back({"cases", casebase::name_of(*o.cases), "named by the caller"});
-  return {};
+  auto edits = edits_of(o, plan, job);
+  if (!edits) return tl::unexpected(edits.error());
+  in.edits = *std::move(edits);
+  if (o.edits_file)
+    in.provenance.push_back({std::string(model::kEditsFile), *o.edits_file, option(o, "edits " + *o.edits_file)});
+  return known_names(in.edits, in.library, plan);
 }
 
 Result<pipeline::Inputs> gather(const Request& o, const model::Plan& plan, Job& job) {

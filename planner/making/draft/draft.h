@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/ground/geometry/placement.h"
@@ -11,6 +12,7 @@
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/edit/restrictions.h"
 #include "planner/model/plan/proposal.h"
 #include "planner/model/plan/resources/workholding.h"
 
@@ -70,6 +72,7 @@ struct StepDraft {
   std::optional<bool> inwards = {};
   std::vector<std::size_t> after;            ///< indices of the steps that must come before; chain order
   std::string unreadable = {};               ///< what its file states wrongly of it or its feature: not made
+  model::EditLimits limits = {};             ///< of the operator, on its feed, speed and depth
   std::optional<ProbingDraft> probing = {};  ///< measured right before this step, if it can be
 };
 
@@ -78,6 +81,11 @@ struct StepDraft {
 
 /// The name that messages call a step by.
 [[nodiscard]] std::string name_of(const model::Model& m, const StepDraft& step);
+
+/// What patterns of edits may call it by. Refers to the model's and the step's texts.
+[[nodiscard]] model::StepNames edit_names(const model::Model& m, const StepDraft& step);
+/// The name of a feature; empty: it has none.
+[[nodiscard]] std::string_view feature_name(const model::Model& m, AnyRef feature);
 
 /// The cutters that steps and the measurements before them use, each once.
 [[nodiscard]] std::vector<std::string> cutters_of(const std::vector<StepDraft>& steps);

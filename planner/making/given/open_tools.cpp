@@ -163,7 +163,14 @@ bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& us
     wanted.places = static_cast<int>(step.shapes.size());
   }
   wanted.used = used;
-  auto s = tooling::select(*requirement, choice.usable, plan.material, plan.machine, wanted);
+  std::vector<model::Cutter> kept;
+  std::vector<model::Rejected> barred;
+  const std::vector<model::Cutter>& usable =
+      choice.edits == nullptr ? choice.usable
+                              : model::allowed(*choice.edits, draft::edit_names(plan.model, step),
+                                               choice.usable, requirement->classes, kept, barred);
+  auto s = tooling::select(*requirement, usable, plan.material, plan.machine, wanted);
+  s.rejected.insert(s.rejected.end(), barred.begin(), barred.end());
   if (!step.shapes.empty())
     step::weigh_by_cases(choice.cases, plan, step::of_step(plan.model, step), step.shapes.front(), s);
   if (s.ranked.empty()) {
@@ -171,7 +178,10 @@ bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& us
       needed.push_back({step.feature, draft::name_of(plan.model, step), std::move(lacks->cutter),
                         model::words_of(*requirement)});
     plan.unplanned.push_back(
-        {step.feature, "operation '" + name + "': no cutter fits; " + s.would_fit + " would"});
+        {step.feature,
+         "operation '" + name + "': no cutter fits; " + s.would_fit + " would" +
+             (barred.empty() ? std::string()
+                             : "; ruled out is '" + barred.front().what + "', by " + barred.front().why)});
     job.report({.code = "PIP-NO-TOOL",
                 .severity = Severity::kError,
                 .message = "operation '" + name + "' finds no cutter",
@@ -300,7 +310,8 @@ void tell_apart(const std::vector<StepDraft>& steps, const std::vector<model::Cu
 bool take_recorded(const model::Plan& plan, const Choice& choice, const StepDraft& step,
                    model::Cutter& cutter) {
   const auto* d = plan.ledger.find(step.operation, "its_tool");
-  if (!model::by_planning(d)) return false;
+  const bool by_edit = d != nullptr && plan.ledger.reason(d->reason).id == model::kByEdit;
+  if (!model::by_planning(d) && !by_edit) return false;
   const auto named = [&](const model::Cutter& c) { return c.id == cutter.id; };
   const auto it = std::find_if(choice.recorded.begin(), choice.recorded.end(), named);
   constexpr double kSame = 1e-6;  // mm

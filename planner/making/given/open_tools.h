@@ -30,6 +30,7 @@ struct Choice {
   const std::vector<model::Cutter>& recorded;  ///< what the plan said of its cutters when it was read
   const ToolMaterialWish& materials;           ///< of tools whose file does not state it
   const casebase::CaseBase* cases = nullptr;   ///< null: no precedents
+  const std::vector<model::Edit>* edits = nullptr;  ///< of the operator; null: none
 };
 
 /// Gives each step of the file its cutter. Writes the chosen tools into `plan`, and reports the steps without

@@ -116,6 +116,22 @@ void take_what_is_left(const model::ProposedStep& before, const model::ProposedS
   wanted.width_mm = left;
 }
 
+/// Why the operator's edits rule a step out; empty: they do not.
+std::string ruled_out(const Choice& choice, const model::StepNames& names, const model::ProposedStep& step) {
+  if (choice.edits == nullptr) return {};
+  if (const auto no = model::barred_operation(*choice.edits, names, step.operation))
+    return step.name + ": " + no->why;
+  if (const auto no = model::barred_strategy(*choice.edits, names, model::word_of(step.strategy)))
+    return step.name + ": " + no->why;
+  return {};
+}
+
+/// What edits rule out of the cutters that would do.
+std::string and_barred(const std::vector<model::Rejected>& barred) {
+  return barred.empty() ? std::string()
+                        : "; ruled out is '" + barred.front().what + "', by " + barred.front().why;
+}
+
 /// A chain with a cutter for each step, or why there is none.
 struct Equipped {
   Chosen chosen;
@@ -144,7 +160,17 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
     wanted.used = used;
     if (choice.thrift != Thrift::kNone) wanted.most = choice.usable.size();
     if (i > 0) take_what_is_left(chain[i - 1], step, wanted);
-    auto s = tooling::select(step.tool, choice.usable, plan.material, plan.machine, wanted);
+    const model::StepNames names{draft::feature_name(plan.model, member.feature), step.name};
+    out.why_not = ruled_out(choice, names, step);
+    if (!out.why_not.empty()) return out;
+    std::vector<model::Cutter> kept;
+    std::vector<model::Rejected> barred;
+    const std::vector<model::Cutter>& usable =
+        choice.edits == nullptr
+            ? choice.usable
+            : model::allowed(*choice.edits, names, choice.usable, step.tool.classes, kept, barred);
+    auto s = tooling::select(step.tool, usable, plan.material, plan.machine, wanted);
+    s.rejected.insert(s.rejected.end(), barred.begin(), barred.end());
     const casebase::OfStep of{step.operation, member.feature, coolant_of(plan.machine, step)};
     step::weigh_by_cases(choice.cases, plan, of, shape, s);
     if (step.operation == TypeId::kWorkpieceProbing) {  // can be measured by other means
@@ -152,7 +178,7 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
       continue;
     }
     if (s.ranked.empty()) {
-      out.why_not = none_fits(step, s);
+      out.why_not = none_fits(step, s) + and_barred(barred);
       return out;
     }
     tell_apart(steps, tools, s);

@@ -40,6 +40,7 @@ struct Choice {
   int batch = 1;                              ///< pieces
   const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
   Thrift thrift = Thrift::kNone;
+  const std::vector<model::Edit>* edits = nullptr;  ///< of the operator; null: none
 };
 
 struct Chosen {

@@ -24,6 +24,7 @@ struct Wishes {
       false;  ///< one feed for the whole path of a step: the largest that all its sections allow
   const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
   const std::vector<model::Cutter>& library;
+  const std::vector<model::Edit>* edits = nullptr;  ///< of the operator; null: none
 };
 
 /// The plan that a step is made for, as it is so far. Refers to what the caller keeps.

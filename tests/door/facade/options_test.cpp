@@ -90,6 +90,17 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_TRUE(r.stop_at_deadline);
   EXPECT_FALSE(r.allow_findings);
   EXPECT_EQ(r.threads, 3U);
+  PlanOptions edited;
+  edited.set = {"POCKET/tool=T5", "feed=900"};
+  edited.pin = {"SLOT/tool"};
+  edited.limit = {"feed<=2000"};
+  edited.forbid = {"operation=reaming"};
+  edited.order = {"A<B"};
+  edited.edits = "part.edits.yaml";
+  const service::Request with_edits = request(edited);
+  EXPECT_EQ(with_edits.edits.size(), 6U);
+  EXPECT_EQ(words_of(with_edits.edits.front()), "set: set POCKET/tool=T5");
+  EXPECT_EQ(with_edits.edits_file, "part.edits.yaml");
   PlanOptions all_the_same;
   all_the_same.allow_findings = true;
   EXPECT_TRUE(request(all_the_same).allow_findings);

@@ -123,6 +123,25 @@ TEST(Facade, OptionsReachThePlan) {
   EXPECT_EQ(wrong.diagnostics.back().code, "OPTION-VALUE");
 }
 
+TEST(Facade, APersonsEditsHoldInThePlanAndComeBackAsAFile) {
+  PlanOptions options;
+  options.set = {"SLOT area_rough/feed=1111"};
+  options.limit = {"feed<=1500"};
+  const PlanOutput out = plan_file(kBracket, options);
+  ASSERT_TRUE(out.planned);
+  EXPECT_FALSE(out.linuxcnc.empty());
+  EXPECT_THAT(out.linuxcnc, HasSubstr("F1111"));
+  EXPECT_THAT(out.forms.at("edits"), HasSubstr("- set: \"SLOT area_rough/feed=1111\"\n  - limit: \"feed<=1500\""));
+  options.set = {"SLOT area_rough/feed=9000"};
+  options.limit = {};
+  const PlanOutput broken = plan_file(kBracket, options);
+  EXPECT_TRUE(broken.linuxcnc.empty());
+  ASSERT_FALSE(broken.condemned.empty());
+  EXPECT_THAT(broken.condemned.front().text, HasSubstr("set SLOT area_rough/feed=9000"));
+  options.set = {"SLIT/feed=9000"};
+  EXPECT_FALSE(plan_file(kBracket, options).planned);
+}
+
 TEST(Facade, FormsStandUnderTheNamesOfTheirFormats) {
   const PlanOutput out = plan_file(capstan::testing::source_dir() + "/examples/plate_bound.p21", {});
   ASSERT_TRUE(out.planned);

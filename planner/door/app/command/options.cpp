@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <sstream>
 #include <tuple>
 
 #include "planner/door/app/command/reference.h"
 #include "planner/door/app/command/run.h"
+#include "planner/door/app/command/usage/examples.h"
+#include "planner/door/app/command/usage/mistyped.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
 #include "planner/making/optimise/solver/solvers.h"
@@ -31,9 +34,10 @@ Numbers are in mm, rad, mm/min, 1/min and s. The whole grammar: docs/inspect.md)
 
 /// Texts as CLI11 gives them, before they mean anything.
 struct Raw {
-  std::string file, diagnostics = "text";
+  std::string file, diagnostics = "text", progress = "auto";
   std::map<std::string_view, std::string> of;  ///< by the name of the service's option
   std::map<std::string_view, bool> flags;
+  std::map<std::string_view, std::vector<std::string>> lists;  ///< of options that may be repeated
 };
 
 constexpr std::string_view kCases = "cases";  // the option that names a case base
@@ -43,6 +47,9 @@ constexpr std::array kTerminal = {
     TerminalOption{"force", "a library writes no file"},
     TerminalOption{"diagnostics", "a library gives diagnostics as values"},
     TerminalOption{"json", "a library gives findings as values"},
+    TerminalOption{"quiet", "a library prints nothing"},
+    TerminalOption{"verbose", "a library gives all diagnostics"},
+    TerminalOption{"progress", "a library calls the caller's function"},
     TerminalOption{"help", "a header says what there is"},
     TerminalOption{"version", "a function of the library gives it"},
 };
@@ -86,6 +93,14 @@ class CommandLine {
     app_.fallthrough();
     app_.add_option("--diagnostics", raw_.diagnostics, "how diagnostics are printed: text or json")
         ->check(CLI::IsMember(std::vector<std::string>{"text", "json"}));
+    auto* quiet =
+        app_.add_flag("-q,--quiet", out_.quiet, "print errors only, and the last line where not all is well");
+    app_.add_flag("-v,--verbose", out_.verbose, "print each diagnostic, where many say the same, too")
+        ->excludes(quiet);
+    app_.add_option(
+            "--progress", raw_.progress,
+            "how progress is told: auto (a bar on a terminal), json (a line every half second) or none")
+        ->check(CLI::IsMember(std::vector<std::string>{"auto", "json", "none"}));
     for (const service::Option& o : service::options()) {
       if (o.of_all_commands) option(&app_, o, service::Verb::kPlan);
     }
@@ -96,6 +111,7 @@ class CommandLine {
     show();
     shop();
     cases();
+    examples(app_, "capstan");
   }
 
   [[nodiscard]] CommandText text() const { return text_of(app_); }
@@ -106,14 +122,36 @@ class CommandLine {
     } catch (const CLI::ParseError& e) {
       std::ostringstream text;
       const int code = app_.exit(e, text, text);
-      return {std::nullopt, {code == 0 ? static_cast<int>(kDone) : static_cast<int>(kUsage), text.str()}};
+      if (code == 0) return {std::nullopt, {kDone, text.str(), {}}};
+      return wrong_usage(text.str(), e.what(), argc, argv);
     }
     const std::string wrong = understand();
-    if (!wrong.empty()) return {std::nullopt, {kUsage, wrong + "\nRun with --help for more information.\n"}};
+    if (!wrong.empty())
+      return {
+          std::nullopt,
+          {kUsage, wrong + "\nRun with --help for more information.\n", {.code = "USAGE", .message = wrong}}};
     return {std::move(out_), {}};
   }
 
  private:
+  /// Adds its examples to the help of a command and of those below it.
+  static void examples(CLI::App& app, const std::string& called) {
+    const std::string notes = app.get_footer();
+    std::string shown = "Examples:\n";
+    std::istringstream lines{std::string(examples_of(called))};
+    for (std::string line; std::getline(lines, line);) shown += "  " + line + "\n";
+    shown.pop_back();
+    app.footer(notes.empty() ? shown : notes + "\n\n" + shown);
+    for (CLI::App* sub : app.get_subcommands({})) examples(*sub, called + " " + sub->get_name());
+  }
+  Parsed wrong_usage(const std::string& text, std::string said, int argc, const char* const* argv) {
+    const std::span<const char* const> words{argv + std::min(argc, 1), argv + argc};
+    if (auto d = mistyped(command_reference(), words))
+      return {std::nullopt, {kUsage, "capstan: " + to_text(*d) + "\n", *d}};
+    if (const auto end = said.find('\n'); end != std::string::npos) said.resize(end);
+    return {std::nullopt, {kUsage, text, {.code = "USAGE", .message = std::move(said)}}};
+  }
+
   CLI::App* command(CLI::App& in, const std::string& name, const std::string& help, Command c) {
     CLI::App* sub = in.add_subcommand(name, help);
     sub->callback([this, c] { out_.command = c; });
@@ -144,6 +182,9 @@ class CommandLine {
     CLI::Option* added = nullptr;
     if (o.value == service::Value::kFlag) {
       added = sub->add_flag(name, raw_.flags[o.name], std::string(o.help_of(verb)));
+    } else if (o.repeatable) {
+      added = sub->add_option(name, raw_.lists[o.name], std::string(o.help_of(verb)) + "; may be repeated");
+      added->expected(1)->take_all();  // one value each, so that a positional may follow
     } else {
       added = sub->add_option(name, raw_.of[o.name], std::string(o.help_of(verb)));
     }
@@ -220,25 +261,28 @@ class CommandLine {
     tools->require_subcommand(1);
     auto* list = command(*tools, "list", "a line per cutter", Command::kToolsList);
     option(list, "tools", "tool library: a file, or `generic`");
+    option(list, "shop", "the shop's settings: a file, or none");
     list->add_option("filter", out_.words, "only cutters whose id or class contains this");
     auto* one = command(*tools, "show", "all that is known of a cutter, with sources", Command::kToolsShow);
     option(one, "tools", "tool library: a file, or `generic`");
+    option(one, "shop", "the shop's settings: a file, or none");
     one->add_option("id", out_.words, "the cutter's id")->required();
     tool_files(*tools);
-    for (const auto& [name, help, c] :
-         {std::tuple("materials", "the work materials that are known", Command::kMaterialsList),
-          std::tuple("machines", "the built-in machines", Command::kMachinesList),
-          std::tuple("fixtures", "the built-in fixtures and clamps", Command::kFixturesList)}) {
-      auto* known = app_.add_subcommand(name, help);
-      known->require_subcommand(1);
-      auto* all = command(*known, "list", "a line each", c);
-      all->add_option("filter", out_.words, "only those whose line contains this");
-      if (c == Command::kMaterialsList) {
-        auto* page =
-            command(*known, "show", "all that is known of a material, with sources", Command::kMaterialsShow);
-        page->add_option("name", out_.words, "its id or a name, or a file of --material")->required();
-      }
-    }
+    known("materials", "the work materials that are known", Command::kMaterialsList, Command::kMaterialsShow,
+          "its id or a name, or a file of --material");
+    known("machines", "the built-in machines", Command::kMachinesList, Command::kMachinesShow, "its id");
+    known("fixtures", "the built-in fixtures and clamps", Command::kFixturesList, Command::kFixturesShow,
+          "its id");
+    known("controls", "the controls that programs are written for", Command::kControlsList,
+          Command::kControlsShow, "its id");
+    auto* own = app_.add_subcommand("shop", "the shop's own settings");
+    own->require_subcommand(1);
+    auto* init =
+        command(*own, "init", "write a file of settings to fill in, with what each is", Command::kShopInit);
+    init->add_option("-o,--output", out_.outputs, "the file; shop.yaml without it")->expected(1);
+    init->add_option("entries", out_.words, "entries that hold, as NAME=VALUE: machine=mill.yaml");
+    option(command(*own, "show", "the settings that hold here", Command::kShopShow), "shop",
+           "the shop's settings: a file, or none");
     auto* rules = app_.add_subcommand("rules", "the rule tables");
     rules->require_subcommand(1);
     for (auto* sub :
@@ -246,6 +290,18 @@ class CommandLine {
           command(*rules, "list", "a line per row", Command::kRulesList)}) {
       option(sub, "rules", "a folder of rule tables to add to the built-in ones");
     }
+  }
+
+  /// A list of what comes with the planner, and all of one.
+  void known(const std::string& name, const std::string& help, Command list, Command show,
+             const std::string& called) {
+    auto* of = app_.add_subcommand(name, help);
+    of->require_subcommand(1);
+    command(*of, "list", "a line each", list)
+        ->add_option("filter", out_.words, "only those whose line contains this");
+    command(*of, "show", "all that is known of one, with sources", show)
+        ->add_option("name", out_.words, called)
+        ->required();
   }
 
   void tool_files(CLI::App& tools) {
@@ -258,6 +314,7 @@ class CommandLine {
     file(convert, "library", "a file or folder");
     auto* out = command(tools, "export", "write the library that planning uses", Command::kToolsExport);
     option(out, "tools", "tool library: a file, a folder, or `generic`");
+    option(out, "shop", "the shop's settings: a file, or none");
     for (auto* sub : {import, convert, out}) {
       auto* o = sub->add_option("-o,--output", out_.outputs,
                                 "a file to write, its format told by its ending; may be repeated");
@@ -420,6 +477,13 @@ class CommandLine {
     if (std::string wrong = empty_value(app_); !wrong.empty()) return wrong;
     service::Request& request = out_.inputs;
     for (const service::Option& o : service::options()) {
+      if (const auto list = raw_.lists.find(o.name); list != raw_.lists.end()) {
+        for (const std::string& text : list->second) {
+          if (auto ok = service::set(request, o.name, text); !ok) return ok.error().message;
+          if (out_.command == Command::kServe) out_.serve.session.emplace_back(o.name, text);
+        }
+        continue;
+      }
       std::string text;
       if (const auto flag = raw_.flags.find(o.name); flag != raw_.flags.end() && flag->second) text = "yes";
       if (const auto at = raw_.of.find(o.name); at != raw_.of.end()) text = at->second;
@@ -430,6 +494,9 @@ class CommandLine {
     if (std::string wrong = service::contradiction(request); !wrong.empty()) return wrong;
     request.backends = optimise::all_backends();
     out_.json_diagnostics = raw_.diagnostics == "json";
+    out_.progress = raw_.progress == "json"   ? ProgressTold::kJson
+                    : raw_.progress == "none" ? ProgressTold::kNone
+                                              : ProgressTold::kAuto;
     return {};
   }
 
@@ -444,6 +511,14 @@ std::span<const TerminalOption> terminal_options() { return kTerminal; }
 
 CommandText command_reference() { return CommandLine().text(); }
 
-Parsed parse_command_line(int argc, const char* const* argv) { return CommandLine().parse(argc, argv); }
+Parsed parse_command_line(int argc, const char* const* argv) {
+  // `capstan help plan` is `capstan plan --help`.
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc > 1 && std::string_view(words[1]) == "help") {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
+  return CommandLine().parse(static_cast<int>(words.size()), words.data());
+}
 
 }  // namespace capstan::app

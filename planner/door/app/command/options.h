@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/door/app/command/telling/telling.h"
 #include "planner/door/service/request.h"
 
 namespace capstan::app {
@@ -28,7 +29,13 @@ enum class Command : std::uint8_t {
   kMaterialsList,
   kMaterialsShow,
   kMachinesList,
+  kMachinesShow,
   kFixturesList,
+  kFixturesShow,
+  kControlsList,
+  kControlsShow,
+  kShopInit,
+  kShopShow,
   kRulesCheck,
   kRulesList,
   kCasesAdd,
@@ -99,6 +106,9 @@ struct Options {
   bool force = false;                ///< an output may be an input, too
   bool json = false;                 ///< check: findings as JSON on standard output
   bool json_diagnostics = false;     ///< one JSON object per line on standard error
+  bool quiet = false;                ///< errors only, and the last line where not all is well
+  bool verbose = false;              ///< each diagnostic, none folded
+  ProgressTold progress = ProgressTold::kAuto;
   std::vector<std::string> words;    ///< tools: a filter, an id; cases: ids, a filter
   ToolsOptions tools;
   std::string today;      ///< cases tune: a date
@@ -113,6 +123,7 @@ struct Options {
 struct Ending {
   int code = 0;
   std::string text;
+  Diagnostic fault = {};  ///< of wrong usage, for programs
 };
 struct Parsed {
   std::optional<Options> options;

@@ -1,5 +1,6 @@
 #include "planner/door/app/command/run.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -10,7 +11,9 @@
 #include "planner/door/app/command/finish.h"
 #include "planner/door/app/command/options.h"
 #include "planner/door/app/command/session.h"
+#include "planner/door/app/command/usage/mistyped.h"
 #include "planner/door/service/outputs.h"
+#include "planner/door/service/shop_file/shop_file.h"
 
 namespace capstan::app {
 namespace {
@@ -44,7 +47,16 @@ int dispatch(Session& s) {
       return run_materials(s);
     case Command::kMachinesList:
     case Command::kFixturesList:
+    case Command::kControlsList:
       return run_known(s);
+    case Command::kMachinesShow:
+    case Command::kFixturesShow:
+    case Command::kControlsShow:
+      return run_shown(s);
+    case Command::kShopInit:
+      return run_shop_init(s);
+    case Command::kShopShow:
+      return run_shop_show(s);
     case Command::kRulesCheck:
     case Command::kRulesList:
       return run_rules(s);
@@ -82,7 +94,8 @@ int dispatch(Session& s) {
 std::vector<std::string> read_by(const Options& o) {
   std::vector<std::string> out = o.files;
   const service::Request& in = o.inputs;
-  for (const auto& path : {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding}) {
+  for (const auto& path :
+       {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding, in.edits_file, in.shop}) {
     if (path) out.push_back(*path);
   }
   for (const std::string& path : {o.tools.column_map, o.log.plan, o.log.program, o.log.inspection}) {
@@ -91,8 +104,37 @@ std::vector<std::string> read_by(const Options& o) {
   return out;
 }
 
+/// Takes the shop's settings, from the file that is named or found, where the command asks anything of a
+/// shop.
+int in_shop(Session& s) {
+  service::Request& in = s.options.inputs;
+  switch (s.options.command) {
+    case Command::kPlan:
+    case Command::kBind:
+    case Command::kCheck:
+    case Command::kToolsList:
+    case Command::kToolsShow:
+    case Command::kToolsExport:
+    case Command::kShopShow:
+      break;
+    default:
+      return kDone;
+  }
+  if (!in.shop) in.shop = service::found_shop();
+  if (s.options.command == Command::kShopShow) return kDone;  // says all of it
+  auto with = service::with_shop(in, s.job);
+  if (!with) return s.end(with.error(), kUsage);
+  in = *std::move(with);
+  if (in.from_shop.empty()) return kDone;
+  std::string entries;
+  for (const auto& [name, file] : in.from_shop) entries += (entries.empty() ? "" : ", ") + name;
+  s.job.note("SHOP", "settings of " + *in.shop + ": " + entries + "; --shop none leaves them out");
+  return kDone;
+}
+
 /// A fault of the outputs' paths ends the call before any work.
 int begun(Session& s) {
+  if (const int code = in_shop(s); code != kDone) return code;
   std::vector<std::string> outputs = s.options.outputs;
   if (!s.options.tools.save_map.empty()) outputs.push_back(s.options.tools.save_map);
   if (auto ok = service::can_be_written(outputs, read_by(s.options), s.options.force); !ok)
@@ -169,7 +211,10 @@ int run(int argc, const char* const* argv) {
   std::signal(SIGPIPE, SIG_IGN);
   Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.options) {
-    std::fputs(parsed.ending.text.c_str(), parsed.ending.code == kDone ? stdout : stderr);
+    const bool wrong = parsed.ending.code != kDone;
+    const bool json = wrong && wants_json({argv + std::min(argc, 1), argv + argc});
+    const std::string text = json ? diagnostic_json(parsed.ending.fault) + "\n" : parsed.ending.text;
+    std::fputs(text.c_str(), wrong ? stderr : stdout);
     return parsed.ending.code;
   }
   Session session(*std::move(parsed.options));

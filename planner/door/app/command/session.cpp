@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -13,46 +13,12 @@
 #include <utility>
 
 #include "planner/door/app/command/folded_diagnostics.h"
+#include "planner/door/app/command/telling/telling.h"
 #include "planner/door/service/ending/last_line.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::app {
 namespace {
-
-/// A bar on a terminal, once work has taken more than a second; nothing in a pipe.
-class Bar {
- public:
-  void show(std::string_view stage, double fraction) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - begun_ < std::chrono::seconds(1) || now - shown_ < std::chrono::milliseconds(100)) return;
-    shown_ = now;
-    constexpr int kWidth = 30;
-    const double f = fraction < 0.0 ? 0.0 : fraction > 1.0 ? 1.0 : fraction;
-    const auto full = static_cast<std::size_t>(f * kWidth);
-    const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
-    std::fprintf(stderr, "\r%-20.*s [%s] %3d %%", static_cast<int>(stage.size()), stage.data(), bar.c_str(),
-                 static_cast<int>(100.0 * f));
-    std::fflush(stderr);
-    visible = true;
-  }
-  bool visible = false;
-
- private:
-  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point shown_;
-};
-
-Bar& bar() {
-  static Bar one;
-  return one;
-}
-
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  return text;
-}
 
 /// Of the commands that say whether something is safe: which of them this is.
 std::optional<service::Verb> verb_of(Command command) {
@@ -65,6 +31,31 @@ std::optional<service::Verb> verb_of(Command command) {
       return service::Verb::kCheck;
     default:
       return std::nullopt;
+  }
+}
+
+/// Whether what the command was asked for is on standard output, so that it needs no last line.
+bool prints(Command command) {
+  switch (command) {
+    case Command::kExplain:
+    case Command::kInspect:
+    case Command::kDiff:
+    case Command::kToolsList:
+    case Command::kToolsShow:
+    case Command::kMaterialsList:
+    case Command::kMaterialsShow:
+    case Command::kMachinesList:
+    case Command::kMachinesShow:
+    case Command::kFixturesList:
+    case Command::kFixturesShow:
+    case Command::kControlsList:
+    case Command::kControlsShow:
+    case Command::kShopShow:
+    case Command::kCasesNearest:
+    case Command::kRulesList:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -94,8 +85,8 @@ std::string summary_line(const Session& s, const std::vector<Diagnostic>& said, 
 
 Session::Session(Options o) : options(std::move(o)) {
   job.threads = options.inputs.threads;
-  if (::isatty(STDERR_FILENO) != 0 && !options.json_diagnostics)
-    job.set_progress([](std::string_view stage, double fraction) { bar().show(stage, fraction); });
+  const bool read = ::isatty(STDERR_FILENO) != 0 && !options.json_diagnostics && !options.quiet;
+  if (auto tell = progress_teller(options.progress, read)) job.set_progress(std::move(tell));
 }
 
 namespace {
@@ -163,22 +154,20 @@ int Session::end(const Diagnostic& d, int code) {
 }
 
 void print_diagnostics(Session& s, int code) {
-  if (bar().visible) std::fputs("\r\033[K", stderr);
+  end_progress();
   const std::vector<Diagnostic> said = without_repeats(s.job.diagnostics());
   if (s.options.json_diagnostics) {
     for (const Diagnostic& d : said) std::fprintf(stderr, "%s\n", diagnostic_json(d).c_str());
   } else {
-    for (const Diagnostic& d : folded_diagnostics(said))
-      std::fprintf(stderr, "%s\n", one_line(to_text(d)).c_str());
+    const bool colour = in_colour();
+    for (const Diagnostic& d : s.options.verbose ? said : folded_diagnostics(said)) {
+      if (s.options.quiet && d.severity != Severity::kError) continue;
+      std::fprintf(stderr, "%s\n", line_of(d, colour).c_str());
+    }
   }
-  const bool shows =
-      s.options.command != Command::kExplain && s.options.command != Command::kInspect &&
-      s.options.command != Command::kDiff && s.options.command != Command::kToolsList &&
-      s.options.command != Command::kToolsShow && s.options.command != Command::kMaterialsList &&
-      s.options.command != Command::kMaterialsShow && s.options.command != Command::kMachinesList &&
-      s.options.command != Command::kFixturesList && s.options.command != Command::kCasesNearest &&
-      s.options.command != Command::kRulesList;
+  const bool shows = !prints(s.options.command);
   if (!shows && code <= kFindings) return;  // the requested text is on standard output
+  if (s.options.quiet && code == kDone) return;
   const std::string line = summary_line(s, said, code);
   if (s.options.json_diagnostics) {
     std::fprintf(stderr, "%s\n",
@@ -189,7 +178,9 @@ void print_diagnostics(Session& s, int code) {
 }
 
 bool print(const std::string& text) {
-  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+    return true;
+  return errno == EPIPE;  // who reads has enough: `| head`
 }
 
 Diagnostic as_diagnostic(const model::Finding& f, const std::string& file, bool program) {

@@ -36,7 +36,8 @@ struct Session {
 
 /// Prints the job's diagnostics and the summary line on standard error, as `--diagnostics` says.
 void print_diagnostics(Session& session, int code);
-/// Text for people or programs on standard output. False when it cannot be written (a closed pipe).
+/// Text for people or programs on standard output. False when it cannot be written; a reader that closes its
+/// end early (`| head`) has what it wants.
 bool print(const std::string& text);
 
 /// A finding as a diagnostic of the plan or program it is about.
@@ -58,6 +59,9 @@ int run_convert(Session& s);
 int run_tools(Session& s);
 int run_tools_convert(Session& s);
 int run_known(Session& s);
+int run_shown(Session& s);
+int run_shop_init(Session& s);
+int run_shop_show(Session& s);
 int run_materials(Session& s);
 int run_material(Session& s);
 int run_rules(Session& s);

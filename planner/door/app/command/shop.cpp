@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "planner/controls/controls.h"
 #include "planner/door/app/command/session.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/nearest_names.h"
@@ -139,6 +140,9 @@ int run_known(Session& s) {
       if (!m) return s.end(m.error(), kUnreadable);
       rows.push_back(machine_known(*m, id));
     }
+  } else if (s.options.command == Command::kControlsList) {
+    for (const controls::Dialect* d : controls::dialects())
+      rows.push_back({std::string(d->id), std::string(d->name), std::string(d->program.ending)});
   } else {
     const auto fixtures = tooling::shipped_fixtures(s.job);
     if (!fixtures) return s.end(fixtures.error(), kUnreadable);

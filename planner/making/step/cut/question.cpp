@@ -243,6 +243,21 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
     q.deflection_limit_mm = std::max(q.deflection_limit_mm, kWallOfZone * toolpath::kLastSide);
 }
 
+/// The operator's limits: on feed and speed as if the machine did no more, on depth as if a level did not.
+void hold_to_edits(const StepDraft& step, optimise::CutQuestion& q) {
+  if (const auto most = step.limits.feed_mm_min) {
+    for (auto& axis : q.machine.axes)
+      axis.feed_max_mm_min = axis.feed_max_mm_min > 0.0 ? std::min(axis.feed_max_mm_min, *most) : *most;
+  }
+  if (const auto most = step.limits.speed_rpm) {
+    double& rpm = q.machine.spindle.rpm_max;
+    rpm = rpm > 0.0 ? std::min(rpm, *most) : *most;
+  }
+  if (const auto most = step.limits.depth_mm; most && mills(q)) {
+    q.ap_most_mm = q.ap_most_mm > 0.0 ? std::min(q.ap_most_mm, *most) : *most;
+  }
+}
+
 }  // namespace
 
 double engaged_diameter_mm(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
@@ -410,6 +425,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   hold_quality(p, step, job, q);
   q.peak_force_limit_n = most_force_n(p, step, q);
   q.override_locked = override_locked(p, step);
+  hold_to_edits(step, q);
   const auto given = given_technology(m, step.operation, step.cutter);
   if ((!step.open_technology || step.keep_speed) && given.rpm) q.n_rpm = std::abs(*given.rpm);
   if (!step.open_technology) {

@@ -91,6 +91,9 @@ bool may_engage_constantly(const PlanSoFar& p, const StepDraft& step, const tool
                     !(job.axial_depth_mm > 0.0) && !(job.radial_depth_mm > 0.0) &&
                     job.multiple_passes.value_or(true);
   const AnyRef strategy = strategy_of(m, step);
+  if (p.wishes.edits != nullptr &&
+      model::barred_strategy(*p.wishes.edits, draft::edit_names(m, step), model::kConstantEngagementWord))
+    return false;
   return roughs && upright && open && !job.cleared_by && is_free(p.plan, step, strategy) &&
          is_rings(m, strategy);
 }

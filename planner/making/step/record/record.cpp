@@ -57,25 +57,6 @@ void take_over_decisions(model::Plan& plan, AnyRef from, AnyRef to) {
   }
 }
 
-/// The technology of the operation, its own: one that came with the file may serve other operations too.
-Ref<model::MillingTechnology> own_technology(model::Plan& plan, AnyRef operation) {
-  Model& m = plan.model;
-  auto* op = m.get<model::MachiningOperation>(operation);
-  const AnyRef now = op->its_technology;
-  if (m.holds<model::MillingTechnology>(now) && m.origin(now).instance == 0)
-    return Ref<model::MillingTechnology>(now);
-  model::MillingTechnology t;
-  if (const auto* given = m.get<model::MillingTechnology>(now)) t = *given;
-  if (!t.feedrate_reference.set()) t.feedrate_reference = model::ToolReferencePoint::kTcp;
-  if (!t.synchronize_spindle_with_feed) t.synchronize_spindle_with_feed = false;
-  if (!t.inhibit_feedrate_override) t.inhibit_feedrate_override = false;
-  if (!t.inhibit_spindle_override) t.inhibit_spindle_override = false;
-  const auto made = m.add(t);
-  m.get<model::MachiningOperation>(operation)->its_technology = made;
-  if (m.holds<model::MillingTechnology>(now)) take_over_decisions(plan, now, made);
-  return made;
-}
-
 /// ISO 14649 signs the spindle: negative is clockwise seen from the spindle towards the work, which a
 /// right-hand cutter wants.
 double noun_sense(const model::Cutter& c) { return c.hand == model::Hand::kLeft ? 1.0 : -1.0; }
@@ -107,6 +88,24 @@ DecisionKey width_key(const Model& m, AnyRef operation) {
 }
 
 }  // namespace
+
+Ref<model::MillingTechnology> own_technology(model::Plan& plan, AnyRef operation) {
+  Model& m = plan.model;
+  auto* op = m.get<model::MachiningOperation>(operation);
+  const AnyRef now = op->its_technology;
+  if (m.holds<model::MillingTechnology>(now) && m.origin(now).instance == 0)
+    return Ref<model::MillingTechnology>(now);
+  model::MillingTechnology t;
+  if (const auto* given = m.get<model::MillingTechnology>(now)) t = *given;
+  if (!t.feedrate_reference.set()) t.feedrate_reference = model::ToolReferencePoint::kTcp;
+  if (!t.synchronize_spindle_with_feed) t.synchronize_spindle_with_feed = false;
+  if (!t.inhibit_feedrate_override) t.inhibit_feedrate_override = false;
+  if (!t.inhibit_spindle_override) t.inhibit_spindle_override = false;
+  const auto made = m.add(t);
+  m.get<model::MachiningOperation>(operation)->its_technology = made;
+  if (m.holds<model::MillingTechnology>(now)) take_over_decisions(plan, now, made);
+  return made;
+}
 
 GivenTechnology given_technology(const Model& m, AnyRef operation, const model::Cutter& cutter) {
   GivenTechnology out;
@@ -176,7 +175,8 @@ void record_cut(model::Plan& plan, const std::vector<StepDraft>& steps, const St
   };
   const DecisionKey depth{step.operation, "axial_cutting_depth"};
   const std::string first = a.active.empty() ? "search" : a.active.front().name;
-  const model::Reason why{"limit." + first, words(a), mechanics_of(plan.material, step)};
+  const std::string held = step.limits.any() ? "; within " + step.limits.words() : "";
+  const model::Reason why{"limit." + first, words(a) + held, mechanics_of(plan.material, step)};
   const auto bind = [&](AnyRef object, const char* attribute, std::vector<DecisionKey> on) {
     ledger.bind(object, attribute, Binder::kOptimiser, why, std::move(on));
   };

@@ -24,6 +24,10 @@ struct GivenTechnology {
 [[nodiscard]] GivenTechnology given_technology(const model::Model& m, model::AnyRef operation,
                                                const model::Cutter& cutter);
 
+/// The technology of the operation, its own: one that came with the file may serve other operations too, and
+/// is copied, with who decided its values.
+[[nodiscard]] model::Ref<model::MillingTechnology> own_technology(model::Plan& plan, model::AnyRef operation);
+
 /// Reverses a stated spindle speed whose direction is not the cutter's, for this operation only, and reports
 /// it.
 void turn_with_the_cutter(model::Plan& plan, const draft::StepDraft& step, Job& job);

@@ -10,6 +10,7 @@
 #include "planner/model/nouns/feature.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
+#include "planner/model/plan/edit/held.h"
 #include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::model {
@@ -128,8 +129,11 @@ std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>
   }
   for (const Contradiction& c : contradictions(plan)) reasons.add_at(0, std::string(kOfContradicted), c.why);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    if (plan.steps[i].exceeded.empty()) continue;
+    const std::string held = edits_of_step(plan, plan.steps[i].step);
     for (const ExceededLimit& l : plan.steps[i].exceeded)
-      reasons.add_at(i + 1, "PIP-EXCESS", text_of(l) + "; use a smaller tool or depth");
+      reasons.add_at(i + 1, "PIP-EXCESS",
+                     text_of(l) + (held.empty() ? "; use a smaller tool or depth" : "; held is " + held));
   }
   const auto name_of = [&](AnyRef f) {
     const auto* feature = plan.model.get<ManufacturingFeature>(f);

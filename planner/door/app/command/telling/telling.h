@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "planner/ground/base/result.h"
+
+// How the command tells on standard error what it does and found.
+
+namespace capstan::app {
+
+/// How progress is told.
+enum class ProgressTold : std::uint8_t {
+  kAuto,  ///< a bar on a terminal, once the work takes more than a second
+  kJson,  ///< a line of JSON every half second, on a terminal or not
+  kNone,
+};
+
+/// Tells progress as `told` says; null: nothing is told. `bar`: standard error is a terminal and is read by a
+/// person.
+[[nodiscard]] std::function<void(std::string_view stage, double fraction)> progress_teller(ProgressTold told,
+                                                                                           bool bar);
+/// Takes the bar off the terminal.
+void end_progress();
+
+/// Whether colours are told: standard error is a terminal that has them, and NO_COLOR (no-color.org) is not
+/// set.
+[[nodiscard]] bool in_colour();
+/// `to_text` in one line, its severity coloured where `colour`.
+[[nodiscard]] std::string line_of(const Diagnostic& d, bool colour);
+
+}  // namespace capstan::app

@@ -1,0 +1,225 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/door/app/command/command.h"
+#include "tests/support/corpus.h"
+
+// A person's own decisions: examples/bracket.p21 planned with one thing set, held, bounded, ruled out or put
+// first, end to end.
+
+namespace capstan::app {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kEm8 = "generic/endmill_3f_short/8";
+
+class Edits : public CommandTest {
+ protected:
+  void SetUp() override {
+    put("bracket.p21", slurp(::capstan::testing::source_dir() + "/examples/bracket.p21"));
+  }
+  /// Plans the bracket with these options into NAME.json and NAME.ngc.
+  Ran plan(const std::string& name, const std::string& options) const {
+    return run("plan bracket.p21 " + options + " -o " + name + ".json -o " + name + ".ngc");
+  }
+  [[nodiscard]] json read(const std::string& name) const {
+    return json::parse(slurp(folder_ / (name + ".json")));
+  }
+
+  /// The steps of a plan by their names.
+  [[nodiscard]] std::map<std::string, json> steps_of(const std::string& name) const {
+    std::map<std::string, json> out;
+    for (const json& s : read(name)["steps"]) out[s["id"]] = s;
+    return out;
+  }
+  /// The reason of one value, as explain tells it.
+  [[nodiscard]] std::string why(const std::string& name, const std::string& step,
+                                const std::string& value) const {
+    return run("explain " + name + ".json '" + step + "' " + value).out;
+  }
+  /// All F words of a program, mm/min.
+  [[nodiscard]] std::vector<double> feeds(const std::string& name) const {
+    std::vector<double> out;
+    const std::string text = slurp(folder_ / (name + ".ngc"));
+    static const std::regex word(R"(F([0-9.]+))");
+    static const std::regex comment(R"(\([^)]*\)|;[^\n]*)");
+    const std::string bare = std::regex_replace(text, comment, "");
+    for (auto it = std::sregex_iterator(bare.begin(), bare.end(), word); it != std::sregex_iterator(); ++it)
+      out.push_back(std::stod((*it)[1]));
+    return out;
+  }
+  /// What of a step must not change where nothing that it depends on did.
+  [[nodiscard]] static json kept(json step) {
+    for (const char* handle : {"step", "path", "sections", "schedule"}) step.erase(handle);
+    return step;
+  }
+};
+
+TEST_F(Edits, AToolThatIsSetIsBoundByTheOperatorAndWhatDependsOnItIsPlannedAnew) {
+  ASSERT_EQ(plan("before", "").code, 0);
+  const Ran r = plan("after", std::string("--set 'POCKET area_rough/tool=") + kEm8 + "'");
+  ASSERT_EQ(r.code, 0) << r.err;
+  auto before = steps_of("before"), after = steps_of("after");
+  ASSERT_EQ(before.size(), 15U);
+  ASSERT_EQ(after.size(), 15U);
+  const json& rough = after.at("POCKET area_rough");
+  EXPECT_EQ(rough["cutter_id"], kEm8);
+  EXPECT_NE(rough["feed_mm_min"], before.at("POCKET area_rough")["feed_mm_min"]);
+  const std::string said = why("after", "POCKET area_rough", "its_tool");
+  EXPECT_THAT(said, HasSubstr("operator"));
+  EXPECT_THAT(said, HasSubstr("--set: set POCKET area_rough/tool=generic/endmill_3f_short/8"));
+  EXPECT_THAT(said, Not(HasSubstr("tool_selection")));
+  // Of its feature's later step tool and operation stay; of all others everything.
+  EXPECT_EQ(after.at("POCKET area_finish")["cutter_id"], before.at("POCKET area_finish")["cutter_id"]);
+  for (auto& [name, step] : before) {
+    if (name.starts_with("POCKET")) continue;
+    EXPECT_EQ(kept(after.at(name)), kept(step)) << name;
+  }
+  EXPECT_EQ(run("check after.json after.ngc").code, 0);
+}
+
+TEST_F(Edits, FeedSpeedAndDepthThatAreSetStandInTheProgram) {
+  const Ran r = plan("a",
+                     "--set 'SLOT area_rough/feed=1111' --set 'SLOT area_finish/speed=7777' "
+                     "--set 'POCKET area_rough/depth=4'");
+  ASSERT_EQ(r.code, 0) << r.err;
+  auto steps = steps_of("a");
+  EXPECT_EQ(steps.at("SLOT area_rough")["feed_mm_min"], 1111.0);
+  EXPECT_EQ(steps.at("SLOT area_finish")["spindle_rpm"], 7777.0);
+  EXPECT_EQ(steps.at("POCKET area_rough")["axial_depth_mm"], 4.0);
+  const std::string program = slurp(folder_ / "a.ngc");
+  EXPECT_THAT(program, HasSubstr("S7777"));
+  const auto f = feeds("a");
+  EXPECT_NE(std::find(f.begin(), f.end(), 1111.0), f.end());
+  EXPECT_THAT(why("a", "SLOT area_rough", "feedrate"), HasSubstr("--set: set SLOT area_rough/feed=1111"));
+  EXPECT_EQ(run("check a.json a.ngc").code, 0);
+}
+
+TEST_F(Edits, APinHoldsWhatWasPlannedAndIsWrittenWithIt) {
+  const Ran r = plan("a", "--pin 'SLOT*/tool' --pin 'SLOT area_rough/feed' -o a.edits.yaml");
+  ASSERT_EQ(r.code, 0) << r.err;
+  ASSERT_EQ(plan("b", "").code, 0);
+  EXPECT_EQ(slurp(folder_ / "a.ngc"), slurp(folder_ / "b.ngc")) << "the plan is as without it";
+  const std::string edits = slurp(folder_ / "a.edits.yaml");
+  EXPECT_THAT(edits, HasSubstr("pin: \"SLOT area_rough/tool=" + std::string(kEm8) + "\""));
+  EXPECT_THAT(edits, HasSubstr("pin: \"SLOT area_finish/tool="));
+  EXPECT_THAT(edits, HasSubstr("pin: \"SLOT area_rough/feed="));
+  EXPECT_THAT(why("a", "SLOT area_rough", "its_tool"), HasSubstr("operator"));
+}
+
+TEST_F(Edits, LimitsHoldOnEveryMoveAndAreNamedInTheReasons) {
+  const Ran r = plan("a", "--limit 'feed<=800' --limit 'speed<=6000' --limit 'POCKET*/tool.diameter<=8'");
+  ASSERT_EQ(r.code, 0) << r.err;
+  for (const double f : feeds("a")) EXPECT_LE(f, 800.0);
+  for (const auto& [name, step] : steps_of("a")) {
+    EXPECT_LE(std::abs(step["spindle_rpm"].get<double>()), 6000.0) << name;
+    if (name.starts_with("POCKET")) {
+      EXPECT_NE(step["cutter_id"].get<std::string>().find("/8"), std::string::npos)
+          << name << step["cutter_id"];
+    }
+  }
+  EXPECT_THAT(why("a", "SLOT area_rough", "feedrate"), HasSubstr("--limit: limit feed<=800"));
+  EXPECT_EQ(run("check a.json a.ngc").code, 0);
+}
+
+TEST_F(Edits, WhatIsForbiddenIsNotChosen) {
+  const Ran r = plan("a", "--forbid 'DOWEL*/operation=reaming' --forbid 'tool=" + std::string(kEm8) +
+                              "' --forbid 'POCKET*/strategy=constant_engagement'");
+  // Without a reamer the dowel holes may find another way or none; nothing is reamed.
+  EXPECT_LE(r.code, 1) << r.err;
+  for (const auto& s : read("a")["steps"]) EXPECT_NE(s["cutter_id"], kEm8);
+  EXPECT_THAT(run("explain a.json").out, Not(HasSubstr("REAMING")));
+}
+
+TEST_F(Edits, AnOrderIsKept) {
+  const auto place = [&](const std::string& name, const std::string& step) {
+    const std::string text = run("explain " + name + ".json").out;
+    const auto from = text.find("Steps, in order");
+    return text.find(step, from);
+  };
+  ASSERT_EQ(plan("before", "").code, 0);
+  ASSERT_LT(place("before", "POCKET area_rough"), place("before", "SLOT area_rough"));
+  const Ran r = plan("a", "--order 'SLOT*<POCKET*'");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_LT(place("a", "SLOT area_finish"), place("a", "POCKET area_rough"));
+  // One that contradicts itself is no plan.
+  const Ran both = plan("b", "--order 'SLOT*<POCKET*' --order 'POCKET*<SLOT*'");
+  EXPECT_GT(both.code, 1);
+  EXPECT_THAT(both.err, HasSubstr("order POCKET*<SLOT*"));
+}
+
+TEST_F(Edits, OneThatBreaksALimitIsNamedBesideItAndNoProgramIsWritten) {
+  const Ran r = plan("a", "--set 'SLOT area_rough/feed=9000'");
+  EXPECT_EQ(r.code, 1) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("--set: set SLOT area_rough/feed=9000"));
+  const std::regex both(R"([^\n]*SLOT area_rough[^\n]* of [^\n]*set SLOT area_rough/feed=9000)");
+  EXPECT_TRUE(std::regex_search(r.err, both)) << r.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.ngc"));
+}
+
+TEST_F(Edits, ThatContradictEachOtherAreRefusedWithBoth) {
+  const Ran r = plan("a", "--set 'SLOT*/feed=1500' --limit 'feed<=1000'");
+  EXPECT_EQ(r.code, 2) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("set SLOT*/feed=1500"));
+  EXPECT_THAT(r.err, HasSubstr("limit feed<=1000"));
+  EXPECT_TRUE(files() == std::vector<std::string>{"bracket.p21"});
+}
+
+TEST_F(Edits, UnknownNamesAndPatternsThatMeanNothingAreRefused) {
+  for (const auto& [options, word] :
+       {std::pair("--set 'POCKET/tool=generic/endmil_3f_short/8'", "generic/endmill_3f_short/8"),
+        std::pair("--set 'POCKET/fed=5'", "feed"), std::pair("--forbid operation=reeming", "reaming"),
+        std::pair("--set 'PCKET*/feed=500'", "POCKET"), std::pair("--limit 'SLIT/feed<=500'", "SLOT"),
+        std::pair("--set 'SLOT*/tool=T77'", "T9"), std::pair("--set 'M6 tap/feed=100'", "pitch"),
+        std::pair("--set 'M6 tap/depth=1'", "no depth")}) {
+    const Ran r = plan("a", options);
+    EXPECT_EQ(r.code, 2) << options << r.err;
+    EXPECT_THAT(r.err, HasSubstr(word)) << options;
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"bracket.p21"});
+}
+
+TEST_F(Edits, AFileOfThemSurvivesPlanningAgain) {
+  ASSERT_EQ(plan("a", "--set 'POCKET area_rough/tool=T9' --limit 'feed<=1500' -o a.edits.yaml").code, 0);
+  EXPECT_THAT(slurp(folder_ / "a.edits.yaml"), HasSubstr(std::string("POCKET area_rough/tool=") + kEm8))
+      << "a number of the plan is written as the tool's name";
+  ASSERT_EQ(plan("b", "--edits a.edits.yaml -o b.edits.yaml").code, 0);
+  EXPECT_EQ(slurp(folder_ / "a.ngc"), slurp(folder_ / "b.ngc"));
+  EXPECT_EQ(slurp(folder_ / "a.edits.yaml"), slurp(folder_ / "b.edits.yaml"));
+  EXPECT_THAT(why("b", "POCKET area_rough", "its_tool"), HasSubstr("edit 1 of a.edits.yaml"));
+  // Byte for byte the same with the same edits, and the same as ever without.
+  ASSERT_EQ(plan("c", "--edits a.edits.yaml").code, 0);
+  EXPECT_EQ(slurp(folder_ / "b.json"), slurp(folder_ / "c.json"));
+}
+
+TEST_F(Edits, OfAPlanHoldWhenItIsPlannedOrBoundAgainWithoutAFile) {
+  ASSERT_EQ(plan("a", "--set 'POCKET area_rough/tool=T9' --limit 'feed<=1500'").code, 0);
+  const Ran again = run("plan a.json -o b.json -o b.ngc");
+  EXPECT_LE(again.code, 1) << again.err;
+  for (const double f : feeds("b")) EXPECT_LE(f, 1500.0);
+  EXPECT_THAT(why("b", "POCKET area_rough", "its_tool"), HasSubstr("operator"));
+  const Ran bound = run("bind a.json --limit 'feed<=1000' -o c.json -o c.ngc");
+  EXPECT_LE(bound.code, 1) << bound.err;
+  for (const double f : feeds("c")) EXPECT_LE(f, 1000.0);
+  EXPECT_THAT(why("c", "POCKET area_rough", "its_tool"), HasSubstr("operator"));
+}
+
+TEST_F(Edits, AnEditThatIsTakenBackIsPlannedAnewInAPlanThatHeldIt) {
+  put("none.yaml", "capstan_edits: 1\nedits: []\n");
+  ASSERT_EQ(plan("a", "--set 'POCKET area_rough/tool=T9'").code, 0);
+  const Ran r = run("plan a.json --edits none.yaml -o b.json");
+  EXPECT_LE(r.code, 1) << r.err;
+  EXPECT_THAT(why("b", "POCKET area_rough", "its_tool"), Not(HasSubstr("operator")));
+}
+
+}  // namespace
+}  // namespace capstan::app

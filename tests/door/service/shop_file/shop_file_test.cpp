@@ -1,0 +1,136 @@
+#include "planner/door/service/shop_file/shop_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "planner/door/service/options.h"
+#include "planner/door/service/shop.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::service {
+namespace {
+
+Request asking(const std::string& shop) {
+  Request r;
+  r.shop = shop;
+  return r;
+}
+
+TEST(ShopFile, StandsForWhatTheCallerLeavesOut) {
+  Job job;
+  Request caller = asking("shop.yaml");
+  ASSERT_TRUE(set(caller, "material", "AlCu4Mg1"));
+  const auto r =
+      with_shop_text(caller, "capstan_shop: 1\nmachine: small_router\nmaterial: C45\nmargin: careful\n", job);
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(r->machine, "small_router");
+  EXPECT_EQ(r->material, "AlCu4Mg1") << "an option of the call wins";
+  EXPECT_EQ(r->margin, "careful");
+  EXPECT_EQ(r->from_shop.size(), 2U);
+  EXPECT_EQ(r->from_shop.at("machine"), "shop.yaml");
+}
+
+TEST(ShopFile, IsNamedInThePlansProvenance) {
+  Job job;
+  const auto r =
+      with_shop_text(asking("shop.yaml"), "capstan_shop: 1\nmachine: small_router\nmaterial: C45\n", job);
+  ASSERT_TRUE(r) << to_text(r.error());
+  const auto in = gather(*r, model::Plan{}, job);
+  ASSERT_TRUE(in) << to_text(in.error());
+  std::string machine, material, tools;
+  for (const auto& p : in->provenance) {
+    if (p.what == "machine") machine = p.source;
+    if (p.what == "material") material = p.source;
+    if (p.what == "tools") tools = p.source;
+  }
+  EXPECT_EQ(machine, "shop.yaml: machine small_router");
+  EXPECT_EQ(material.substr(0, 10), "shop.yaml:") << material;
+  EXPECT_EQ(tools, "built-in default");
+}
+
+TEST(ShopFile, LeavesItsControlOutForAnotherMachine) {
+  Job job;
+  Request caller = asking("shop.yaml");
+  ASSERT_TRUE(set(caller, "machine", "generic_vmc"));
+  const auto r = with_shop_text(caller, "capstan_shop: 1\nmachine: small_router\ncontrol: fanuc\n", job);
+  ASSERT_TRUE(r);
+  EXPECT_EQ(r->machine, "generic_vmc");
+  EXPECT_EQ(r->control, std::nullopt);
+  ASSERT_EQ(job.diagnostics().size(), 1U);
+  EXPECT_EQ(job.diagnostics().front().code, "SHOP-CONTROL");
+}
+
+TEST(ShopFile, CountsPathsFromItsFolder) {
+  const capstan::testing::ScratchFolder scratch;
+  std::ofstream(scratch.file("tool.tbl")) << "T1 P1 D10 Z50\n";
+  Job job;
+  const auto r = with_shop_text(asking(scratch.file("shop.yaml")),
+                                "capstan_shop: 1\ntools: tool.tbl\nmachine: generic_vmc\ncache: kept\n", job);
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(r->tools, scratch.file("tool.tbl"));
+  EXPECT_EQ(r->machine, "generic_vmc") << "no file there: a name";
+  EXPECT_EQ(r->cache, scratch.file("kept")) << "made where it is not";
+}
+
+TEST(ShopFile, WithFaultsReportsEachWithItsLine) {
+  Job job;
+  const auto r = with_shop_text(
+      asking("shop.yaml"),
+      "capstan_shop: 1\nmachin: small_router\nmargin: brave\nedges: wide\ndeadline: 2s\n", job);
+  ASSERT_FALSE(r);
+  auto said = job.diagnostics();
+  said.push_back(r.error());  // the last is what ends it
+  ASSERT_EQ(said.size(), 4U);
+  for (std::size_t i = 0; i < said.size(); ++i) EXPECT_EQ(said[i].line, i + 2) << to_text(said[i]);
+  EXPECT_EQ(said[0].code, "NAME-UNKNOWN");
+  EXPECT_NE(said[0].message.find("'machine'"), std::string::npos) << said[0].message;
+  EXPECT_EQ(said[1].code, "OPTION-VALUE");
+  EXPECT_EQ(said[3].code, "NAME-UNKNOWN") << "an option of a call is none of the shop";
+}
+
+TEST(ShopFile, OfAnotherShapeOrVersionIsRefused) {
+  for (const char* bad : {"", "7", "machine: m.yaml", "capstan_shop: 2", "capstan_shop: 1\nmachine: [a]",
+                          "capstan_shop: 1\nobjective: profit\n"}) {
+    Job job;
+    EXPECT_FALSE(with_shop_text(asking("shop.yaml"), bad, job)) << bad;
+  }
+}
+
+// As it is written it changes nothing; with the # of each entry off, each is one that is taken.
+TEST(ShopFile, TemplateHoldsNothingUntilItsCommentsAreTakenOff) {
+  Job job;
+  const auto written = shop_template();
+  ASSERT_TRUE(written);
+  const std::string& text = *written;
+  const auto as_written = with_shop_text(asking("shop.yaml"), text, job);
+  ASSERT_TRUE(as_written) << to_text(as_written.error());
+  EXPECT_TRUE(as_written->from_shop.empty());
+  std::size_t entries = 0;
+  for (const Option& o : options()) {
+    if (!o.of_shop) continue;
+    ++entries;
+    EXPECT_NE(text.find("\n# " + std::string(o.name) + ": "), std::string::npos) << o.name;
+    EXPECT_EQ(text.find("# " + std::string(o.name) + ": ..."), std::string::npos)
+        << o.name << " has no example";
+  }
+  EXPECT_GE(entries, 16U);
+}
+
+TEST(ShopFile, TemplateHoldsTheEntriesThatAreGiven) {
+  Job job;
+  const auto text = shop_template({"machine=small_router", "general-tolerance=ISO 2768-m"});
+  ASSERT_TRUE(text) << to_text(text.error());
+  const auto r = with_shop_text(asking("shop.yaml"), *text, job);
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(r->machine, "small_router");
+  EXPECT_EQ(r->general_tolerance, "ISO 2768-m");
+  EXPECT_EQ(r->from_shop.size(), 2U);
+  EXPECT_EQ(shop_template({"machin=x"}).error().code, "NAME-UNKNOWN");
+  EXPECT_EQ(shop_template({"margin=brave"}).error().code, "OPTION-VALUE");
+  EXPECT_EQ(shop_template({"machine"}).error().code, "OPTION-VALUE");
+}
+
+}  // namespace
+}  // namespace capstan::service
