@@ -10,6 +10,7 @@
 #include "planner/door/transport/serve/endpoints.h"
 #include "planner/door/transport/serve/wire/http.h"
 #include "planner/door/transport/serve/wire/json_request.h"
+#include "planner/files/exchange/brep/message.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/making/workholding/place.h"
@@ -67,6 +68,11 @@ void iso14649(std::string bytes) {
 void stl(std::string bytes) {
   Job job;
   (void)said(exchange::read_bytes(std::move(bytes), "input.stl", {}, job));
+}
+/// What was taken is spelt by just these bytes.
+void brep_message(std::string bytes) {
+  const auto message = exchange::decoded(bytes);
+  if (said(message)) must(exchange::encoded(*message) == bytes, "a message with two spellings\n");
 }
 void machine(std::string bytes) {
   Job job;
@@ -211,6 +217,7 @@ const std::vector<Reader>& readers() {
        iso14649,
        {"examples/plate_bound.p21", "examples/reference_pocket.p21", "examples/two_setups.p21"}},
       {"stl", stl, {}},
+      {"brep_message", brep_message, {}},
       {"machine",
        machine,
        {"tooling/data/machines/generic_vmc.yaml", "tooling/data/machines/tormach_1100mx.yaml",

@@ -47,7 +47,8 @@ class Tree(unittest.TestCase):
             there |= {os.path.relpath(os.path.join(folder, name), in_prefix()) for name in names}
         lines = read(os.path.join(GIVEN.source, "tests/install/files.txt"))
         for key, value in {"LIBDIR": GIVEN.libdir, "VERSION": GIVEN.version,
-                           "MINOR": GIVEN.version.rpartition(".")[0]}.items():
+                           "MINOR": GIVEN.version.rpartition(".")[0],
+                           "BREP": "libexec/capstan/capstan-brep" if GIVEN.brep else ""}.items():
             lines = lines.replace(f"@{key}@", value)
         wanted = {line for line in lines.split("\n") if line and not line.startswith("#")}
         below = {line[:-2] for line in wanted if line.endswith("/**")}
@@ -207,5 +208,6 @@ if __name__ == "__main__":
     arguments = argparse.ArgumentParser()
     for name in ("source", "built", "scratch", "libdir", "version", "cmake", "generator", "cxx", "cc"):
         arguments.add_argument("--" + name, required=True)
+    arguments.add_argument("--brep", action="store_true")
     GIVEN, rest = arguments.parse_known_args()
     unittest.main(argv=[sys.argv[0], *rest], verbosity=2)

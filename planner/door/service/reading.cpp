@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/files/exchange/cad/stl.h"
+#include "planner/files/exchange/common/standard.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
@@ -51,6 +52,10 @@ Content content_of(std::string_view bytes) {
     return Content::kPart;
   if (looks_like_tool_table(bytes)) return Content::kToolTable;
   return Content::kProgram;
+}
+
+bool is_cad_model(std::string_view bytes) {
+  return content_of(bytes) == Content::kPart && exchange::standard_of(bytes) == exchange::Standard::kShapes;
 }
 
 Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& job, bool strict) {

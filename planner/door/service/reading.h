@@ -24,4 +24,8 @@ enum class Content : std::uint8_t { kPlanJson, kPart, kProgram, kToolTable };
 /// The same from a file. Fails  FILE-READ, and as above.
 [[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict = false);
 
+/// Whether the bytes are a CAD model in STEP (ISO 10303-203, -214, -242): read_brep reads such, read_plan
+/// does not.
+[[nodiscard]] bool is_cad_model(std::string_view bytes);
+
 }  // namespace capstan::service

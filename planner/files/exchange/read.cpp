@@ -1,16 +1,10 @@
-#include <algorithm>
-#include <array>
-#include <span>
-
 #include "planner/files/exchange/cad/stl.h"
+#include "planner/files/exchange/common/standard.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/ground/base/file.h"
 
 namespace capstan::exchange {
 namespace {
-
-constexpr std::array<std::string_view, 4> kIso14649Schemas = {"MACHINING_SCHEMA", "MILLING_SCHEMA",
-                                                              "COMBINED_SCHEMA", "ISO14649"};
 
 // The text behind white space, a byte order mark and comments.
 std::string_view body(std::string_view s) {
@@ -25,20 +19,6 @@ std::string_view body(std::string_view s) {
     s.remove_prefix(end + 2);
   }
   return s;
-}
-
-constexpr std::array<std::string_view, 2> kAp238Schemas = {"INTEGRATED_CNC_SCHEMA",
-                                                           "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA"};
-
-bool has_schema(const p21::File& file, std::span<const std::string_view> names) {
-  for (const std::string& schema : file.schemas()) {
-    std::string upper;
-    for (const char c : schema) upper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-    for (const auto name : names) {
-      if (upper.rfind(name, 0) == 0) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -56,9 +36,18 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
   if (body(bytes).substr(0, 12) == "ISO-10303-21") {
     const auto file = p21::parse(std::move(bytes), name, options.limits, job);
     if (!file) return fail(file.error());
-    if (has_schema(*file, kIso14649Schemas)) return read_iso14649(*file, job, options.strict);
-    if (has_schema(*file, kAp238Schemas)) return read_ap238(*file, job, options.strict);
+    const Standard standard = standard_of(*file);
+    if (standard == Standard::kIso14649) return read_iso14649(*file, job, options.strict);
+    if (standard == Standard::kAp238) return read_ap238(*file, job, options.strict);
     const auto schemas = file->schemas();
+    if (standard == Standard::kShapes)
+      return fail({.code = "EXC-UNSUPPORTED",
+                   .message = "the file is a CAD model (" +
+                              (schemas.empty() ? std::string("no schema") : schemas.front()) +
+                              "): its features would have to be recognised, which is not done yet",
+                   .file = name,
+                   .expected = "a plan (ISO 14649, ISO 10303-238)",
+                   .hint = "capstan inspect " + name + " shows its bodies and faces"});
     return fail(
         {.code = "EXC-UNSUPPORTED",
          .message = "the file's schema " + (schemas.empty() ? std::string("(none)") : schemas.front()) +

@@ -1,9 +1,12 @@
 #include "planner/door/app/command/session.h"
 #include "planner/door/app/diff/diff.h"
 #include "planner/door/app/show/inspect.h"
+#include "planner/door/app/show/inspect_shapes.h"
 #include "planner/door/service/explain/explain.h"
 #include "planner/door/service/outputs.h"
 #include "planner/door/service/reading.h"
+#include "planner/files/exchange/brep/read_brep.h"
+#include "planner/ground/base/file.h"
 
 // Commands that read, and say or write what they read.
 
@@ -37,8 +40,25 @@ int run_explain(Session& s) {
   return said(s, explain(*plan, s.options.step, s.options.attribute));
 }
 
+int inspect_cad_model(Session& s, std::string bytes) {
+  const std::string& file = s.options.files[0];
+  if (!s.options.step.empty())
+    return s.end({.code = "INS-PATH",
+                  .message = "a CAD model has no attributes to walk",
+                  .file = file,
+                  .hint = "capstan inspect " + file},
+                 kUsage);
+  const auto shapes = exchange::read_brep_bytes(std::move(bytes), file, {}, s.job);
+  if (!shapes) return s.end(shapes.error(), kUnreadable);
+  const auto told = s.job.take_diagnostics();
+  return said(s, inspect(*shapes, told));
+}
+
 int run_inspect(Session& s) {
-  const auto plan = service::load_plan(s.options.files[0], s.job);
+  auto bytes = read_file(s.options.files[0]);
+  if (!bytes) return s.end(bytes.error(), kUnreadable);
+  if (service::is_cad_model(*bytes)) return inspect_cad_model(s, *std::move(bytes));
+  const auto plan = service::read_plan(*std::move(bytes), s.options.files[0], s.job);
   if (!plan) return s.end(plan.error(), kUnreadable);
   if (!s.options.step.empty()) {
     drop_notes(s.job);

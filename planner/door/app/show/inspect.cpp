@@ -174,16 +174,17 @@ void still_open(const model::Plan& plan, std::string& out) {
   out += "\nOpen decisions (" + std::to_string(rows.size()) + ")\n" + table(rows);
 }
 
-void faults(const std::vector<Diagnostic>& diagnostics, std::string& out) {
-  if (diagnostics.empty()) return;
-  out += "\nReading it, said (" + std::to_string(diagnostics.size()) + ")\n";
+}  // namespace
+
+std::string faults(const std::vector<Diagnostic>& diagnostics) {
+  if (diagnostics.empty()) return {};
+  std::string out = "\nReading it, said (" + std::to_string(diagnostics.size()) + ")\n";
   for (Diagnostic d : diagnostics) {
     d.file.clear();
     out += "  " + (d.line != 0 ? "line " + std::to_string(d.line) + ": " : std::string()) + to_text(d) + "\n";
   }
+  return out;
 }
-
-}  // namespace
 
 std::string inspect(const model::Plan& plan, const std::vector<Diagnostic>& diagnostics) {
   const Model& m = plan.model;
@@ -202,8 +203,7 @@ std::string inspect(const model::Plan& plan, const std::vector<Diagnostic>& diag
   counts(m, out);
   unhandled(m, out);
   still_open(plan, out);
-  faults(diagnostics, out);
-  return out;
+  return out + faults(diagnostics);
 }
 
 Result<std::string> inspect(const model::Plan& plan, std::string_view path) {

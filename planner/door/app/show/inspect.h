@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
@@ -17,5 +18,8 @@ namespace capstan::app {
 /// per line, results of a search with the path of each. A trailing `#size` counts the items of each list that
 /// the path leads to, else the places. Fails  INS-PATH.
 [[nodiscard]] Result<std::string> inspect(const model::Plan& plan, std::string_view path);
+
+/// What reading a file said, a line each, under a heading; empty where it said nothing.
+[[nodiscard]] std::string faults(const std::vector<Diagnostic>& diagnostics);
 
 }  // namespace capstan::app

@@ -15,6 +15,9 @@ using Direction3 = geometry::Vec3;  ///< a unit vector
 /// The surface that a face is a part of.
 enum class Carrier : std::uint8_t { kPlane, kCylinder, kCone, kSphere, kTorus, kSpline, kOther };
 
+/// "plane", "cylinder", "cone", "sphere", "torus", "B-spline", "other"
+[[nodiscard]] const char* to_text(Carrier carrier);
+
 /// The curve that an edge is a part of. kSpline is also a curve of Bezier, kOther a hyperbola, an offset, ….
 enum class Curve : std::uint8_t { kLine, kCircle, kEllipse, kSpline, kOther };
 

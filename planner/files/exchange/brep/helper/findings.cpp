@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "planner/ground/base/number.h"
+
 namespace capstan::exchange {
 namespace {
 
@@ -77,6 +79,45 @@ void tell_bodies(BrepMessage& message) {
                "the body is placed " + std::to_string(times) + " times; each counts as a body of its own",
                ""),
         id);
+  }
+}
+
+void judge_volumes(BrepMessage& message) {
+  const Brep& brep = *message.brep;
+  const auto refuse = [&message](const Body& body, const char* code, std::string text) {
+    add(message, remark(Severity::kError, code, std::move(text), "export the part again from the CAD system"),
+        body.id);
+    message.brep.reset();
+  };
+  for (const Body& body : brep.bodies) {
+    if (!body.solid) continue;
+    const std::uint32_t last_face = body.first_face + body.face_count;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> sides, turned;
+    double six_volumes = 0.0;
+    for (std::uint32_t f = body.first_face; f < last_face; ++f) {
+      const Face& face = brep.faces[f];
+      for (std::uint32_t i = face.first_triangle; i < face.first_triangle + face.triangle_count; ++i) {
+        const auto& t = brep.triangles[i];
+        // From the box's corner: far from the origin the products would cancel.
+        const Point3 a = brep.points[t[0]] - brep.box.lo, b = brep.points[t[1]] - brep.box.lo,
+                     c = brep.points[t[2]] - brep.box.lo;
+        six_volumes += dot(a, cross(b, c));
+        for (std::size_t k = 0; k < 3; ++k) {
+          sides.emplace_back(t[k], t[(k + 1) % 3]);
+          turned.emplace_back(t[(k + 1) % 3], t[k]);
+        }
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    std::sort(turned.begin(), turned.end());
+    if (sides != turned) return refuse(body, "BREP-MESH", "the tessellation of the solid is not closed");
+    // No point of the tessellation is further from its face than the chord, twice for faces that bend both
+    // ways.
+    const double volume = six_volumes / 6.0;
+    if (std::abs(volume - body.volume) > 2.0 * brep.chord * body.area)
+      return refuse(body, "BREP-VOLUME",
+                    "the faces of the solid hold " + trimmed(body.volume, 3) + " mm3, its tessellation " +
+                        trimmed(volume, 3) + " mm3: one of the two is wrong");
   }
 }
 

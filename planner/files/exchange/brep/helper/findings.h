@@ -34,6 +34,10 @@ class Findings {
 /// Adds remarks on sheets (BREP-SHEET) and on bodies that are placed many times (BREP-PLACED).
 void tell_bodies(BrepMessage& message);
 
+/// Refuses a solid whose triangles leave a gap (BREP-MESH), or hold another volume than its faces
+/// (BREP-VOLUME): one of the two must be wrong then.
+void judge_volumes(BrepMessage& message);
+
 /// Whether each number of a shape is finite.
 [[nodiscard]] bool finite(const Brep& brep);
 

@@ -19,6 +19,7 @@
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_ShapeTolerance.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <Standard_Failure.hxx>
@@ -28,7 +29,6 @@
 #include <StepShape_ManifoldSolidBrep.hxx>
 #include <StepShape_ShellBasedSurfaceModel.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
@@ -49,11 +49,16 @@
 
 #include "planner/files/exchange/brep/helper/carriers.h"
 #include "planner/files/exchange/brep/helper/findings.h"
+#include "planner/ground/base/number.h"
 
 namespace capstan::exchange {
 namespace {
 
 constexpr const char* kExport = "export the part again from the CAD system";
+constexpr const char* kCompare = "compare its volume and box with the CAD system, or export it again";
+/// Above these the distance between an edge and its faces is told, or too large to plan on. Defaults without
+/// a source: a tenth of a fine tolerance, and a coarse one.
+constexpr double kToldGapMm = 0.001, kRefusedGapMm = 0.1;
 /// Chords turn by no more than this, so that a small hole keeps its roundness. A default without a source.
 constexpr double kMeshAngleRad = 0.35;
 
@@ -70,20 +75,41 @@ class Origins {
  public:
   explicit Origins(const STEPControl_Reader& reader) : model_(reader.StepModel()) {
     const auto process = reader.WS()->TransferReader()->TransientProcess();
+    // Solids last: a shell of one that is not closed is known as the solid.
+    for (const bool solids : {false, true}) {
+      for (int i = 1; i <= model_->NbEntities(); ++i) {
+        const Handle(Standard_Transient) entity = model_->Value(i);
+        if (entity->IsKind(STANDARD_TYPE(StepShape_ManifoldSolidBrep)) != solids) continue;
+        const bool face = entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface));
+        if (!solids && !face && !entity->IsKind(STANDARD_TYPE(StepShape_ConnectedFaceSet))) continue;
+        if (face) ++faces_;
+        const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+        if (shape.IsNull()) continue;
+        TopAbs_ShapeEnum kind = face ? TopAbs_FACE : TopAbs_SHELL;
+        if (solids && TopExp_Explorer(shape, TopAbs_SOLID).More()) kind = TopAbs_SOLID;
+        for (TopExp_Explorer e(shape, kind); e.More(); e.Next()) entities_.Bind(unplaced(e.Current()), i);
+      }
+    }
+  }
+  /// Faces of the file.
+  [[nodiscard]] std::size_t faces() const { return faces_; }
+  /// Faces of the file that are not among these.
+  [[nodiscard]] std::vector<std::int64_t> missing(const std::vector<Face>& faces) const {
+    std::set<std::int64_t> there;
+    for (const Face& f : faces) there.insert(f.id);
+    std::vector<std::int64_t> out;
     for (int i = 1; i <= model_->NbEntities(); ++i) {
       const Handle(Standard_Transient) entity = model_->Value(i);
-      TopAbs_ShapeEnum kind = TopAbs_FACE;
-      if (entity->IsKind(STANDARD_TYPE(StepShape_ManifoldSolidBrep))) {
-        kind = TopAbs_SOLID;
-      } else if (entity->IsKind(STANDARD_TYPE(StepShape_ConnectedFaceSet))) {
-        kind = TopAbs_SHELL;
-      } else if (!entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface))) {
-        continue;
-      }
-      const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
-      if (shape.IsNull()) continue;
-      for (TopExp_Explorer e(shape, kind); e.More(); e.Next()) entities_.Bind(unplaced(e.Current()), i);
+      if (!entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface))) continue;
+      const std::int64_t id = model_->IdentLabel(entity);
+      if (there.count(id) == 0) out.push_back(id);
     }
+    return out;
+  }
+  /// Whether the file says that this is a solid.
+  [[nodiscard]] bool claims_solid(const TopoDS_Shape& shape) const {
+    const int* at = entities_.Seek(unplaced(shape));
+    return at != nullptr && model_->Value(*at)->IsKind(STANDARD_TYPE(StepShape_ManifoldSolidBrep));
   }
   /// Takes up what mending made of the shapes.
   void follow(const Handle(ShapeBuild_ReShape) & mended) {
@@ -95,18 +121,15 @@ class Origins {
         entities_.Bind(unplaced(e.Current()), i.Value());
     }
   }
-  /// Sets `#id` and name; leaves them where the shape is of no instance.
-  void tell(const TopoDS_Shape& shape, std::int64_t& id, std::string& name) const {
+  /// `#id` of the instance that a shape was made of; 0 where there is none.
+  [[nodiscard]] std::int64_t id(const TopoDS_Shape& shape) const {
     const int* at = entities_.Seek(unplaced(shape));
-    if (at == nullptr) return;
-    const Handle(Standard_Transient) entity = model_->Value(*at);
-    id = model_->IdentLabel(entity);
-    const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
-    if (!item.IsNull() && !item->Name().IsNull()) name = item->Name()->ToCString();
+    return at == nullptr ? 0 : model_->IdentLabel(model_->Value(*at));
   }
 
  private:
   Handle(StepData_StepModel) model_;
+  std::size_t faces_ = 0;
   NCollection_DataMap<TopoDS_Shape, int, TopTools_ShapeMapHasher> entities_;
 };
 
@@ -134,7 +157,7 @@ class Builder {
     Body body;
     body.solid = piece.ShapeType() == TopAbs_SOLID;
     body.first_face = count(first_face);
-    origins_.tell(piece, body.id, body.name);
+    body.id = origins_.id(piece);
     TopoDS_Shape shape = piece;
     if (body.solid) {
       GProp_GProps volume;
@@ -146,7 +169,7 @@ class Builder {
       }
       if (body.id == 0) {
         for (TopExp_Explorer e(shape, TopAbs_SHELL); e.More() && body.id == 0; e.Next())
-          origins_.tell(e.Current(), body.id, body.name);
+          body.id = origins_.id(e.Current());
       }
     }
     faces_.clear();
@@ -156,7 +179,7 @@ class Builder {
     point_of_vertex_.Clear();
     first_edge_ = out_.edges.size();
     first_face_ = first_face;
-    solid_ = body.solid;
+    solid_ = body.solid || origins_.claims_solid(piece);
     id_of_body_ = body.id;
     for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) add_face(TopoDS::Face(e.Current()));
     for (int i = 1; i <= edges_.Extent(); ++i) add_edge(TopoDS::Edge(edges_(i)), uses_[std::size_t(i - 1)]);
@@ -180,7 +203,7 @@ class Builder {
     }
     Face face;
     set_carrier(shape, face);
-    origins_.tell(shape, face.id, face.name);
+    face.id = origins_.id(shape);
     GProp_GProps area;
     BRepGProp::SurfaceProperties(shape, area);
     face.area = std::abs(area.Mass());
@@ -386,19 +409,24 @@ void read(const std::string& step, double chord_mm, BrepMessage& out) {
     return error("BREP-TESSELLATED",
                  "the shape consists of triangles (TESSELLATED_SOLID, TESSELLATED_SHELL), without surfaces",
                  "export exact geometry (a boundary representation)");
+  Origins origins(reader);
+  if (shape.IsNull() && origins.faces() != 0)
+    return error("BREP-LOST", "none of the file's " + std::to_string(origins.faces()) + " faces makes a body",
+                 kExport);
   if (shape.IsNull()) return error("BREP-EMPTY", "the file holds no shape", "export a solid body");
   if (!TopExp_Explorer(shape, TopAbs_FACE).More())
     return error("BREP-WIRE", "the file's shapes are points and curves, none has a face",
                  "export a solid body");
-  Origins origins(reader);
   if (!BRepCheck_Analyzer(shape).IsValid()) {
     ShapeFix_Shape fix(shape);
     fix.Perform();
     shape = fix.Shape();
     origins.follow(fix.Context());
-    if (!BRepCheck_Analyzer(shape).IsValid())
-      warn("BREP-INVALID", "the shape is inconsistent (BRepCheck of OpenCASCADE), and mending did not help",
-           "compare its volume and box with the CAD system, or export it again");
+    const bool mended = BRepCheck_Analyzer(shape).IsValid();
+    warn(mended ? "BREP-MENDED" : "BREP-INVALID",
+         mended ? "the shape was inconsistent (BRepCheck of OpenCASCADE) and has been mended"
+                : "the shape is inconsistent (BRepCheck of OpenCASCADE), and mending did not help",
+         kCompare);
   }
   IMeshTools_Parameters fine;
   fine.Deflection = chord_mm;
@@ -413,7 +441,18 @@ void read(const std::string& step, double chord_mm, BrepMessage& out) {
   if (!out.brep) return;
   if (!set_box(shape, brep) || !finite(brep))
     return error("BREP-NUMBER", "a figure of the shape is not finite", kExport);
+  const double apart = ShapeAnalysis_ShapeTolerance().Tolerance(shape, 1);
+  const std::string gaps = "edges lie up to " + fixed(apart, 3) + " mm beside their faces";
+  if (apart > kRefusedGapMm)
+    return error("BREP-GAPS", gaps + "; at most " + fixed(kRefusedGapMm, 1) + " mm are let pass", kExport);
+  if (apart > kToldGapMm) warn("BREP-GAPS", gaps, kCompare);
+  if (const auto missing = origins.missing(brep.faces); !missing.empty()) {
+    warn("BREP-LOST",
+         "in no body that was read: " + counted(missing.size(), "face", "faces") + " of the file", kCompare);
+    out.remarks.back().instance = static_cast<std::uint64_t>(missing.front());
+  }
   tell_bodies(out);
+  judge_volumes(out);
 }
 
 }  // namespace
