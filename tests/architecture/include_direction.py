@@ -100,7 +100,7 @@ ALLOWED = {
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " brep service transport motion mechanics optimise json rules casebase retain shop catalogue library formats",
+    "app": MODEL + " brep recognise service transport motion mechanics optimise json rules casebase retain shop catalogue library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}

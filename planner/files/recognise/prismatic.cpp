@@ -4,121 +4,15 @@
 #include <limits>
 #include <numbers>
 #include <set>
-#include <tuple>
 
-#include "planner/files/recognise/rings.h"
+#include "planner/files/recognise/view.h"
 
 namespace capstan::recognise {
 namespace {
 
 using exchange::Carrier;
-using exchange::Convexity;
 using geometry::cross;
 using geometry::dot;
-
-std::vector<Surface> surfaces_of(const Graph& graph, const std::vector<std::uint32_t>& patches) {
-  std::vector<Surface> found;
-  for (const std::uint32_t p : patches) {
-    const auto same = std::find_if(found.begin(), found.end(), [&](const Surface& s) {
-      return same_surface(graph.patches[s.first], graph.patches[p]);
-    });
-    if (same == found.end()) {
-      found.push_back({p, {p}});
-    } else {
-      same->patches.push_back(p);
-    }
-  }
-  return found;
-}
-
-/// The patches of a group, seen along a direction that a tool could come from.
-struct View {
-  Direction3 access;
-  double slope = 0;             ///< rad, of the walls against `access`
-  std::vector<Surface> floors;  ///< planes that look along `access`
-  std::vector<Surface> walls;   ///< planes along it
-  std::vector<Surface> bends;   ///< cylinders along it: rounded corners, rounded ends, round islands
-  std::vector<Surface> blends;  ///< what is left: fillets between wall and floor
-  int islands = 0;              ///< closed rings of walls and bends with the material inside; not among those
-  bool closed = false;          ///< walls and bends run all round
-};
-
-std::optional<View> view_along(const Graph& graph, const std::vector<Surface>& surfaces, Direction3 access,
-                               double slope = 0.0) {
-  View view;
-  view.access = access;
-  view.slope = slope;
-  for (const Surface& s : surfaces) {
-    const Patch& p = graph.patches[s.first];
-    switch (p.carrier) {
-      case Carrier::kPlane:
-        if (same_direction(p.axis, access)) {
-          view.floors.push_back(s);
-        } else if (std::abs(dot(p.axis, access) - std::sin(slope)) < kSameAngleRad) {
-          view.walls.push_back(s);
-        } else {
-          return std::nullopt;
-        }
-        break;
-      case Carrier::kCylinder:
-        (parallel(p.axis, access) ? view.bends : view.blends).push_back(s);
-        break;
-      case Carrier::kCone:
-        // The corner between two drafted walls opens towards the tool.
-        if (p.outward || !same_direction(p.axis, access) || std::abs(p.half_angle - slope) > kSameAngleRad) {
-          return std::nullopt;
-        }
-        view.bends.push_back(s);
-        break;
-      case Carrier::kTorus:
-      case Carrier::kSphere:
-        view.blends.push_back(s);
-        break;
-      default:
-        return std::nullopt;
-    }
-  }
-  return view;
-}
-
-/// Directions that a tool could come from: along the normal of a plane, across two walls, along a cylinder.
-std::vector<View> views(const Graph& graph, const std::vector<Surface>& surfaces) {
-  std::vector<Direction3> directions;
-  const auto add = [&](Direction3 d) {
-    if (std::none_of(directions.begin(), directions.end(),
-                     [&](Direction3 k) { return same_direction(k, d); })) {
-      directions.push_back(d);
-    }
-  };
-  for (const Surface& a : surfaces) {
-    const Patch& p = graph.patches[a.first];
-    if (p.carrier == Carrier::kPlane) add(p.axis);
-  }
-  for (const Surface& a : surfaces) {
-    const Patch& p = graph.patches[a.first];
-    if (p.carrier == Carrier::kCylinder) {
-      add(p.axis);
-      add(-1.0 * p.axis);
-    }
-    if (p.carrier != Carrier::kPlane) continue;
-    for (const Surface& b : surfaces) {
-      const Patch& q = graph.patches[b.first];
-      if (q.carrier != Carrier::kPlane || parallel(p.axis, q.axis)) continue;
-      add(geometry::normalised(cross(p.axis, q.axis)));
-    }
-  }
-  std::vector<View> found;
-  for (const Surface& a : surfaces) {
-    const Patch& p = graph.patches[a.first];
-    if (p.carrier != Carrier::kCone || p.outward) continue;
-    if (auto view = view_along(graph, surfaces, p.axis, p.half_angle)) found.push_back(std::move(*view));
-    break;
-  }
-  for (const Direction3 d : directions) {
-    if (auto view = view_along(graph, surfaces, d)) found.push_back(std::move(*view));
-  }
-  return found;
-}
 
 /// Sides of the raw piece that a group opens to, beside those at right angles to `access`.
 int open_sides(const Context& context, const std::vector<std::uint32_t>& patches, Direction3 access) {
@@ -130,10 +24,6 @@ int open_sides(const Context& context, const std::vector<std::uint32_t>& patches
     }
   }
   return static_cast<int>(found.size());
-}
-
-bool along_raw(const RawBox& raw, Direction3 d) {
-  return std::any_of(raw.axis.begin(), raw.axis.end(), [&](Direction3 a) { return parallel(a, d); });
 }
 
 /// The profile of walls that run all round.
@@ -267,18 +157,6 @@ Kind open_kind(const Context& context, const View& view) {
           "an open chain of walls"};
 }
 
-/// Smaller is better: along an axis of the raw piece; one floor, then none, then several at different depths;
-/// then the shallower.
-std::tuple<bool, int, double> rank(const Context& context, const std::vector<std::uint32_t>& patches,
-                                   const View& view) {
-  const std::size_t floors = view.floors.size();
-  return {!along_raw(context.raw, view.access),
-          floors == 1   ? 0
-          : floors == 0 ? 1
-                        : 2,
-          extent_along(context, patches, view.access).length()};
-}
-
 /// Sizes that differ by less are equal but for rounding.
 constexpr double kSameSizeMm = 1e-6;
 
@@ -311,6 +189,14 @@ double least_radius(const Graph& graph, const std::vector<Surface>& of) {
   return least;
 }
 
+/// From the top of the walls to the floor, or to their lower end where there is none. Walls may go on below
+/// the floor, where a deeper feature shares them.
+double depth_of(const Context& context, const View& view, const std::vector<std::uint32_t>& patches) {
+  const Extent all = extent_along(context, patches, view.access);
+  if (view.floors.empty()) return all.length();
+  return all.hi - dot(context.graph.patches[view.floors.front().first].point, view.access);
+}
+
 /// From the side of the raw piece that a tool enters to the lowest point of some patches, mm.
 double below_raw(const Context& context, Direction3 access, const std::vector<std::uint32_t>& patches) {
   double top = 0.0;
@@ -321,46 +207,43 @@ double below_raw(const Context& context, Direction3 access, const std::vector<st
   return top - extent_along(context, patches, access).lo;
 }
 
-/// Width across, length along and the angle to the neighbour at the longest edge of an oblique plane.
+/// Width across, length along the longest border of an oblique plane, and the least angle to a neighbour
+/// there. A border counts whole, however many edges it was split into.
 std::vector<Parameter> chamfer_sizes(const Context& context, const std::vector<std::uint32_t>& patches) {
-  const exchange::Edge* longest = nullptr;
-  double angle = 0.0;
+  struct Border {
+    Direction3 along;
+    double length = 0;
+    double angle = 0;
+  };
+  std::vector<Border> borders;
   for (const std::uint32_t p : patches) {
     for (const std::uint32_t j : context.graph.patches[p].joins) {
-      const Join& join = context.graph.joins[j];
-      for (const std::uint32_t e : join.edges) {
+      for (const std::uint32_t e : context.graph.joins[j].edges) {
         const exchange::Edge& edge = context.brep.edges[e];
         if (edge.curve != exchange::Curve::kLine) continue;
-        if (longest != nullptr && edge.length < longest->length + kSameSizeMm) continue;
-        longest = &edge;
-        angle = std::abs(std::numbers::pi - edge.dihedral);
+        const double angle = std::abs(std::numbers::pi - edge.dihedral);
+        const auto same = std::find_if(borders.begin(), borders.end(), [&](const Border& b) {
+          return parallel(b.along, edge.axis) && std::abs(b.angle - angle) < kSameAngleRad;
+        });
+        if (same == borders.end()) {
+          borders.push_back({edge.axis, edge.length, angle});
+        } else {
+          same->length += edge.length;
+        }
       }
     }
   }
-  if (longest == nullptr) return {};
-  const Direction3 across = cross(context.graph.patches[patches.front()].axis, longest->axis);
-  return {{"width", extent_along(context, patches, across).length()},
-          {"length", extent_along(context, patches, longest->axis).length()},
-          {"angle_to_plane", angle}};
-}
-
-/// Takes the islands out of the walls of a view, and tells whether the others run all round.
-void tell_rings(const Context& context, View& view) {
-  std::vector<Surface> sides = view.walls;
-  sides.insert(sides.end(), view.bends.begin(), view.bends.end());
-  view.walls.clear();
-  view.bends.clear();
-  for (Ring& ring : rings_of(context, sides, view.access)) {
-    if (ring.island) {
-      ++view.islands;
-      continue;
-    }
-    view.closed = view.closed || ring.closed;
-    for (Surface& s : ring.sides) {
-      const bool wall = context.graph.patches[s.first].carrier == Carrier::kPlane;
-      (wall ? view.walls : view.bends).push_back(std::move(s));
-    }
+  if (borders.empty()) return {};
+  const Border longest = *std::max_element(
+      borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.length < b.length; });
+  double angle = longest.angle;
+  for (const Border& b : borders) {
+    if (parallel(b.along, longest.along)) angle = std::min(angle, b.angle);
   }
+  const Direction3 across = cross(context.graph.patches[patches.front()].axis, longest.along);
+  return {{"width", extent_along(context, patches, across).length()},
+          {"length", extent_along(context, patches, longest.along).length()},
+          {"angle_to_plane", angle}};
 }
 
 }  // namespace
@@ -393,11 +276,8 @@ Extent extent_along(const Context& context, const std::vector<std::uint32_t>& pa
 }
 
 std::optional<Feature> prismatic(const Context& context, const std::vector<std::uint32_t>& patches) {
-  std::vector<View> found = views(context.graph, surfaces_of(context.graph, patches));
+  std::vector<View> found = views(context, patches);
   if (found.empty()) return std::nullopt;
-  std::stable_sort(found.begin(), found.end(), [&](const View& a, const View& b) {
-    return rank(context, patches, a) < rank(context, patches, b);
-  });
   View& best = found.front();
   tell_rings(context, best);
   Feature feature;
@@ -422,9 +302,8 @@ std::optional<Feature> prismatic(const Context& context, const std::vector<std::
     feature.alternatives.push_back({TypeId::kPlanarFace, feature.access, "mill it as an inclined plane"});
     return feature;
   }
-  const double depth = feature.type == TypeId::kPlanarFace
-                           ? below_raw(context, best.access, patches)
-                           : extent_along(context, patches, best.access).length();
+  const double depth = feature.type == TypeId::kPlanarFace ? below_raw(context, best.access, patches)
+                                                           : depth_of(context, best, patches);
   feature.parameters.push_back({"depth", depth});
   if (best.slope > 0) feature.parameters.push_back({"slope", best.slope});
   if (best.islands > 0) feature.parameters.push_back({"islands", static_cast<double>(best.islands)});

@@ -7,8 +7,10 @@
 
 #include "planner/files/recognise/graph.h"
 #include "planner/files/recognise/holes.h"
+#include "planner/files/recognise/interrupted.h"
 #include "planner/files/recognise/prismatic.h"
 #include "planner/files/recognise/rounds.h"
+#include "planner/files/recognise/view.h"
 
 namespace capstan::recognise {
 namespace {
@@ -134,6 +136,10 @@ void recognise_group(const Context& context, const std::vector<std::uint32_t>& g
   while (!open.empty()) {
     const std::vector<std::uint32_t> patches = std::move(open.back());
     open.pop_back();
+    if (auto parts = floors_apart(context, patches); parts.size() > 1) {
+      for (auto& part : parts) open.push_back(std::move(part));
+      continue;
+    }
     auto feature = prismatic(context, patches);
     if (!feature) feature = conical_chamfer(context, patches);
     std::optional<Seen> seen;
@@ -181,11 +187,16 @@ Recognition recognise(const exchange::Brep& brep, std::size_t body) {
   for (const std::vector<std::uint32_t>& patches : tied_groups(graph, taken)) {
     recognise_group(context, patches, result);
   }
+  join_interrupted(context, result);
   std::stable_sort(result.features.begin(), result.features.end(),
                    [](const Feature& a, const Feature& b) { return a.faces.front() < b.faces.front(); });
   std::stable_sort(result.unrecognised.begin(), result.unrecognised.end(),
                    [](const Rest& a, const Rest& b) { return a.faces.front() < b.faces.front(); });
   return result;
+}
+
+bool is_angle(const Parameter& p) {
+  return p.name == "slope" || p.name == "angle" || p.name == "angle_to_plane";
 }
 
 std::string faces_in_words(const exchange::Brep& brep, const std::vector<std::uint32_t>& faces) {

@@ -21,12 +21,15 @@ inline constexpr double kSameLengthMm = 1e-3;
 /// Directions closer than this are the same.
 inline constexpr double kSameAngleRad = 1e-4;
 
-/// A size of a feature.
+/// A size of a feature: a length, an angle, or a number of islands.
 struct Parameter {
   std::string name;  ///< a word of ISO 14649: "depth", "width", "length", "diameter", "slope", …
-  double value = 0;  ///< mm, or rad for "slope" and "angle"
+  double value = 0;  ///< mm; rad where `is_angle`; one of "islands" is one
   friend bool operator==(const Parameter&, const Parameter&) = default;
 };
+
+/// Whether a size is in rad.
+[[nodiscard]] bool is_angle(const Parameter& p);
 
 /// What else the same faces could be machined as.
 struct Alternative {

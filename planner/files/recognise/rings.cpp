@@ -17,23 +17,22 @@ Point3 place_of(const exchange::Edge& edge, Direction3 access) {
   return edge.middle - dot(edge.middle, access) * access;
 }
 
-bool closed(const Context& context, const std::vector<Surface>& sides, Direction3 access) {
-  if (sides.size() == 1) {
-    const Patch& only = context.graph.patches[sides[0].first];
-    return only.carrier != Carrier::kPlane && runs_round(context, only);
-  }
+/// Whether every side meets others at two places: its two neighbours, or one of them twice.
+bool meets_at_both_ends(const Context& context, const std::vector<std::vector<std::uint32_t>>& sides,
+                        Direction3 access, bool over_convex_edges) {
   std::map<std::uint32_t, std::size_t> of_patch;
   for (std::size_t s = 0; s < sides.size(); ++s) {
-    for (const std::uint32_t p : sides[s].patches) of_patch[p] = s;
+    for (const std::uint32_t p : sides[s]) of_patch[p] = s;
   }
   for (std::size_t s = 0; s < sides.size(); ++s) {
-    // Places where it meets others: two for a side of a ring, and those of two neighbours, or two of one.
     std::vector<Point3> places;
-    for (const std::uint32_t p : sides[s].patches) {
+    for (const std::uint32_t p : sides[s]) {
       for (const std::uint32_t j : context.graph.patches[p].joins) {
-        const auto other = of_patch.find(context.graph.joins[j].other(p));
+        const Join& join = context.graph.joins[j];
+        const auto other = of_patch.find(join.other(p));
         if (other == of_patch.end() || other->second == s) continue;
-        for (const std::uint32_t e : context.graph.joins[j].edges) {
+        if (join.convexity == exchange::Convexity::kConvex && !over_convex_edges) continue;
+        for (const std::uint32_t e : join.edges) {
           const Point3 at = place_of(context.brep.edges[e], access);
           if (std::none_of(places.begin(), places.end(),
                            [&](Point3 q) { return geometry::norm(q - at) < kSameLengthMm; })) {
@@ -45,6 +44,24 @@ bool closed(const Context& context, const std::vector<Surface>& sides, Direction
     if (places.size() < 2) return false;
   }
   return true;
+}
+
+/// Whether sides run all round. A wall that another feature cut in two is one wall where its ends are
+/// concave; where slots cross at one depth, the walls between two corners are convex there, and each piece
+/// must run on by itself.
+bool closed(const Context& context, const std::vector<Surface>& sides, Direction3 access) {
+  if (sides.size() == 1) {
+    const Patch& only = context.graph.patches[sides[0].first];
+    return only.carrier != Carrier::kPlane && runs_round(context, only);
+  }
+  std::vector<std::vector<std::uint32_t>> surfaces;
+  std::vector<std::vector<std::uint32_t>> pieces;
+  for (const Surface& s : sides) {
+    surfaces.push_back(s.patches);
+    for (const std::uint32_t p : s.patches) pieces.push_back({p});
+  }
+  return meets_at_both_ends(context, surfaces, access, false) ||
+         meets_at_both_ends(context, pieces, access, true);
 }
 
 /// Whether the material is inside of a closed ring: its sides look away from the middle of it.

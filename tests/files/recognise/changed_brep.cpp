@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
+#include <sstream>
 
 #include "tests/files/recognise/planar_step.h"
 
@@ -180,6 +182,32 @@ Brep split(const Brep& brep, std::mt19937_64& random, std::size_t count) {
     complete_planar(other);
   }
   return other;
+}
+
+std::vector<std::string> summary(const exchange::Brep& brep, const recognise::Recognition& found,
+                                 double scale) {
+  const auto names = [&](const std::vector<std::uint32_t>& faces) {
+    std::set<std::string> sorted;
+    for (const std::uint32_t f : faces)
+      sorted.insert(brep.faces[f].name + "#" + std::to_string(brep.faces[f].id));
+    std::string text;
+    for (const std::string& name : sorted) text += " " + name;
+    return text;
+  };
+  std::vector<std::string> lines{"raw" + names(found.on_raw)};
+  for (const recognise::Feature& f : found.features) {
+    std::ostringstream line;
+    line << static_cast<int>(f.type) << ' ' << static_cast<int>(f.profile) << ' ' << f.walls << ' '
+         << f.through << ' ' << f.open_sides << names(f.faces);
+    for (const recognise::Parameter& p : f.parameters) {
+      line << ' ' << p.name << ' '
+           << std::lround((p.name == "islands" || is_angle(p) ? p.value : p.value / scale) * 1e4);
+    }
+    lines.push_back(line.str());
+  }
+  for (const recognise::Rest& r : found.unrecognised) lines.push_back(r.reason + names(r.faces));
+  std::sort(lines.begin(), lines.end());
+  return lines;
 }
 
 }  // namespace capstan::testing

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iostream>
 #include <random>
-#include <set>
 #include <sstream>
 
 #include "tests/files/recognise/changed_brep.h"
@@ -31,31 +30,6 @@ std::vector<std::string> parts() {
 
 std::string file_of(const std::string& stem, const char* extension) {
   return corpus_folder() + "/cad/mfcad/" + stem + extension;
-}
-
-/// What must not depend on frame, order, unit or splits: kinds, faces by their names, sizes in the part's own
-/// scale.
-std::vector<std::string> summary(const exchange::Brep& brep, const Recognition& found, double scale) {
-  const auto names = [&](const std::vector<std::uint32_t>& faces) {
-    std::set<std::string> sorted;
-    for (const std::uint32_t f : faces) sorted.insert(brep.faces[f].name);
-    std::string text;
-    for (const std::string& name : sorted) text += " " + name;
-    return text;
-  };
-  std::vector<std::string> lines{"raw" + names(found.on_raw)};
-  for (const recognise::Feature& f : found.features) {
-    std::ostringstream line;
-    line << static_cast<int>(f.type) << ' ' << static_cast<int>(f.profile) << ' ' << f.walls << ' '
-         << f.through << ' ' << f.open_sides << names(f.faces);
-    for (const recognise::Parameter& p : f.parameters) {
-      line << ' ' << p.name << ' ' << std::lround(p.value / scale * 1e4);
-    }
-    lines.push_back(line.str());
-  }
-  for (const recognise::Rest& r : found.unrecognised) lines.push_back(r.reason + names(r.faces));
-  std::sort(lines.begin(), lines.end());
-  return lines;
 }
 
 struct Score {
