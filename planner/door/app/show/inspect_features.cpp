@@ -1,6 +1,8 @@
 #include "planner/door/app/show/inspect_features.h"
 
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "planner/door/service/explain/values.h"
 #include "planner/files/recognise/recognise.h"
@@ -40,10 +42,10 @@ void add(const Brep& shapes, const Recognition& found, Rows& rows) {
   for (const Feature& f : found.features) {
     std::string what =
         word(f.type) + (f.through && f.type == model::TypeId::kClosedPocket ? ", through" : "");
-    rows.push_back({std::move(what), sizes_of(f), faces_in_words(shapes, f.faces), reason_of(f)});
+    rows.push_back({std::move(what), sizes_of(f), recognise::faces_in_words(shapes, f.faces), reason_of(f)});
   }
   for (const recognise::Rest& r : found.unrecognised) {
-    rows.push_back({"not recognised", "", faces_in_words(shapes, r.faces), r.reason});
+    rows.push_back({"not recognised", "", recognise::faces_in_words(shapes, r.faces), r.reason});
   }
 }
 
