@@ -15,7 +15,7 @@ import sys
 FLOORS = {
     "ground": "base memo vocabulary geometry",
     "model": "nouns features plan",
-    "files": "p21 exchange json",
+    "files": "p21 exchange recognise json",
     "physics": "mechanics motion stock engagement",
     "making": "draft sequence piece toolpath workholding optimise step probing propose given",
     "proof": "verify",
@@ -65,6 +65,7 @@ ALLOWED = {
     # The shapes of CAD files; of a plan it knows nothing.
     "brep": GROUND + " p21",
     "exchange": EXCHANGE_COMMON + " iso14649 ap238 brep",
+    "recognise": GROUND + " brep",
     "json": MODEL + " motion",
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
     "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase",
@@ -99,7 +100,7 @@ ALLOWED = {
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " brep service transport motion mechanics optimise json rules casebase retain controls shop catalogue library formats",
+    "app": MODEL + " brep recognise service transport motion mechanics optimise json rules casebase retain controls shop catalogue library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}

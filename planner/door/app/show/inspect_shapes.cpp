@@ -3,6 +3,7 @@
 #include <map>
 
 #include "planner/door/app/show/inspect.h"
+#include "planner/door/app/show/inspect_features.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 
@@ -93,7 +94,7 @@ std::string inspect(const Brep& shapes, const std::vector<Diagnostic>& diagnosti
   out += "\nArea       " + trimmed(area_mm2, 3) + " mm2";
   out += "\nTriangles  " + std::to_string(shapes.triangles.size()) + ", within " + trimmed(shapes.chord, 4) +
          " mm of the surfaces\n";
-  return out + bodies_of(shapes) + faces_of(shapes) + edges_of(shapes) + faults(diagnostics);
+  return out + bodies_of(shapes) + faces_of(shapes) + edges_of(shapes) + recognised_features(shapes) + faults(diagnostics);
 }
 
 }  // namespace capstan::app

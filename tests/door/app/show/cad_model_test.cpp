@@ -40,6 +40,16 @@ TEST_F(CadModel, InspectTellsBodiesFacesVolumeAreaBoxAndUnit) {
   EXPECT_THAT(r.out, AllOf(HasSubstr("plane"), HasSubstr("1 with the material outside")));
 }
 
+TEST_F(CadModel, InspectTellsTheFeaturesOfTheFaces) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
+  put("part.step", drilled());
+  const Ran r = run("inspect part.step");
+  // The hole goes through 20 mm; the other six faces are those of the raw piece.
+  EXPECT_THAT(r.out, AllOf(HasSubstr("Features of solid 1 (1), bound by recognition; 6 faces stay raw"),
+                           HasSubstr("round_hole"), HasSubstr("diameter 10, depth 20"),
+                           HasSubstr("open at both ends; or closed_pocket: mill it as a circular pocket")));
+}
+
 TEST_F(CadModel, InchesAreShownInMillimetres) {
   if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
   StepPart part;
