@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "planner/files/recognise/graph.h"
 #include "planner/files/recognise/holes.h"
@@ -129,6 +130,10 @@ std::optional<Feature> region(const Context& context, const std::vector<std::uin
   return feature;
 }
 
+/// Patches of a group are compared all with all: a larger group, such as a surface in facets, is named and not
+/// recognised. Default, unsourced: groups of real parts have some 40, 200 take about a second.
+constexpr std::size_t kMostInGroup = 200;
+
 /// Recognises a group of tied patches as one feature, or takes parts off it until the rest is one, or is
 /// named.
 void recognise_group(const Context& context, const std::vector<std::uint32_t>& group, Recognition& result) {
@@ -136,6 +141,13 @@ void recognise_group(const Context& context, const std::vector<std::uint32_t>& g
   while (!open.empty()) {
     const std::vector<std::uint32_t> patches = std::move(open.back());
     open.pop_back();
+    if (patches.size() > kMostInGroup) {
+      result.unrecognised.push_back({faces_of(context.graph, patches),
+                                     "they hang together in a group of " + std::to_string(patches.size()) +
+                                         " surfaces, more than are compared (" +
+                                         std::to_string(kMostInGroup) + ")"});
+      continue;
+    }
     if (auto parts = floors_apart(context, patches); parts.size() > 1) {
       for (auto& part : parts) open.push_back(std::move(part));
       continue;

@@ -60,7 +60,11 @@ std::string recognised_features(const Brep& shapes) {
     add(shapes, found, rows);
     out += "\nFeatures of solid " + std::to_string(b + 1) + " (" + std::to_string(found.features.size()) +
            "), bound by recognition; " + std::to_string(found.on_raw.size()) + " faces stay raw, " +
-           std::to_string(found.unrecognised.size()) + " groups are not recognised\n" + service::table(rows);
+           std::to_string(found.unrecognised.size()) +
+           " groups are not recognised.\n"
+           "They are read off faces that meet; whether a tool reaches them past the rest of the part is not "
+           "proven.\n" +
+           service::table(rows);
   }
   return out;
 }

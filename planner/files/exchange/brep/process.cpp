@@ -81,7 +81,7 @@ constexpr int kNotStarted = 127;  // as a shell says it, and the dynamic loader
   if (::getppid() != parent) ::_exit(kNotStarted);  // it died before that was asked for
   // Of an interrupt at the terminal the parent hears, and decides.
   ::signal(SIGINT, SIG_IGN);
-  ::signal(SIGPIPE, SIG_DFL);
+  for (const int usual : {SIGPIPE, SIGXCPU, SIGXFSZ}) ::signal(usual, SIG_DFL);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -113,10 +113,8 @@ ProcessEnd await(pid_t child, const ProcessLimits& limits, const Job& job) {
   for (;;) {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child) break;
-    if (ended < 0 && errno != EINTR) {  // somebody else waited for it: how it ended is not known
-      out.kind = ProcessEnd::Kind::kSignal;
-      return out;
-    }
+    // Somebody else waited for it, or the system does where SIGCHLD is ignored: what it wrote tells how it ended.
+    if (ended < 0 && errno != EINTR) return out;
     const bool late = limits.wall.count() != 0 && steady_clock::now() - start > limits.wall;
     if (late || to_stop(job)) {
       out.kind = late ? ProcessEnd::Kind::kWall : ProcessEnd::Kind::kStopped;

@@ -35,9 +35,11 @@ std::vector<std::string> places() {
   };
   std::error_code none;
   beside(fs::read_symlink("/proc/self/exe", none));
-  // In a library that another program links: beside that.
+  // In a library that another program links: beside that. Of a program the loader gives the name by which it was
+  // called, which says nothing of its folder: no file of the working folder may be run.
   Dl_info library{};
-  if (::dladdr(reinterpret_cast<const void*>(&places), &library) != 0 && library.dli_fname != nullptr)
+  if (::dladdr(reinterpret_cast<const void*>(&places), &library) != 0 && library.dli_fname != nullptr &&
+      fs::path(library.dli_fname).is_absolute())
     beside(fs::canonical(library.dli_fname, none));
   return out;
 }

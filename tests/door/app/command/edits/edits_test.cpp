@@ -38,7 +38,8 @@ class Edits : public CommandTest {
   /// The steps of a plan by their names.
   [[nodiscard]] std::map<std::string, json> steps_of(const std::string& name) const {
     std::map<std::string, json> out;
-    for (const json& s : read(name)["steps"]) out[s["id"]] = s;
+    const json plan = read(name);
+    for (const json& s : plan["steps"]) out[s["id"]] = s;
     return out;
   }
   /// The reason of one value, as explain tells it.
