@@ -113,6 +113,18 @@ Status take_entry(Request& r, const std::string& file, const std::string& key, c
 
 }  // namespace
 
+namespace {
+
+/// Whether a file says that it is a shop's settings: a line begins with the key of their version.
+bool says_it_is_a_shop(const fs::path& path) {
+  const auto text = read_file(path.string(), tooling::kDataFileCap);
+  if (!text) return true;  // why it cannot be read is to be told
+  const std::string key(kVersionKey);
+  return text->starts_with(key) || text->find("\n" + key) != std::string::npos;
+}
+
+}  // namespace
+
 std::optional<std::string> found_shop() {
   std::vector<fs::path> places = {kShopFile};
   const char* config = std::getenv("XDG_CONFIG_HOME");
@@ -124,7 +136,7 @@ std::optional<std::string> found_shop() {
   }
   std::error_code error;
   for (const fs::path& p : places) {
-    if (fs::is_regular_file(p, error)) return p.string();
+    if (fs::is_regular_file(p, error) && says_it_is_a_shop(p)) return p.string();
   }
   return std::nullopt;
 }

@@ -25,7 +25,8 @@ inline constexpr const char* kShopFile = "shop.yaml";
 inline constexpr const char* kNoShop = "none";
 
 /// The shop file that a command finds: `shop.yaml` in the working folder, else in $XDG_CONFIG_HOME/capstan,
-/// or where that is not set in ~/.config/capstan; nothing: there is none.
+/// or where that is not set in ~/.config/capstan; nothing: there is none. A file of that name without a line of
+/// `capstan_shop` is something else (tools, rules) and is passed over.
 [[nodiscard]] std::optional<std::string> found_shop();
 
 /// The request with what its shop file (Request::shop) says and the caller does not. Where the caller names a
