@@ -100,7 +100,8 @@ double deepest_mm(const Cutter& c, const WorkMaterial& w, const Machine& m, cons
 
 /// Way of a cutter's middle along the helix of a bore or thread, mm, in lengths at its full feed; nothing
 /// where the bore is cleared as a pocket. As planner/making/toolpath/hole (bore_and_thread.cpp): a thread
-/// mill makes a turn for each pitch, all of them in one where its profiles are as long as the thread; a mill
+/// mill makes a turn for each pitch, all of them in one where its profiles are as long as the thread, and its
+/// middle goes slower than its edge at the thread's major diameter (making/step/cut/thread_bound.cpp); a mill
 /// goes round the hole that is there as deep as it may cut, else down by its ramp; a last turn is level.
 std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Preferences& p, double ap_mm) {
   const double d = c.cutting_diameter_mm, r = 0.5 * (p.bore_mm - d);
@@ -108,7 +109,8 @@ std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Pre
   const double turn = 2.0 * kPi * r, in_and_out = kPi * r;
   if (p.pitch_mm > 0.0) {
     const bool all_at_once = c.maximum_depth_of_cut_mm >= p.depth_mm;
-    return turn * (all_at_once ? 1.0 : std::ceil(p.depth_mm / p.pitch_mm - 1e-9)) + in_and_out;
+    const double way = turn * (all_at_once ? 1.0 : std::ceil(p.depth_mm / p.pitch_mm - 1e-9)) + in_and_out;
+    return way * p.bore_mm / (2.0 * r);
   }
   constexpr double kMiddle = 0.3;  // of the radius, which cuts badly; default, unsourced
   const double hole = 0.5 * p.pre_hole_mm, flat = std::max(0.5 * d - c.corner_radius_mm, 0.25 * d);
