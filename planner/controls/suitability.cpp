@@ -8,6 +8,7 @@
 #include "planner/controls/controls.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/model/plan/resources/control_options.h"
 
 // A control keeps a programmed feed only while it could still stop within the moves that it has looked at:
@@ -102,6 +103,14 @@ class Suitability {
       add("FIT-TOOL-CHANGE", Severity::kError, {}, -1,
           "the plan has " + std::to_string(cutters.size()) +
               " cutters; the control's programs change no tool: plan one program for each");
+    // LinuxCNC's M6 waits for the hand; of controls that are told when to stop, nothing else stops.
+    const std::string_view stop = model::control_option(plan_.machine, "prove_out");
+    if (model::changed_by_hand(plan_.machine) && cutters.size() > 1 && !stop.empty() && stop != "m0")
+      add("FIT-TOOL-CHANGE", Severity::kError, {}, -1,
+          "machine '" + plan_.machine.id +
+              "' has no tool changer, and the program would not stop between its " +
+              std::to_string(cutters.size()) +
+              " tools; state 'prove_out: m0' under the machine's control, or the pockets of its magazine");
   }
 
   void kinds(const StepResult& step, const std::string& id) {

@@ -163,6 +163,25 @@ TEST(Suitability, NamesOffsetsAndToolChangesOfThePlanThatItDoesNotHave) {
               UnorderedElementsAre("FIT-OFFSETS", "FIT-TOOL-CHANGE"));
 }
 
+TEST(Suitability, AProgramThatDoesNotStopForToolsChangedByHandIsAnError) {
+  model::Plan plan = with(straight(3, 5.0));
+  plan.steps.push_back(plan.steps.front());
+  plan.steps.back().cutter_id = "another";
+  plan.machine.magazine_pockets = 1;
+  EXPECT_THAT(codes(plan, {}), IsEmpty()) << "LinuxCNC's M6 waits";
+  for (const char* dialect : {"fanuc", "haas", "siemens"}) {
+    plan.machine.control.dialect = dialect;
+    plan.machine.control_options = {};
+    EXPECT_THAT(codes(plan, {}), Contains("FIT-TOOL-CHANGE")) << dialect;
+    plan.machine.control_options = model::ControlOptions{{{"prove_out", "m0"}}};
+    EXPECT_THAT(codes(plan, {}), Not(Contains("FIT-TOOL-CHANGE"))) << dialect;
+    plan.machine.magazine_pockets = 8;
+    plan.machine.control_options = {};
+    EXPECT_THAT(codes(plan, {}), Not(Contains("FIT-TOOL-CHANGE"))) << dialect;
+    plan.machine.magazine_pockets = 1;
+  }
+}
+
 TEST(Suitability, TheProfilesBlockTimeGoesBeforeTheMachines) {
   // 0.1 mm in a block time of the machine, 1 mm in one of the profile.
   const model::Plan plan = with(straight(5, 0.5));

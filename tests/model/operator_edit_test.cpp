@@ -156,16 +156,21 @@ TEST(Restrictions, BarACutterBySizeNumberAndNameWhereTheyAreMeant) {
   EXPECT_TRUE(barred(edits, hole, cutter("drill5", 5.0, 0)));
 }
 
+TEST(OperatorEdit, ADepthIsSetAndNotLimited) {
+  EXPECT_TRUE(parse_edit(EditKind::kSet, "POCKET/depth=4", "--set"));
+  EXPECT_FALSE(parse_edit(EditKind::kLimit, "POCKET/depth<=4", "--limit"));
+}
+
 TEST(Restrictions, TheLeastOfSeveralLimitsHolds) {
   const std::vector<Edit> edits = {
       parsed(EditKind::kLimit, "feed<=2000"), parsed(EditKind::kLimit, "SLOT*/feed<=900"),
-      parsed(EditKind::kLimit, "feed<=1500"), parsed(EditKind::kLimit, "depth<=2")};
+      parsed(EditKind::kLimit, "feed<=1500"), parsed(EditKind::kLimit, "speed<=2000")};
   const EditLimits slot = limits_of(edits, {"SLOT", "SLOT rough"}), other = limits_of(edits, {"POCKET", ""});
   EXPECT_EQ(slot.feed_mm_min, 900.0);
   EXPECT_EQ(other.feed_mm_min, 1500.0);
-  EXPECT_EQ(other.depth_mm, 2.0);
-  EXPECT_FALSE(other.speed_rpm);
-  EXPECT_EQ(slot.words(), "--limit: limit SLOT*/feed<=900; --limit: limit depth<=2");
+  EXPECT_EQ(other.speed_rpm, 2000.0);
+  EXPECT_FALSE(other.depth_mm);
+  EXPECT_EQ(slot.words(), "--limit: limit SLOT*/feed<=900; --limit: limit speed<=2000");
 }
 
 TEST(Restrictions, BarOperationsAndStrategiesByTheirKeyword) {

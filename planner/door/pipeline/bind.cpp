@@ -16,6 +16,7 @@
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/unreadable.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/range/positions.h"
 
 namespace capstan::pipeline {
@@ -155,6 +156,7 @@ void put_workpiece(model::Plan& plan, Resolved resolved, const Inputs& inputs) {
   plan.stock = std::move(resolved.raw);
   plan.provenance = inputs.provenance;
   plan.provenance.push_back(std::move(resolved.margin.said));
+  for (const model::Edit& e : inputs.edits) plan.provenance.push_back(model::provenance_of(e));
   if (inputs.stock) piece::state_raw_piece(plan.model, plan.stock.box);
 }
 

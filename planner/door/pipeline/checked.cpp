@@ -227,8 +227,9 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
   auto out = stoppable(
       job,
       [&] {
-        return inputs.edits.empty() && !model::edits_are_all(inputs.provenance) ? bind_anew(plan, inputs, policy, job, anew)
-                                    : bind_edited(plan, inputs, policy, job, anew);
+        return inputs.edits.empty() && !model::edits_are_all(inputs.provenance)
+                   ? bind_anew(plan, inputs, policy, job, anew)
+                   : bind_edited(plan, inputs, policy, job, anew);
       },
       [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });
   tell_altered_cases(inputs, job);

@@ -358,7 +358,8 @@ Status take_choices(const Request& o, const model::Plan& plan, pipeline::Inputs&
   if (!edits) return tl::unexpected(edits.error());
   in.edits = *std::move(edits);
   if (o.edits_file)
-    in.provenance.push_back({std::string(model::kEditsFile), *o.edits_file, option(o, "edits " + *o.edits_file)});
+    in.provenance.push_back(
+        {std::string(model::kEditsFile), *o.edits_file, option(o, "edits " + *o.edits_file)});
   return known_names(in.edits, in.library, plan);
 }
 

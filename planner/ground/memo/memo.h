@@ -17,8 +17,8 @@
 namespace capstan::memo {
 
 /// The stages whose results are kept.
-enum class Stage : std::uint8_t { kPath, kSections, kFeeds, kSweep };
-inline constexpr std::size_t kStages = 4;
+enum class Stage : std::uint8_t { kPath, kSections, kFeeds, kSweep, kPart };
+inline constexpr std::size_t kStages = 5;
 
 /// 128 bits of XXH3 over a stage and everything its result was made from. Two different questions meet in one
 /// key with a chance of 2^-128. XXH3 does not resist somebody who looks for such two: whatever comes of a

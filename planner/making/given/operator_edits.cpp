@@ -480,6 +480,19 @@ Status open_beyond_edits(model::Plan& plan, const std::vector<Edit>& edits,
   return {};
 }
 
+namespace {
+
+/// The set edit that holds of a step's attribute: the last that means it; null: none.
+const Edit* last_set(const std::vector<Edit>& edits, EditOf of, const StepNames& names) {
+  const Edit* out = nullptr;
+  for (const Edit& e : edits) {
+    if (e.kind == EditKind::kSet && e.of == of && model::names(e.where, names)) out = &e;
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<model::Finding> broken_edits(const model::Plan& plan, const std::vector<Edit>& edits) {
   std::vector<model::Finding> out;
   std::vector<StepDraft> steps;
@@ -520,6 +533,13 @@ std::vector<model::Finding> broken_edits(const model::Plan& plan, const std::vec
     }
     if (limits.feed_mm_min && above(feed, *limits.feed_mm_min))
       broken(i, "feed " + trimmed(feed, 1) + " mm/min against " + limits.feed_by);
+    if (const Edit* set = last_set(edits, EditOf::kSpeed, names);
+        set != nullptr && std::abs(std::abs(r.spindle_rpm) - set->number) > 1e-3)
+      broken(i, "speed " + trimmed(std::abs(r.spindle_rpm), 1) + " 1/min against " + model::words_of(*set));
+    if (const Edit* set = last_set(edits, EditOf::kDepth, names);
+        set != nullptr && depth_of(const_cast<Model&>(plan.model), s.operation) != nullptr &&
+        above(r.axial_depth_mm, set->number))
+      broken(i, "depth " + trimmed(r.axial_depth_mm, 3) + " mm against " + model::words_of(*set));
     if (limits.speed_rpm && above(speed, *limits.speed_rpm))
       broken(i, "speed " + trimmed(speed, 1) + " 1/min against " + limits.speed_by);
     auto& m = const_cast<Model&>(plan.model);  // read only
@@ -528,10 +548,13 @@ std::vector<model::Finding> broken_edits(const model::Plan& plan, const std::vec
   }
   for (const Edit& e : edits) {
     if (e.kind != EditKind::kOrder) continue;
+    bool any_first = false, any_second = false;
     std::optional<std::size_t> later;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const StepNames n = draft::edit_names(plan.model, steps[i]);
       const bool first = model::names(e.where, n), second = model::names(e.before, n);
+      any_first = any_first || (first && !second);
+      any_second = any_second || (second && !first);
       if (second && !first && !later) later = i;
       if (first && !second && later) {
         broken(i, "it comes after '" + draft::name_of(plan.model, steps[*later]) + "', against " +
@@ -539,6 +562,13 @@ std::vector<model::Finding> broken_edits(const model::Plan& plan, const std::vec
         break;
       }
     }
+    if (!any_first || !any_second)
+      out.push_back({.code = "EDIT-BROKEN",
+                     .severity = Severity::kWarning,
+                     .step = {},
+                     .message = model::words_of(e) +
+                                " orders nothing: no planned step is named by one of its patterns and not by "
+                                "both; name those that come first, and those that come later, apart"});
   }
   return out;
 }

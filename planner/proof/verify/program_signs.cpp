@@ -9,7 +9,7 @@
 namespace capstan::verify {
 namespace {
 
-constexpr std::string_view kFanuc = "fanuc", kHaas = "haas", kLinuxCnc = "linuxcnc";
+constexpr std::string_view kFanuc = "fanuc", kHaas = "haas", kLinuxCnc = "linuxcnc", kSiemens = "siemens";
 constexpr std::size_t kMostOfABlock = 256;  // characters; a longer one is no block of any control
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
@@ -44,14 +44,42 @@ std::size_t find_word(const std::string& block, std::string_view word) {
   return std::string::npos;
 }
 
+/// Whether an address with a value stands in a block: the letter, and behind it a number, a parameter or an
+/// expression.
+bool has_address(const std::string& block, std::string_view letter) {
+  for (std::size_t at = block.find(letter); at != std::string::npos; at = block.find(letter, at + 1)) {
+    const std::size_t next = at + letter.size();
+    if (next < block.size() &&
+        std::string_view("0123456789.+-#[").find(block[next]) != std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+/// O<name> or O100 with a keyword behind it, as LinuxCNC's subroutines and loops begin.
+bool is_o_word(const std::string& block) {
+  if (block.size() > 1 && block[1] == '<') return true;
+  std::size_t n = 1;
+  while (n < block.size() && digit(block[n])) ++n;
+  constexpr std::array<std::string_view, 14> kKeywords = {
+      "SUB",      "ENDSUB", "CALL",   "IF",        "ELSE",     "ENDIF", "WHILE",
+      "ENDWHILE", "DO",     "REPEAT", "ENDREPEAT", "CONTINUE", "BREAK", "RETURN"};
+  return n > 1 && std::any_of(kKeywords.begin(), kKeywords.end(), [&](std::string_view keyword) {
+           return std::string_view(block).substr(n).starts_with(keyword);
+         });
+}
+
 struct Word {
-  std::string_view word, other;  ///< `other`: a letter that must stand in the block, too; empty: none need
+  std::string_view word, other;  ///< `other`: an address that must stand in the block, too; empty: none need
   std::vector<std::string_view> dialects;
   std::string_view what;
 };
 
-const std::array<Word, 7>& words() {
-  static const std::array<Word, 7> kWords = {{
+const std::array<Word, 10>& words() {
+  static const std::array<Word, 10> kWords = {{
+      {"CYCLE832", "", {kSiemens}, "a tolerance"},
+      {"MCALL", "", {kSiemens}, "a modal call"},
+      {"SUPA", "", {kSiemens}, "a place in machine coordinates"},
       {"G54.1", "P", {kFanuc, kHaas}, "an extended work offset"},
       {"M29", "S", {kFanuc, kHaas}, "rigid tapping"},
       {"G5.1", "Q", {kFanuc}, "look-ahead"},
@@ -67,12 +95,12 @@ std::optional<DialectSign> of_block(const std::string& block) {
   if (block.size() > 1 && block.front() == 'O') {
     const bool number = std::all_of(block.begin() + 1, block.end(), digit);
     if (number) return DialectSign{{kFanuc, kHaas}, block + ", a program number", 0};
-    return DialectSign{{kLinuxCnc}, block.substr(0, 20) + ", an O-word", 0};
+    if (is_o_word(block)) return DialectSign{{kLinuxCnc}, block.substr(0, 20) + ", an O-word", 0};
   }
   if (block.find("#<") != std::string::npos) return DialectSign{{kLinuxCnc}, "#<...>, a named parameter", 0};
   for (const Word& w : words()) {
     if (find_word(block, w.word) == std::string::npos) continue;
-    if (!w.other.empty() && block.find(w.other) == std::string::npos) continue;
+    if (!w.other.empty() && !has_address(block, w.other)) continue;
     return DialectSign{w.dialects, std::string(w.word) + ", " + std::string(w.what), 0};
   }
   return std::nullopt;

@@ -29,17 +29,6 @@ int said(Session& s, const Result<std::string>& text) {
                       : s.end({.code = "FILE-WRITE", .message = "standard output is closed"}, kImpossible);
 }
 
-}  // namespace
-
-int run_explain(Session& s) {
-  const auto plan = service::load_plan(s.options.files[0], s.job);
-  if (!plan) return s.end(plan.error(), kUnreadable);
-  drop_notes(s.job);
-  if (s.options.step.empty()) return said(s, explain(*plan));
-  if (s.options.attribute.empty()) return said(s, explain(*plan, s.options.step));
-  return said(s, explain(*plan, s.options.step, s.options.attribute));
-}
-
 int inspect_cad_model(Session& s, std::string bytes) {
   const std::string& file = s.options.files[0];
   if (!s.options.step.empty())
@@ -52,6 +41,17 @@ int inspect_cad_model(Session& s, std::string bytes) {
   if (!shapes) return s.end(shapes.error(), kUnreadable);
   const auto told = s.job.take_diagnostics();
   return said(s, inspect(*shapes, told));
+}
+
+}  // namespace
+
+int run_explain(Session& s) {
+  const auto plan = service::load_plan(s.options.files[0], s.job);
+  if (!plan) return s.end(plan.error(), kUnreadable);
+  drop_notes(s.job);
+  if (s.options.step.empty()) return said(s, explain(*plan));
+  if (s.options.attribute.empty()) return said(s, explain(*plan, s.options.step));
+  return said(s, explain(*plan, s.options.step, s.options.attribute));
 }
 
 int run_inspect(Session& s) {

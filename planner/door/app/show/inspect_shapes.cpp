@@ -94,7 +94,8 @@ std::string inspect(const Brep& shapes, const std::vector<Diagnostic>& diagnosti
   out += "\nArea       " + trimmed(area_mm2, 3) + " mm2";
   out += "\nTriangles  " + std::to_string(shapes.triangles.size()) + ", within " + trimmed(shapes.chord, 4) +
          " mm of the surfaces\n";
-  return out + bodies_of(shapes) + faces_of(shapes) + edges_of(shapes) + recognised_features(shapes) + faults(diagnostics);
+  return out + bodies_of(shapes) + faces_of(shapes) + edges_of(shapes) + recognised_features(shapes) +
+         faults(diagnostics);
 }
 
 }  // namespace capstan::app

@@ -39,7 +39,7 @@ std::vector<Option> edit_options() {
                           "'SLOT*/feed=900'; tool, feed, speed or depth; the part before / names features or "
                           "workingsteps, with * and ?"),
       row<EditKind::kPin>("hold a value as it is planned: 'POCKET*/tool'"),
-      row<EditKind::kLimit>("bound a number: 'feed<=2000', 'POCKET*/tool.diameter<=8'; feed, speed, depth, "
+      row<EditKind::kLimit>("bound a number: 'feed<=2000', 'POCKET*/tool.diameter<=8'; feed, speed, "
                             "tool.diameter, tool.stick_out or tool.teeth"),
       row<EditKind::kForbid>("rule out a tool, a kind of operation or a strategy: 'tool=em12*', "
                              "'HOLE*/operation=reaming'"),

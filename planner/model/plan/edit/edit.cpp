@@ -28,7 +28,8 @@ constexpr std::array kRows = {
     Row{EditOf::kTool, "tool", "", kChosen | bit(EditKind::kForbid), false, false},
     Row{EditOf::kFeed, "feed", "mm/min", kChosen | bit(EditKind::kLimit), true, false},
     Row{EditOf::kSpeed, "speed", "1/min", kChosen | bit(EditKind::kLimit), true, false},
-    Row{EditOf::kDepth, "depth", "mm", kChosen | bit(EditKind::kLimit), true, false},
+    // No limit: entries go down past the levels, which alone would keep to it.
+    Row{EditOf::kDepth, "depth", "mm", kChosen, true, false},
     Row{EditOf::kToolDiameter, "tool.diameter", "mm", bit(EditKind::kLimit), true, true},
     Row{EditOf::kToolStickOut, "tool.stick_out", "mm", bit(EditKind::kLimit), true, true},
     Row{EditOf::kToolTeeth, "tool.teeth", "", bit(EditKind::kLimit), true, true},
@@ -51,7 +52,7 @@ std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"
 auto no_edit(EditKind kind, std::string_view text, std::string what) {
   static constexpr std::array kForms = {
       "[PATTERN/]tool=T5, or feed, speed or depth with a number", "[PATTERN/]tool, feed, speed or depth",
-      "[PATTERN/]feed<=2000, or speed, depth, tool.diameter, tool.stick_out, tool.teeth",
+      "[PATTERN/]feed<=2000, or speed, tool.diameter, tool.stick_out, tool.teeth",
       "[PATTERN/]tool=NAME, operation=KIND or strategy=KIND", "PATTERN<PATTERN, features or workingsteps"};
   return fail({.code = "EDIT-SYNTAX",
                .message = quoted(text) + " is no " + std::string(to_text(kind)) + ": " + std::move(what),

@@ -17,7 +17,8 @@ namespace {
 
 /// Centres of a helix's arcs in a program agree to this, mm: a few of its last digits.
 constexpr double kSameCentre = 0.01;
-constexpr double kWritten = 0.005;  ///< by which a feed may be off through its decimals
+constexpr double kJudgedAloneMm = 1.0;  ///< rounding at 3 decimals is 0.1 degrees of it; default, unsourced
+constexpr double kWritten = 0.005;      ///< by which a feed may be off through its decimals
 
 bool cuts_to_centre(const model::Cutter& c) {
   return verify::cuts_to_centre(c.cutter_class) || c.centre_cutting;
@@ -51,14 +52,20 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
   const double dz = m.to.z - m.from.z;
   if (dz >= -1e-9) {
     helix_turned_ = 0.0;
+    descent_ = {};
     return;
   }
   const double along = is_arc(m.kind) ? norm(xy(m.to) - m.centre) * sweep_of(m) : norm(xy(m.to) - xy(m.from));
-  // Both ends are rounded: the move that was meant may have been as much flatter.
+  // Both ends are rounded: the move that was meant may have been as much flatter. What rounding does to short
+  // moves does not add up along them: they are judged together, a millimetre of them at a time.
+  const auto flattest = [&](double drop, double way) {
+    return std::atan2(std::max(0.0, drop - 2.0 * m.rounding_mm), way + 2.0 * m.rounding_mm);
+  };
   const double angle = std::atan2(-dz, along);
-  const double least = std::atan2(std::max(0.0, -dz - 2.0 * m.rounding_mm), along + 2.0 * m.rounding_mm);
+  double least = flattest(-dz, along);
   const bool core = bite.core_mm > 0.05;
   if (along < 1e-6 || angle > 1.5533) {  // steeper than 89 degrees
+    descent_ = {};
     if (core && !cuts_to_centre(cutter_)) {
       out_.error(14, "CHK-PLUNGE", at(m),
                  "the tool does not cut to its centre, but plunges " + mm(-dz) + " into solid material", -dz);
@@ -68,7 +75,14 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
   // Following a surface down with a ball, or down a thread, is not an entry; a mill whose end cuts is.
   const bool ramp = m.role_known && m.role == MoveRole::kRamp;
   const bool shaped = is_ball(cutter_.cutter_class) || plan_.target_mesh != nullptr;
+  if (!core) descent_ = {};
   if (!core || mills_threads(cutter_.cutter_class) || (shaped && !ramp)) return;
+  if (along >= kJudgedAloneMm || descent_.along_mm >= kJudgedAloneMm) descent_ = {};
+  if (along < kJudgedAloneMm) {
+    descent_.drop_mm -= dz;
+    descent_.along_mm += along;
+    least = std::max(least, flattest(descent_.drop_mm, descent_.along_mm));
+  }
   const double most = cutter_.maximum_ramp_angle_rad;
   const double degrees = 180.0 / std::numbers::pi;
   if (least > most + 1e-4) {

@@ -164,6 +164,7 @@ void StepChecks::run() {
 
 void StepChecks::rapid(const Move& m) {
   helix_turned_ = 0.0;
+  descent_ = {};
   body(m);
   ring_up(m);
   Vec2 where;

@@ -91,7 +91,11 @@ class StepChecks {
   double rubbed_mm_ = 0.0;     ///< way in material at feeds below the thinnest chip
   double rubbed_at_mm_ = 0.0;  ///< the lowest feed per tooth there
   Findings::Where rubbed_ = {};
-  bool ramp_chosen_ = false;   ///< by planning: neither the path nor its angle is the file's
+  bool ramp_chosen_ = false;  ///< by planning: neither the path nor its angle is the file's
+  /// Short moves down, one behind the other, that are judged together.
+  struct {
+    double drop_mm = 0.0, along_mm = 0.0;
+  } descent_;
   double helix_turned_ = 0.0;  ///< rad, of a descending spiral so far
   geometry::Vec2 helix_centre_;
   double cut_mm3_ = 0.0;  ///< by the step so far

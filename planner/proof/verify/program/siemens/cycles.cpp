@@ -175,6 +175,7 @@ std::optional<Interpreter::Planes> Interpreter::planes(const CycleCall& c) {
   };
   if (!c.at(kRtp) || !c.at(kRfp) || (!c.at(kDp) && !c.at(kDpr)))
     return wrong("RTP, RFP or the depth is missing");
+  if (!c.at(kDp) && c.of(kDpr) == 0.0) return wrong("DPR is 0 and DP is missing: there is no depth");
   if (c.of(kSdis) < 0.0) return wrong("SDIS is " + mm(c.of(kSdis) * units()) + "; it has no sign");
   Planes p;
   p.back = c.of(kRtp) * units();

@@ -54,6 +54,10 @@ bool Interpreter::put_word(char letter, const Item& item, BlockWords& s) {
     return false;
   }
   const int i = letter - 'A';
+  if (i < 0 || i >= static_cast<int>(std::size(s.value))) {
+    fault(33, "CHK-WORD", item.name + " is no address; a name of a variable has two letters at least", true);
+    return false;
+  }
   if (s.has[i]) fault(33, "CHK-WORD-TWICE", "the word " + item.name + " stands twice in one block");
   s.has[i] = true;
   s.value[i] = *item.value;
@@ -131,6 +135,15 @@ void Interpreter::turn(Block whole, int further) {
   const double way = whole.move == model::MoveKind::kArcCw ? -1.0 : 1.0;
   const geometry::Vec2 spoke = xy(whole.from) - whole.centre;
   const auto pieces = static_cast<int>(std::ceil(total / kPi - 1e-9));
+  constexpr int kMostPieces = 500000;  // of a program, as of cycles' moves; default, unsourced
+  turned_ += pieces;
+  if (turned_ > kMostPieces) {
+    put(whole);
+    return fault(33, "CHK-TOO-LARGE",
+                 "the program's TURN= come to more than " + std::to_string(kMostPieces / 2) +
+                     " turns, and this one was not followed",
+                 true);
+  }
   Block b = whole;
   b.from_turns = true;
   for (int k = 1; k <= pieces; ++k) {
@@ -169,10 +182,11 @@ void Interpreter::to_machine_place(const BlockWords& s) {
     return fault(33, "CHK-WORD", "a move in machine coordinates behind an arc; state G0 with it");
   if (!absolute_) return fault(33, "CHK-WORD", "SUPA in incremental mode (G91) is not followed; state G90");
   straight(s, motion_, true);
-  if (!s.is('Z') || length_ < 0) return;
+  if (!s.is('Z') || length_off_) return;
   fault(10, "CHK-MACHINE-MOVE",
-        "the tool's length is on, so Z" + plain(s.of('Z')) +
-            " says where its tip goes and not the axis; state D0 in this block");
+        (length_ < 0 ? "whether a tool's length is on is machine data here, so that Z"
+                     : "the tool's length is on, so Z") +
+            plain(s.of('Z')) + " says where its tip goes and not the axis; state D0 in this block");
   machine_z_.reset();
   out_.blocks.back().machine_z.reset();
 }
@@ -197,8 +211,6 @@ void Interpreter::motion(const BlockWords& s) {
 }
 
 void Interpreter::wait(const BlockWords& s) {
-  if (s.axes() || s.g_count > 1 || s.m_count > 0 || s.supa)
-    fault(33, "CHK-WORD", "G4 stands in a block of its own; its other words are not followed");
   if (s.is('S')) return fault(33, "CHK-UNVERIFIABLE", "G4 S, turns of the spindle, is not followed", true);
   if (!s.is('F') || s.of('F') < 0.0) return fault(33, "CHK-WORD", "G4 has no F, the seconds that it waits");
   dwell(s.of('F'));
@@ -244,7 +256,11 @@ void Interpreter::line(const Line& l, long number) {
     return;
   }
   state_codes(s);
-  if (s.code(4)) return wait(s);
+  if (s.code(4)) {
+    if (l.items.size() != words + 1)  // N, G4 and its time
+      fault(33, "CHK-WORD", "G4 stands in a block of its own; its other words are not followed");
+    return wait(s);
+  }
   before_move(s);
   motion(s);
   after_move(s);

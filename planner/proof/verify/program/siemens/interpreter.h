@@ -91,6 +91,9 @@ class Interpreter : private BlockState {
   double contour_tolerance_ = kNoTolerance;  ///< CTOL=
   std::optional<CycleCall> modal_;
   bool any_ = false;
+  bool length_off_ = false;      ///< D0 was stated since; a reset and M6 leave it to machine data
+  bool feed_unit_known_ = true;  ///< G70 and G71 leave F in the unit of the control's basic system
+  int turned_ = 0;               ///< pieces that TURN= was taken to
 };
 
 }  // namespace capstan::verify::siemens

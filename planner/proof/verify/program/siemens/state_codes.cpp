@@ -79,6 +79,7 @@ void Interpreter::state_code(int g, const BlockWords& s) {
     case 71:
     case 710:
       unit(g == 70 || g == 700);
+      feed_unit_known_ = g == 700 || g == 710;
       break;
     case 90:
     case 91:
@@ -103,6 +104,7 @@ void Interpreter::state_code(int g, const BlockWords& s) {
 /// D1 is the length of the tool in the spindle; it acts with the next move of Z. D0 takes it away.
 void Interpreter::edge(double d) {
   const int before = length_;
+  length_off_ = d == 0.0;
   if (d == 0.0) {
     length_ = -1;
   } else if (d == 1.0 && tool_ > 0) {
@@ -139,6 +141,7 @@ void Interpreter::change_tool() {
   b.tool = tool_ = next;
   out_.blocks.push_back(b);
   length_ = -1;  // which edge acts by itself is machine data
+  length_off_ = false;
   spindle_ = 0;
 }
 
@@ -149,6 +152,14 @@ void Interpreter::state_codes(const BlockWords& s) {
     fault(33, "CHK-WORD", "CTOL= without G642 in its block is not followed");
   select_tool(s);
   if (s.is('F') && !s.code(4)) {
+    if (!feed_unit_known_) {
+      fault(2, "CHK-UNVERIFIABLE",
+            "F behind G70 or G71 counts in the unit of the control's basic system, which is machine data; "
+            "state "
+            "G700 or G710",
+            true);
+      feed_unit_known_ = true;  // said once
+    }
     feed_ = s.of('F') * units();
     stated_ |= kStatedFeed;
   }

@@ -98,7 +98,6 @@ double foot_allowed(const Form& s, double corner) {
   return std::min(corner, s.slope_rad > 0.0 ? kUnstatedShare * narrow_side(s.area) : kUnstatedFootMm);
 }
 
-/// What of a feature no height tells, or no cell.
 /// Whether nothing of an area lies so far from its boundary. Where the middle of its box does, by more than
 /// an offset's arcs may be off, no offset is made.
 bool is_narrower(const Region& area, double ring) {
@@ -110,6 +109,7 @@ bool is_narrower(const Region& area, double ring) {
   return geometry::offset(area, -ring, kArcMm).empty();
 }
 
+/// What of a feature no height tells, or no cell.
 std::string not_judged(const Form& s, const Asked& a, double ring) {
   if (s.kind != ShapeKind::kChamfer && is_narrower(s.area, ring))
     return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances)";

@@ -264,13 +264,13 @@ void Target::fill(Grid& grid) {
   }
   grid.find_top();
   if (memo_ == nullptr) return fill_part(grid);
-  const Key key = memo::key_of(Stage::kSweep, of_setup_, std::string("part"));
-  if (const auto bytes = memo_->find(Stage::kSweep, key)) {
+  const Key key = memo::key_of(Stage::kPart, of_setup_, std::string("part"));
+  if (const auto bytes = memo_->find(Stage::kPart, key)) {
     if (Runs::unpacked_into(*bytes, grid.part)) return;
-    memo_->reject(Stage::kSweep);
+    memo_->reject(Stage::kPart);
   }
   fill_part(grid);
-  memo_->keep(Stage::kSweep, key, Runs::packed(grid.part));
+  memo_->keep(Stage::kPart, key, Runs::packed(grid.part));
 }
 
 void Target::remember(memo::Memo& memo, const Key& of_setup) {

@@ -197,10 +197,10 @@ const Target::Walls& Target::walls(double z) {
   Walls out;
   // Of an area alone they are soon made, and another check asks for another area.
   memo::Memo* const memo = near_ ? nullptr : memo_;
-  const memo::Key key = memo::key_of(memo::Stage::kSweep, of_setup_, std::string("walls"), at);
+  const memo::Key key = memo::key_of(memo::Stage::kPart, of_setup_, std::string("walls"), at);
   std::optional<std::vector<Walls::Edge>> known;
   if (memo != nullptr) {
-    if (const auto bytes = memo->find(memo::Stage::kSweep, key))
+    if (const auto bytes = memo->find(memo::Stage::kPart, key))
       known = memo::unpacked<std::vector<Walls::Edge>>(*bytes);
   }
   if (known) {
@@ -210,7 +210,7 @@ const Target::Walls& Target::walls(double z) {
     if (memo != nullptr) {
       std::string bytes;
       memo::pack(bytes, out.edges);
-      memo->keep(memo::Stage::kSweep, key, std::move(bytes));
+      memo->keep(memo::Stage::kPart, key, std::move(bytes));
     }
   }
   out.sort_in(part_box_);
