@@ -48,7 +48,7 @@ TEST(OperatorEdit, ThatIsNoneIsRefused) {
   for (const char* bad : {"", "  ", "tool", "tool=", "feed=fast", "feed=0", "feed=-1", "feed=nan", "feed=inf",
                           "feed=1,5", "/feed=5", "feed=2000000", "feed=1e7"})
     EXPECT_EQ(refused(EditKind::kSet, bad), "EDIT-SYNTAX") << bad;
-  for (const char* bad : {"feed=5", "feed<5", "feed>=5", "depth>=1", "feed<="})
+  for (const char* bad : {"feed=5", "feed<5", "feed>=5", "speed>=1", "feed<="})
     EXPECT_EQ(refused(EditKind::kLimit, bad), "EDIT-SYNTAX") << bad;
   for (const char* bad : {"A", "<B", "A<", "A<B<C"})
     EXPECT_EQ(refused(EditKind::kOrder, bad), "EDIT-SYNTAX") << bad;
