@@ -11,11 +11,14 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 TEST(KeptTable, ReadsWhatItWrites) {
-  const std::vector<Cost> costs = {{"start-up", 1.25, std::nullopt},
-                                   {"a-row-with-a-name-that-is-very-long", 3.5, 4.0}};
-  const auto again = read(write(costs), "fast.table");
+  const Table table = {"a processor",
+                       "valgrind-9 x86_64",
+                       {{"start-up", 1.25, std::nullopt},
+                        {"a-row-with-a-name-that-is-very-long", 3.5, 4.0},
+                        {"counted", std::nullopt, 7.0}}};
+  const auto again = read(write(table), "fast.table");
   ASSERT_TRUE(again) << to_text(again.error());
-  EXPECT_EQ(*again, costs);
+  EXPECT_EQ(*again, table);
 }
 
 TEST(KeptTable, RefusesALineThatIsNoRow) {
@@ -45,30 +48,36 @@ TEST(KeptTable, ARowThatTheTableDoesNotHaveIsAFault) {
 
 TEST(KeptTable, InstructionsDecideWhereBothHaveThem) {
   const std::vector<Cost> table = {{"json", 2.0, 10.0}};
-  EXPECT_FALSE(fault({"json", 9.0, 10.5}, table));
-  EXPECT_TRUE(fault({"json", 2.0, 15.0}, table));
+  EXPECT_FALSE(fault({"json", 9.0, 10.9}, table));
+  EXPECT_TRUE(fault({"json", 2.0, 11.1}, table));
   EXPECT_TRUE(fault({"json", 9.0, std::nullopt}, table)) << "not counted here: the time decides";
+  EXPECT_FALSE(fault({"json", std::nullopt, 10.0}, table)) << "no time taken";
 }
 
-/// A row of so many kernels: its cost is that number on every machine.
-Row kernels(int n) {
-  return {"kernels", [n] {
-            Taken all;
-            for (int k = 0; k < n; ++k) {
-              const Taken one = reference_kernel();
-              all.cpu_s += one.cpu_s;
-              all.instructions += one.instructions;
-            }
-            return all;
-          }};
+/// A shell that counts to n, so that its work grows with n.
+Row counting(int n) {
+  return {"counting",
+          {"/bin/sh", "-c", "i=0; while [ $i -lt " + std::to_string(n) + " ]; do i=$((i+1)); done"}};
 }
 
 TEST(Kept, ARowOfHalfAsMuchWorkAgainFailsAndTheSameWorkPasses) {
-  const std::vector<Cost> table = {{"kernels", 2.0, 2.0}};
+  if (counter().empty()) GTEST_SKIP() << "valgrind is not installed";
+  const std::vector<Cost> table = measured({counting(20000)}, {0, true});
+  ASSERT_THAT(table, SizeIs(1));
+  ASSERT_TRUE(table.front().instructions_1e6);
+  EXPECT_FALSE(table.front().time);
   std::vector<Cost> costs;
-  EXPECT_THAT(check({kernels(2)}, table, 3, costs), IsEmpty());
-  EXPECT_THAT(check({kernels(3)}, table, 3, costs), SizeIs(1));
+  EXPECT_THAT(check({counting(20000)}, table, {0, true}, costs), IsEmpty());
+  EXPECT_THAT(check({counting(30000)}, table, {0, true}, costs), SizeIs(1));
   EXPECT_THAT(costs, SizeIs(2));
+}
+
+TEST(Kept, ATimeIsThatOfTheRowOverThatOfTheKernel) {
+  const std::vector<Cost> costs = measured({counting(20000)}, {1, false});
+  ASSERT_THAT(costs, SizeIs(1));
+  ASSERT_TRUE(costs.front().time);
+  EXPECT_GT(*costs.front().time, 0.0);
+  EXPECT_FALSE(costs.front().instructions_1e6);
 }
 
 TEST(Kept, AProgramThatFailsIsNoMeasurement) {

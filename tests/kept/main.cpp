@@ -1,14 +1,16 @@
-// capstan_kept [--smoke] [--take] TABLE COMMAND EXAMPLES: measures what is kept fast against the table of
-// ratios, or writes the table anew. Status 0: as fast as it says; 1: slower; 2: wrong usage; 3: no table, or
-// the work failed; 77: the table is of another processor.
+// capstan_kept [--smoke | --take] TABLE COMMAND EXAMPLES: measures what is kept fast against the table, or
+// writes the table anew. --smoke counts the instructions of the small rows only, so that no other work on the
+// machine changes the verdict. Status 0: as fast as it says; 1: slower; 2: wrong usage; 3: no table, or the
+// work failed; 77: nothing of the table can be judged here. capstan_kept --piece NAME FILE: does one piece of
+// work (rows.h).
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "planner/ground/base/file.h"
-#include "planner/ground/base/number.h"
 #include "tests/kept/rows.h"
 #include "tests/support/corpus.h"
 
@@ -16,42 +18,40 @@ namespace {
 
 using namespace capstan;  // a program of its own
 
-constexpr std::size_t kRepeats = 5, kSmokeRepeats = 3;
+constexpr std::size_t kRepeats = 5;
 constexpr int kNotJudged = 77;  // ctest's status of a test that is skipped
 
-int run(bool smoke, bool take, const std::string& table_file, const std::vector<kept::Row>& rows) {
-  if (!kept::instructions_can_be_counted())
-    std::puts(
-        "kept: instructions cannot be counted on this machine (perf_event_open); CPU times are compared");
-  std::vector<kept::Cost> costs;
-  std::vector<std::string> wrong;
-  if (take) {
-    costs = kept::measured(rows, 2 * kRepeats + 1);
-    if (const auto ok = write_file(table_file, kept::write(costs)); !ok) {
-      std::fprintf(stderr, "kept: %s\n", to_text(ok.error()).c_str());
-      return 3;
-    }
-  } else {
-    const auto text = read_file(table_file);
-    const auto table =
-        text ? kept::read(*text, table_file) : Result<std::vector<kept::Cost>>(tl::unexpected(text.error()));
-    if (!table) {
-      std::fprintf(stderr, "kept: %s\n", to_text(table.error()).c_str());
-      return 3;
-    }
-    const std::string own = kept::processor(), theirs = kept::processor_of(*text);
-    if (own != theirs) {
-      std::printf(
-          "kept: not judged: the table was taken on another processor (%s, this is %s); `./dev bench --take` "
-          "makes "
-          "one for this\n",
-          theirs.c_str(), own.c_str());
-      std::fputs(kept::write(kept::measured(rows, smoke ? kSmokeRepeats : kRepeats)).c_str(), stdout);
-      return kNotJudged;
-    }
-    wrong = kept::check(rows, *table, smoke ? kSmokeRepeats : kRepeats, costs);
-  }
-  std::fputs(kept::write(costs).c_str(), stdout);
+int failed(const Diagnostic& why) {
+  std::fprintf(stderr, "kept: %s\n", to_text(why).c_str());
+  return 3;
+}
+
+int taken(const std::string& file, const std::vector<kept::Row>& rows) {
+  const kept::Table table{kept::processor(), kept::counter(),
+                          kept::measured(rows, {2 * kRepeats + 1, !kept::counter().empty()})};
+  if (const auto ok = write_file(file, kept::write(table)); !ok) return failed(ok.error());
+  std::fputs(kept::write(table).c_str(), stdout);
+  return 0;
+}
+
+int checked(bool smoke, const std::string& file, const std::vector<kept::Row>& rows) {
+  const auto text = read_file(file);
+  if (!text) return failed(text.error());
+  auto table = kept::read(*text, file);
+  if (!table) return failed(table.error());
+  kept::Table own{kept::processor(), kept::counter(), {}};
+  const bool counted = !own.counter.empty() && own.counter == table->counter;
+  const bool timed = !smoke && own.processor == table->processor;
+  if (!counted)
+    std::printf("kept: instructions are not judged: the table has those of '%s', here counts '%s'\n",
+                table->counter.c_str(), own.counter.c_str());
+  if (!timed && !smoke)
+    std::printf("kept: times are not judged: the table was taken on '%s', this is '%s'\n",
+                table->processor.c_str(), own.processor.c_str());
+  if (!counted && !timed) return kNotJudged;
+  const std::vector<std::string> wrong =
+      kept::check(rows, table->costs, {timed ? kRepeats : 0, counted}, own.costs);
+  std::fputs(kept::write(own).c_str(), stdout);
   for (const std::string& w : wrong) std::fprintf(stderr, "kept: %s\n", w.c_str());
   return wrong.empty() ? 0 : 1;
 }
@@ -59,25 +59,23 @@ int run(bool smoke, bool take, const std::string& table_file, const std::vector<
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool smoke = false, take = false;
-  std::vector<std::string> names;
-  for (int i = 1; i < argc; ++i) {
-    const std::string a = argv[i];
-    if (a == "--smoke") {
-      smoke = true;
-    } else if (a == "--take") {
-      take = true;
-    } else {
-      names.push_back(a);
-    }
-  }
-  if (names.size() != 3 || (smoke && take)) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const std::string first = words.empty() ? "" : words.front();
+  const bool smoke = first == "--smoke", take = first == "--take";
+  const std::size_t names = smoke || take ? 1 : 0;
+  if (words.size() != names + 3) {
     std::fputs("usage: capstan_kept [--smoke | --take] TABLE COMMAND EXAMPLES\n", stderr);
     return 2;
   }
   try {
+    if (first == "--piece") {
+      kept::piece(words[1], words[2]);
+      return 0;
+    }
     const capstan::testing::ScratchFolder scratch;
-    return run(smoke, take, names[0], kept::rows(names[1], names[2], scratch.path(), smoke));
+    const auto rows = kept::rows(words[names + 1], std::filesystem::canonical(argv[0]).string(),
+                                 words[names + 2], scratch.path(), smoke);
+    return take ? taken(words[names], rows) : checked(smoke, words[names], rows);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "kept: %s\n", e.what());
     return 3;

@@ -1,11 +1,9 @@
 #include "tests/kept/measure.h"
 
 #include <fcntl.h>
-#include <linux/perf_event.h>
 #include <spawn.h>
-#include <sys/ioctl.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
+#include <sys/utsname.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,39 +12,14 @@
 #include <cstdint>
 #include <ctime>
 #include <stdexcept>
+#include <utility>
+
+#include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
+#include "tests/support/corpus.h"
 
 namespace capstan::kept {
 namespace {
-
-/// Instructions in user mode of this process and the children it makes while this lives (perf_event_open(2)).
-class Instructions {
- public:
-  Instructions() {
-    perf_event_attr a = {};
-    a.type = PERF_TYPE_HARDWARE;
-    a.size = sizeof a;
-    a.config = PERF_COUNT_HW_INSTRUCTIONS;
-    a.exclude_kernel = 1;
-    a.exclude_hv = 1;
-    a.inherit = 1;
-    fd_ = static_cast<int>(::syscall(SYS_perf_event_open, &a, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
-  }
-  ~Instructions() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Instructions(const Instructions&) = delete;
-  Instructions& operator=(const Instructions&) = delete;
-
-  [[nodiscard]] bool known() const { return fd_ >= 0; }
-  [[nodiscard]] double so_far() const {
-    std::uint64_t n = 0;
-    return fd_ >= 0 && ::read(fd_, &n, sizeof n) == static_cast<ssize_t>(sizeof n) ? static_cast<double>(n)
-                                                                                   : 0.0;
-  }
-
- private:
-  int fd_ = -1;
-};
 
 double cpu_s() {
   timespec t = {};
@@ -64,49 +37,35 @@ double median(std::vector<double> v) {
   return n % 2 == 1 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
 }
 
-Cost cost_of(const Row& row, std::size_t repeats) {
-  std::vector<double> time, instructions;
+Cost cost_of(const Row& row, What what) {
+  Cost out{row.name, std::nullopt, std::nullopt};
+  if (what.instructions) out.instructions_1e6 = instructions_1e6(row.command);
+  if (what.repeats == 0) return out;
+  std::vector<double> time;
   Taken before = reference_kernel();
-  for (std::size_t k = 0; k < repeats; ++k) {
-    const Taken own = row.run();
+  for (std::size_t k = 0; k < what.repeats; ++k) {
+    const Taken own = taken_by(row.command);
     const Taken after = reference_kernel();
     time.push_back(own.cpu_s / (0.5 * (before.cpu_s + after.cpu_s)));
-    if (own.instructions > 0.0 && after.instructions > 0.0)
-      instructions.push_back(own.instructions / after.instructions);
     before = after;
   }
-  Cost out{row.name, median(time), std::nullopt};
-  if (instructions.size() == repeats) out.instructions = median(instructions);
+  out.time = median(time);
   return out;
 }
 
-}  // namespace
-
-bool instructions_can_be_counted() {
-  static const bool can = Instructions().known();
-  return can;
-}
-
-Taken taken_by(const std::function<void()>& work) {
-  const Instructions counter;
-  const double from = cpu_s();
-  const double counted = counter.so_far();
-  work();
-  return {cpu_s() - from, counter.so_far() - counted};
-}
-
-Taken taken_by(const std::vector<std::string>& command, int most_status) {
+/// Runs a program and waits for it. What it prints goes to /dev/null, or to a file where one is named. Throws
+/// as taken_by does.
+rusage ran(const std::vector<std::string>& command, int most_status, const char* errors = "/dev/null") {
   std::vector<char*> arguments;
   for (const std::string& a : command) arguments.push_back(const_cast<char*>(a.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t quiet;
   posix_spawn_file_actions_init(&quiet);
-  for (const int fd : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&quiet, fd, "/dev/null", O_WRONLY, 0);
-  const Instructions counter;
-  const double counted = counter.so_far();
+  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, errors, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   pid_t pid = 0;
-  const int failed = ::posix_spawn(&pid, command.front().c_str(), &quiet, nullptr, arguments.data(), environ);
+  const int failed =
+      ::posix_spawnp(&pid, command.front().c_str(), &quiet, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&quiet);
   if (failed != 0) throw std::runtime_error(command.front() + " cannot be run");
   int status = 0;
@@ -116,7 +75,68 @@ Taken taken_by(const std::vector<std::string>& command, int most_status) {
     for (const std::string& a : command) all += a + " ";
     throw std::runtime_error(all + "failed");
   }
-  return {seconds(usage.ru_utime) + seconds(usage.ru_stime), counter.so_far() - counted};
+  return usage;
+}
+
+/// The number behind "I refs:" in what cachegrind says of a run, or nothing.
+std::optional<double> refs_of(const std::string& said) {
+  constexpr std::string_view kRefs = "refs:";
+  const auto at = said.rfind(kRefs);
+  if (at == std::string::npos) return std::nullopt;
+  std::string digits;
+  for (std::size_t k = at + kRefs.size(); k < said.size() && said[k] != '\n'; ++k)
+    if (said[k] >= '0' && said[k] <= '9') digits += said[k];
+  return parse_double(digits);
+}
+
+/// The instruction sets that change which code is run here, of those that Valgrind knows.
+std::string instruction_sets() {
+  utsname machine = {};
+  ::uname(&machine);
+  std::string out = machine.machine;
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) out += " avx2";
+  if (__builtin_cpu_supports("fma")) out += " fma";
+#endif
+  return out;
+}
+
+}  // namespace
+
+std::string counter() {
+  const testing::ScratchFolder scratch;
+  const std::string said = scratch.file("version");
+  try {
+    (void)ran({"/bin/sh", "-c", "valgrind --version >&2"}, 0, said.c_str());
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  std::string version = read_file(said).value_or("");
+  while (!version.empty() && version.back() == '\n') version.pop_back();
+  return version + " " + instruction_sets();
+}
+
+double instructions_1e6(const std::vector<std::string>& command, int most_status) {
+  const testing::ScratchFolder scratch;
+  const std::string said = scratch.file("said");
+  std::vector<std::string> all = {"valgrind", "--tool=cachegrind", "--cache-sim=no",
+                                  "--cachegrind-out-file=/dev/null"};
+  all.insert(all.end(), command.begin(), command.end());
+  (void)ran(all, most_status, said.c_str());
+  const auto refs = refs_of(read_file(said).value_or(""));
+  if (!refs) throw std::runtime_error(command.front() + ": Valgrind says no number of instructions");
+  return *refs * 1e-6;
+}
+
+Taken taken_by(const std::function<void()>& work) {
+  const double from = cpu_s();
+  work();
+  return {cpu_s() - from};
+}
+
+Taken taken_by(const std::vector<std::string>& command, int most_status) {
+  const rusage usage = ran(command, most_status);
+  return {seconds(usage.ru_utime) + seconds(usage.ru_stime)};
 }
 
 Taken reference_kernel() {
@@ -140,20 +160,20 @@ Taken reference_kernel() {
   });
 }
 
-std::vector<Cost> measured(const std::vector<Row>& rows, std::size_t repeats) {
+std::vector<Cost> measured(const std::vector<Row>& rows, What what) {
   std::vector<Cost> out;
-  for (const Row& row : rows) out.push_back(cost_of(row, repeats));
+  for (const Row& row : rows) out.push_back(cost_of(row, what));
   return out;
 }
 
-std::vector<std::string> check(const std::vector<Row>& rows, const std::vector<Cost>& table,
-                               std::size_t repeats, std::vector<Cost>& costs) {
+std::vector<std::string> check(const std::vector<Row>& rows, const std::vector<Cost>& table, What what,
+                               std::vector<Cost>& costs) {
   std::vector<std::string> out;
   for (const Row& row : rows) {
-    Cost cost = cost_of(row, repeats);
+    Cost cost = cost_of(row, what);
     auto wrong = fault(cost, table);
-    for (std::size_t again = 1; wrong && again <= 2; ++again) {
-      cost = cost_of(row, repeats * (again + 1));
+    for (std::size_t again = 1; wrong && !cost.instructions_1e6 && again <= 2; ++again) {
+      cost = cost_of(row, {what.repeats * (again + 1), false});
       wrong = fault(cost, table);
     }
     if (wrong) out.push_back(*std::move(wrong));

@@ -12,17 +12,16 @@ namespace capstan::kept {
 /// What some work took: of this process or of a child that it waited for.
 struct Taken {
   double cpu_s = 0.0;
-  double instructions = 0.0;  ///< 0 where they cannot be counted
 };
 
-/// A piece of work. `run` does it once and gives what it took; it throws std::runtime_error if it fails.
+/// A piece of work: a program and its arguments, run once in a process of its own. What it does is in `name`.
 struct Row {
   std::string name;
-  std::function<Taken()> run;
+  std::vector<std::string> command;
 };
 
-/// The fixed work that all rows are compared with: square roots of an array, multiplied and added in one
-/// chain, and a sort of it. It uses nothing of this program, so that no change of ours makes it faster.
+/// The fixed work that all rows' times are compared with: square roots of an array, multiplied and added in
+/// one chain, and a sort of it. It uses nothing of this program, so that no change of ours makes it faster.
 [[nodiscard]] Taken reference_kernel();
 
 /// What `work` takes in this process, user and system.
@@ -31,16 +30,27 @@ struct Row {
 /// if it ends with a higher status than `most_status` (1: done, with findings).
 [[nodiscard]] Taken taken_by(const std::vector<std::string>& command, int most_status = 1);
 
-/// Whether instructions can be counted; in a virtual machine often not.
-[[nodiscard]] bool instructions_can_be_counted();
+/// What counts instructions here, with the instruction sets that it offers to programs, for example
+/// "valgrind-3.19.0 x86_64 avx2". Counts of two machines compare where these texts are equal. Empty where
+/// Valgrind is not installed.
+[[nodiscard]] std::string counter();
+/// The program's instructions in user mode, all threads, in millions, counted by Valgrind (cachegrind without
+/// its caches): the same whatever else the machine does. Throws std::runtime_error as taken_by does.
+[[nodiscard]] double instructions_1e6(const std::vector<std::string>& command, int most_status = 1);
 
-/// The costs of rows: each repeat runs the kernel before and after each row, and the median of the row's
-/// ratios counts, so that neither a burst of other work nor a slow drift of the machine's speed does.
-[[nodiscard]] std::vector<Cost> measured(const std::vector<Row>& rows, std::size_t repeats);
+/// What is measured of a row.
+struct What {
+  std::size_t repeats = 0;  ///< of times; 0: none are taken
+  bool instructions = true;
+};
 
-/// Measures and compares. A row beyond the limit is measured again, twice at most, with more repeats: what is
-/// slower stays so. Gives what is wrong, and the costs in `costs`.
+/// The costs of rows. Of times, each repeat runs the kernel before and after each row, and the median of the
+/// row's ratios counts, so that neither a burst of other work nor a slow drift of the machine's speed does.
+[[nodiscard]] std::vector<Cost> measured(const std::vector<Row>& rows, What what);
+
+/// Measures and compares. A row whose time is beyond the limit is measured again, twice at most, with more
+/// repeats: what is slower stays so. Gives what is wrong, and the costs in `costs`.
 [[nodiscard]] std::vector<std::string> check(const std::vector<Row>& rows, const std::vector<Cost>& table,
-                                             std::size_t repeats, std::vector<Cost>& costs);
+                                             What what, std::vector<Cost>& costs);
 
 }  // namespace capstan::kept

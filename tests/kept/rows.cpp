@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 #include "planner/files/json/json.h"
 #include "planner/ground/base/file.h"
@@ -11,8 +10,9 @@
 #include "planner/physics/engagement/engagement.h"
 #include "tests/kept/wavy.h"
 
-// Plans and checks are made by the command, in a process each: what a process keeps for its next call makes
-// no row faster. The kernels of sections and of the drop-cutter, and JSON, run here.
+// Each piece runs in a process of its own: what a process keeps for its next call makes no row faster. Plans
+// and checks are made by the command; the kernels of sections and of the drop-cutter, and JSON, by this
+// program (--piece).
 
 namespace capstan::kept {
 namespace {
@@ -60,26 +60,33 @@ void drops() {
   wanted(z.size() == points.size() && z.front() > -6.0, "the drops are wrong");
 }
 
-void json_both_ways(const std::string& text) {
+void json_both_ways(const std::string& file) {
+  const auto text = read_file(file);
+  if (!text) throw std::runtime_error(text.error().message);
   Job job;
-  const auto plan = json::read_json(text, "plan.json", job);
-  wanted(plan.has_value() && json::write_json(*plan) == text, "the plan's JSON is not what it was");
+  const auto plan = json::read_json(*text, "plan.json", job);
+  wanted(plan.has_value() && json::write_json(*plan) == *text, "the plan's JSON is not what it was");
 }
 
 }  // namespace
 
-std::vector<Row> rows(const std::string& capstan, const std::string& examples, const std::string& scratch,
-                      bool smoke) {
+void piece(const std::string& name, const std::string& file) {
+  if (name == "sections") return sections();
+  if (name == "drop-cutter") return drops();
+  if (name == "json") return json_both_ways(file);
+  throw std::runtime_error("there is no piece of work " + name);
+}
+
+std::vector<Row> rows(const std::string& capstan, const std::string& own, const std::string& examples,
+                      const std::string& scratch, bool smoke) {
   const auto command = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), capstan);
-    return [arguments] { return taken_by(arguments); };
+    return arguments;
   };
   const std::string pocket = examples + "/reference_pocket";
   const std::string plan = scratch + "/bracket.json", program = scratch + "/bracket.ngc";
   const std::vector<std::string> whole = {"plan", examples + "/bracket.p21", "-o", plan, "-o", program};
-  (void)command(whole)();  // what the check and JSON read is there before
-  const auto text = read_file(plan);
-  if (!text) throw std::runtime_error(text.error().message);
+  (void)taken_by(command(whole));  // what the check and JSON read is there before
   std::vector<Row> out;
   // Shop, rules and tools, and a part of one pocket that is left open.
   out.push_back(
@@ -90,9 +97,8 @@ std::vector<Row> rows(const std::string& capstan, const std::string& examples, c
        command({"plan", pocket + ".p21", "--tools", pocket + "_tools.yaml", "--machine",
                 pocket + "_machine.yaml", "-o", scratch + "/pocket.json", "-o", scratch + "/pocket.ngc"})});
   out.push_back({"check-bracket", command({"check", plan, program})});
-  out.push_back({"sections", [] { return taken_by(sections); }});
-  out.push_back({"drop-cutter", [] { return taken_by(drops); }});
-  out.push_back({"json", [json = *text] { return taken_by([&] { json_both_ways(json); }); }});
+  for (const char* name : {"sections", "drop-cutter", "json"})
+    out.push_back({name, {own, "--piece", name, plan}});
   if (!smoke)
     out.push_back(
         {"plan-surface", command({"plan", examples + "/surface.stl", "--material", "EN AW-6061", "-o",

@@ -9,8 +9,28 @@
 namespace capstan::kept {
 
 namespace {
-constexpr std::string_view kProcessor = "# processor: ";
+constexpr std::string_view kProcessor = "# processor: ", kCounter = "# counted by: ";
+
+/// What stands behind `key` on its line; empty where the text has no such line.
+std::string behind(std::string_view text, std::string_view key) {
+  const auto at = text.find(key);
+  if (at == text.npos) return {};
+  const auto from = at + key.size();
+  return std::string(text.substr(from, text.find('\n', from) - from));
 }
+
+std::string cell(const std::optional<double>& value) { return value ? trimmed(*value, 4) : "-"; }
+
+/// A cell's value: a number above 0, or "-" for nothing. False: neither.
+bool read_cell(const std::string& text, std::optional<double>& value) {
+  if (text == "-") return true;
+  const auto number = parse_double(text);
+  if (!number || !(*number > 0.0)) return false;
+  value = *number;
+  return true;
+}
+
+}  // namespace
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -21,32 +41,25 @@ std::string processor() {
   return "unknown";
 }
 
-std::string processor_of(std::string_view text) {
-  const auto at = text.find(kProcessor);
-  if (at == text.npos) return {};
-  const auto from = at + kProcessor.size();
-  return std::string(text.substr(from, text.find('\n', from) - from));
-}
-
-std::string write(const std::vector<Cost>& costs) {
-  std::string out = std::string(
-                        "# What pieces of work cost, in units of the reference kernel of the same run "
-                        "(tests/kept/README.md).\n"
-                        "# Written by ./dev bench --take; held by ./dev bench --check.\n") +
-                    std::string(kProcessor) + processor() +
-                    "\n# row                     time        instructions\n";
-  for (const Cost& c : costs) {
+std::string write(const Table& table) {
+  std::string out =
+      "# What pieces of work cost (tests/kept/README.md): CPU time in units of the reference\n"
+      "# kernel of the same run, and millions of instructions.\n"
+      "# Written by ./dev bench --take; held by ./dev bench --check and ./dev test.\n";
+  out += std::string(kProcessor) + table.processor + "\n" + std::string(kCounter) + table.counter +
+         "\n# row                     time        instructions\n";
+  for (const Cost& c : table.costs) {
     std::string line = c.row;
     line.resize(std::max<std::size_t>(line.size() + 1, 26), ' ');
-    line += trimmed(c.time, 4);
+    line += cell(c.time);
     line.resize(std::max<std::size_t>(line.size() + 1, 38), ' ');
-    out += line + (c.instructions ? trimmed(*c.instructions, 4) : "-") + "\n";
+    out += line + cell(c.instructions_1e6) + "\n";
   }
   return out;
 }
 
-Result<std::vector<Cost>> read(std::string_view text, const std::string& name) {
-  std::vector<Cost> out;
+Result<Table> read(std::string_view text, const std::string& name) {
+  Table out{behind(text, kProcessor), behind(text, kCounter), {}};
   std::istringstream lines{std::string(text)};
   std::string line;
   for (std::uint64_t n = 1; std::getline(lines, line); ++n) {
@@ -55,33 +68,33 @@ Result<std::vector<Cost>> read(std::string_view text, const std::string& name) {
     std::string row, time, instructions, more;
     if (!(words >> row)) continue;
     words >> time >> instructions;
-    const auto t = parse_double(time);
-    const auto i = parse_double(instructions);
-    const bool counted = instructions != "-";
-    if (!t || !(*t > 0.0) || (counted && (!i || !(*i > 0.0))) || words >> more)
+    Cost cost{row, std::nullopt, std::nullopt};
+    if (!read_cell(time, cost.time) || !read_cell(instructions, cost.instructions_1e6) || words >> more)
       return fail({.code = "KEPT-TABLE",
                    .message = "this line is no row of the table",
                    .file = name,
                    .line = n,
-                   .expected = "a name, a time above 0, and instructions above 0 or '-'"});
-    out.push_back({row, *t, counted ? std::optional<double>(*i) : std::nullopt});
+                   .expected = "a name, a time and instructions, each above 0 or '-'"});
+    out.costs.push_back(std::move(cost));
   }
   return out;
 }
 
-std::optional<std::string> fault(const Cost& measured, const std::vector<Cost>& table, double limit) {
+std::optional<std::string> fault(const Cost& measured, const std::vector<Cost>& table) {
   const auto at =
       std::find_if(table.begin(), table.end(), [&](const Cost& c) { return c.row == measured.row; });
   const std::string renew = "`./dev bench --take` writes the table anew";
   if (at == table.end()) return measured.row + ": the table has no such row; " + renew;
-  const bool counted = measured.instructions && at->instructions;
-  const double now = counted ? *measured.instructions : measured.time;
-  const double then = counted ? *at->instructions : at->time;
+  const bool counted = measured.instructions_1e6 && at->instructions_1e6;
+  if (!counted && (!measured.time || !at->time)) return std::nullopt;  // nothing to compare
+  const double now = counted ? *measured.instructions_1e6 : *measured.time;
+  const double then = counted ? *at->instructions_1e6 : *at->time;
+  const double limit = counted ? kInstructionLimit : kTimeLimit;
   if (now <= then * (1.0 + limit)) return std::nullopt;
-  return measured.row + ": " + trimmed(now, 4) + " times the reference kernel's " +
-         (counted ? "instructions" : "time") + ", the table has " + trimmed(then, 4) + " (" +
-         trimmed(100.0 * (now / then - 1.0), 0) + " % more; the limit is " + trimmed(100.0 * limit, 0) +
-         " %). Find what made it slower; if it is meant to be, " + renew;
+  return measured.row + ": " + trimmed(now, 4) +
+         (counted ? " million instructions" : " times the reference kernel's time") + ", the table has " +
+         trimmed(then, 4) + " (" + trimmed(100.0 * (now / then - 1.0), 0) + " % more; the limit is " +
+         trimmed(100.0 * limit, 0) + " %). Find what made it slower; if it is meant to be, " + renew;
 }
 
 }  // namespace capstan::kept

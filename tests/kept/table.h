@@ -9,35 +9,42 @@
 
 namespace capstan::kept {
 
-/// What one piece of work costs, in units of the reference kernel (measure.h), so that the machine's speed
-/// cancels.
+/// What one piece of work costs.
 struct Cost {
   std::string row;
-  double time = 0.0;                   ///< CPU time over that of the kernel
-  std::optional<double> instructions;  ///< the same in instructions; nothing where they cannot be counted
+  std::optional<double> time;  ///< CPU time in units of the reference kernel (measure.h)
+  std::optional<double> instructions_1e6;
 
   bool operator==(const Cost&) const = default;
 };
 
-/// By how much a row may cost more than the table says. Default, unsourced: twice what repeated runs on a
-/// shared machine differ by.
-inline constexpr double kLimit = 0.20;
+/// By how much a row's time may exceed the table's. Default, unsourced: twice what repeated runs on a shared
+/// machine differ by.
+inline constexpr double kTimeLimit = 0.20;
+/// The same of instructions. Default, unsourced: counts of the same binary differ by less than 0.1 %, those
+/// of one more core by some 2 %; the rest is for changes that are worth what they cost.
+inline constexpr double kInstructionLimit = 0.10;
 
-/// The processor of this machine, as Linux names it. Ratios differ from one to another, so that a table holds
-/// for its own.
+/// The table, and where it was taken: a processor as Linux names it, and what counted (measure.h: counter).
+struct Table {
+  std::string processor, counter;
+  std::vector<Cost> costs;
+
+  bool operator==(const Table&) const = default;
+};
+
+/// The processor of this machine, as Linux names it. Ratios differ from one to another, so that a table's
+/// times hold for its own.
 [[nodiscard]] std::string processor();
-/// The processor that a table was taken on; empty where it does not say.
-[[nodiscard]] std::string processor_of(std::string_view text);
 
-/// The table's text: the processor, and a line `row  time  instructions` each ("-": not counted), comments
-/// from `#` on.
-[[nodiscard]] std::string write(const std::vector<Cost>& costs);
+/// The table's text: where it was taken, and a line `row  time  instructions` each ("-": not measured),
+/// comments from `#` on.
+[[nodiscard]] std::string write(const Table& table);
 /// Fails  KEPT-TABLE with the line.
-[[nodiscard]] Result<std::vector<Cost>> read(std::string_view text, const std::string& name);
+[[nodiscard]] Result<Table> read(std::string_view text, const std::string& name);
 
 /// The row's fault, ready to be printed, or nothing: what was measured exceeds the table by more than the
 /// limit, or the table has no such row. Instructions decide where both have them, else times.
-[[nodiscard]] std::optional<std::string> fault(const Cost& measured, const std::vector<Cost>& table,
-                                               double limit = kLimit);
+[[nodiscard]] std::optional<std::string> fault(const Cost& measured, const std::vector<Cost>& table);
 
 }  // namespace capstan::kept

@@ -135,8 +135,7 @@ class Table {
     return {name, "20", [this, files] {
               kept::Taken out;
               for (const std::string& file : files) {
-                const auto one = ran_whatever(with_outputs({file, "--reopen", "all"}));
-                out = {out.cpu_s + one.cpu_s, out.instructions + one.instructions};
+                out.cpu_s += ran_whatever(with_outputs({file, "--reopen", "all"})).cpu_s;
               }
               return out;
             }};
