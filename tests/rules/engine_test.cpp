@@ -3,12 +3,13 @@
 #include <random>
 
 #include "rules/rules.h"
+#include "tests/support/scratch.h"
 
 namespace capstan::rules {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 // A table of two facts, complete and free of contradictions; `extra` is appended to its rows.
 std::vector<std::pair<std::string, std::string>> table(const std::string& extra,
@@ -95,7 +96,8 @@ TEST(Load, AddsRowsOfATableThatALaterFileDefines) {
   ASSERT_TRUE(base) << to_text(base.error());
   ASSERT_EQ(base->tables.size(), 1u);
   EXPECT_EQ(base->tables.front().rows.size(), 2u);
-  EXPECT_THAT(findings({{"a.yaml", rows + "source: \"test\"}\n"}, {"b.yaml", defined}}), testing::IsEmpty());
+  EXPECT_THAT(findings({{"a.yaml", rows + "source: \"test\"}\n"}, {"b.yaml", defined}}),
+              ::testing::IsEmpty());
 }
 
 TEST(Load, RefusesAShippedRowOrCapabilityThatStandsInTwoFiles) {
@@ -177,7 +179,7 @@ struct BadText {
   std::string text, code, message;
   std::uint64_t line;
 };
-class Loading : public testing::TestWithParam<BadText> {};
+class Loading : public ::testing::TestWithParam<BadText> {};
 
 TEST_P(Loading, RefusesABadTableWithFileAndLine) {
   const auto base = rules_from_texts({{"bad.yaml", GetParam().text}});
@@ -193,7 +195,7 @@ std::string row(const std::string& fields) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Texts, Loading,
-    testing::Values(
+    ::testing::Values(
         BadText{"table: [", "RULE-SYNTAX", "", 1}, BadText{"just text", "RULE-SYNTAX", "not a map", 1},
         BadText{"table: pocket\nfacts: [colour]\nrows: []", "RULE-FACT", "no fact named colour", 2},
         BadText{row("{id: a, cannot: x}"), "RULE-ROW", "source is missing", 4},
@@ -216,11 +218,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{row("{id: a, source: s, cannot: x}\n  - {id: a, source: s, cannot: y}"), "RULE-ROW",
                 "stands twice", 5}));
 
-class ShopRules : public testing::Test {
+class ShopRules : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("rules_test_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = capstan::testing::scratch_file(::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "rules/rules.h"
+#include "tests/support/scratch.h"
 
 namespace capstan::rules {
 namespace {
@@ -16,13 +17,12 @@ using model::HoleBottom;
 using model::Proposal;
 using model::ShapeKind;
 using model::TypeId;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// The shipped tables with one row that holds for everything of a kind, before all others.
 RuleBase with_chain(const std::string& table, const std::string& when, const std::string& chain) {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path dir =
-      std::filesystem::path(testing::TempDir()) / (std::string("strategy_") + info->name() + "_" + table);
+  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+  const std::filesystem::path dir = capstan::testing::scratch_file(std::string(info->name()) + "_" + table);
   std::filesystem::create_directories(dir);
   std::ofstream(dir / "row.yaml") << "table: " << table
                                   << "\nrows:\n  - id: test.row\n    priority: 0\n    when: {" << when

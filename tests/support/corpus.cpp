@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "planner/ground/base/file.h"
+#include "tests/support/scratch.h"
 
 namespace capstan::testing {
 
@@ -32,6 +33,11 @@ ScratchFolder::ScratchFolder() {
 ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+}
+
+std::string scratch_file(const std::string& name) {
+  static const ScratchFolder folder;
+  return folder.file(name);
 }
 
 }  // namespace capstan::testing

@@ -10,6 +10,7 @@
 
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 #include "tests/support/shop.h"
 
 /// Plans as they come to a machine, and the tool tables there.
@@ -28,7 +29,7 @@ inline pipeline::Inputs shop(const std::string& tools, const std::string& machin
 
 /// A shop whose tool table has this text.
 inline pipeline::Inputs shop_of(const std::string& table, const std::string& machine = {}) {
-  const std::string path = ::testing::TempDir() + "late_table.tbl";
+  const std::string path = capstan::testing::scratch_file("late_table.tbl");
   std::ofstream(path) << table;
   return shop(path, machine);
 }

@@ -19,6 +19,8 @@
 #include "planner/door/service/session.h"
 #include "planner/files/json/json.h"
 #include "tests/door/late/brought.h"
+#include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 
 // Binds at deadlines from 1 ms to 1 s while two other processes keep the processor busy: the whole plan, and
 // single workingsteps that are given up at the deadline. What the code says must be so; how many binds come
@@ -99,7 +101,7 @@ TEST(LateDeadlineSeed, WhatIsCalledInTimeIsAndEveryAnswerIsCheckedOrLate) {
   const Brought early =
       brought(capstan::testing::source_dir() + "/examples/bracket.p21", pipeline::Format::kJson);
   const std::string json = json::write_json(early.plan);
-  const std::string path = ::testing::TempDir() + "late_deadline.tbl";
+  const std::string path = capstan::testing::scratch_file("late_deadline.tbl");
   // The second row of 200 ms: single workingsteps at just that.
   std::array<Share, 5> shares = {Share{10}, Share{100}, Share{200}, Share{1000}, Share{200}};
   service::Session whole, single;
@@ -164,7 +166,7 @@ TEST(LateMemorySeed, DoesNotGrowWithTheNumberOfBinds) {
   const std::string json = json::write_json(early.plan);
   std::vector<std::string> tables;
   for (std::size_t i = 0; i < kTables; ++i) tables.push_back(another(early.table, random));
-  const std::string path = ::testing::TempDir() + "late_memory.tbl";
+  const std::string path = capstan::testing::scratch_file("late_memory.tbl");
   service::Session session;
   std::size_t binds = 0;
   const auto round = [&] {

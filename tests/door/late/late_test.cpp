@@ -15,6 +15,7 @@
 #include "planner/model/nouns/all.h"
 #include "tests/door/late/brought.h"
 #include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 #include "tests/support/seal.h"
 #include "tests/support/shop.h"
 
@@ -27,7 +28,7 @@ std::string reference_machine() {
       testing::slurp(capstan::testing::source_dir() + "/tooling/data/machines/generic_vmc.yaml");
   const std::string at = "control: {";
   text.insert(text.find(at) + at.size(), "length_offsets: reference, ");
-  const std::string path = ::testing::TempDir() + "late_reference.yaml";
+  const std::string path = capstan::testing::scratch_file("late_reference.yaml");
   std::ofstream(path) << text;
   return path;
 }
@@ -415,7 +416,7 @@ TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {
 
 // The pocket's corners have R6: a mill of 16 mm would leave R8 in them. Offline that is told and agreed to.
 TEST(Late, NobodyAtTheMachineAgreesToRestMaterialInCorners) {
-  const std::string table = ::testing::TempDir() + "late_wide.tbl";
+  const std::string table = capstan::testing::scratch_file("late_wide.tbl");
   std::ofstream(table) << "T4 P4 Z+95 D+16 ;16 mm carbide end mill, 3 flutes\n";
   const std::string file = capstan::testing::source_dir() + "/examples/reference_pocket.p21";
   Job job;

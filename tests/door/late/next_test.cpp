@@ -15,6 +15,8 @@
 #include "planner/making/given/listed_steps.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/door/late/brought.h"
+#include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 
 // Workingsteps are bound one by one, as a control asks for them.
 
@@ -249,7 +251,7 @@ TEST(LateNext, WhatIsNotCheckedByTheDeadlineIsGivenUpInTimeWhereThatIsWanted) {
 
 TEST(LateNext, AfterALateAnswerTheSameStepIsBoundAgain) {
   const Open part = open(kBracket);
-  const std::string table = ::testing::TempDir() + "late_again.tbl";
+  const std::string table = capstan::testing::scratch_file("late_again.tbl");
   std::ofstream(table) << part.table;
   const std::string json = json::write_json(part.plan);
   service::Session session, fresh;
@@ -264,7 +266,7 @@ TEST(LateNext, AfterALateAnswerTheSameStepIsBoundAgain) {
 
 TEST(LateInterface, BindsTheNextWorkingstepsOfThePlanThatItHas) {
   const Open part = open(kPocket);
-  const std::string path = ::testing::TempDir() + "late_next.tbl";
+  const std::string path = capstan::testing::scratch_file("late_next.tbl");
   std::ofstream(path) << part.table;
   const std::string json = json::write_json(part.plan);
   capstan_late* s = capstan_late_open("generic_vmc", path.c_str());

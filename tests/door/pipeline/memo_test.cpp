@@ -1,7 +1,6 @@
 #include "planner/ground/memo/memo.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -11,6 +10,7 @@
 #include "planner/door/pipeline/pipeline.h"
 #include "tests/support/corpus.h"
 #include "tests/support/plate.h"
+#include "tests/support/scratch.h"
 #include "tests/support/shop.h"
 
 // A plan is the same with a memo and without, and a change re-runs what depends on it: counted, never timed.
@@ -57,7 +57,7 @@ TEST(PlannedWithAMemo, IsTheSameToTheByte) {
     const std::string text = testing::slurp(testing::source_dir() + "/examples/" + name);
     Inputs in = shop();
     in.material_name = "EN AW-6061";
-    const std::string folder = ::testing::TempDir() + "memo_planned" + std::to_string(::getpid());
+    const std::string folder = capstan::testing::scratch_file("memo_planned");
     std::filesystem::remove_all(folder);
     const auto without = planned(text, in, std::make_shared<Memo>(0));
     const auto kept = Memo::in_folder(folder);

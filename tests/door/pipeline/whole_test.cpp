@@ -13,6 +13,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 #include "tests/support/shop.h"
 #include "tooling/shop/machine/machine.h"
 
@@ -142,7 +143,7 @@ TEST(Whole, AFeatureIsNotFinishedWhenItsRoughingHasNoPath) {
 
 // A hole, too: its spot drill would be as deep in the solid as the face and the spot together.
 TEST(Whole, WhatLiesInAFaceThatIsNotPlannedIsLeftOut) {
-  const std::filesystem::path dir = std::filesystem::path(::testing::TempDir()) / "no_face_rows";
+  const std::filesystem::path dir = std::filesystem::path(capstan::testing::scratch_file("no_face_rows"));
   std::filesystem::create_directories(dir);
   std::ofstream(dir / "face.yaml") << "table: face\nrows:\n  - id: shop.no_face\n    priority: 0\n"
                                       "    when: {}\n    cannot: \"no faces here\"\n    source: \"test\"\n";

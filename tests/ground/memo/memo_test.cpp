@@ -14,6 +14,7 @@
 
 #include "planner/ground/memo/folder.h"
 #include "planner/ground/memo/remembered.h"
+#include "tests/support/scratch.h"
 
 namespace capstan::memo {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string new_folder(const std::string& name) {
-  const std::string path = ::testing::TempDir() + "memo_" + name + std::to_string(::getpid());
+  const std::string path = capstan::testing::scratch_file("memo_") + name;
   fs::remove_all(path);
   return path;
 }

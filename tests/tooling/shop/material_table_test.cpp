@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 #include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {
@@ -121,9 +121,8 @@ TEST(ReadMaterials, RefusesATableThatContradictsItself) {
 }
 
 TEST(LoadMaterial, TakesOneMaterialWithAnIdOfItsOwn) {
-  const std::string folder = ::testing::TempDir();
   const auto load = [&](const std::string& text) {
-    const std::string path = folder + "capstan_material_test.yaml";
+    const std::string path = capstan::testing::scratch_file("capstan_material_test.yaml");
     std::ofstream(path) << text;
     Job job;
     return load_material(path, table(), job);
@@ -143,7 +142,7 @@ TEST(LoadMaterial, TakesOneMaterialWithAnIdOfItsOwn) {
   none.erase(none.find("  - source"));
   EXPECT_FALSE(load(none));
   Job job;
-  EXPECT_FALSE(load_material(folder + "no_such_file.yaml", table(), job));
+  EXPECT_FALSE(load_material(capstan::testing::scratch_file("no_such_file.yaml"), table(), job));
 }
 
 TEST(ReadMaterials, RefusesSetsAndLawsThatCannotBe) {

@@ -10,6 +10,7 @@
 #include "planner/model/nouns/all.h"
 #include "rules/rules.h"
 #include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 #include "tests/support/shop.h"
 
 namespace capstan::pipeline {
@@ -157,7 +158,7 @@ TEST(EdgeBreaks, AreCutWhereTheShopAsksAndCheckedWithoutFindings) {
 }
 
 TEST(RestMachining, FollowsAWideCutterWithOneThatFitsTheCorners) {
-  const std::filesystem::path dir = std::filesystem::path(::testing::TempDir()) / "rest_rows";
+  const std::filesystem::path dir = std::filesystem::path(capstan::testing::scratch_file("rest_rows"));
   std::filesystem::create_directories(dir);
   std::ofstream(dir / "pocket.yaml") << R"(table: pocket
 rows:

@@ -12,6 +12,7 @@
 #include "planner/model/plan/assumed_tool_material.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 #include "tests/support/shop.h"
 
 namespace capstan::pipeline {
@@ -142,7 +143,7 @@ TEST(UnstatedToolMaterial, IsTakenAgainWhenThePlanIsPlannedAgainInEachForm) {
 }
 
 TEST(UnstatedToolMaterial, IsThatOfTheLoadedToolThatStatesIt) {
-  const std::string path = ::testing::TempDir() + "crib_of_hss.yaml";
+  const std::string path = capstan::testing::scratch_file("crib_of_hss.yaml");
   {
     std::ofstream out(path);
     out << "capstan_tools: 1\nunit: mm\nsource: \"crib\"\ntools:\n"
