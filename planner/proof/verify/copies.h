@@ -9,7 +9,7 @@
 
 /// What the check says of kinds of things by itself: a wrong row of the vocabulary must not pass it. Copies
 /// on purpose; tests/proof/verify/copies_test.cpp holds each against the vocabulary's column. What is said of
-/// a class of cutter is a row of class_copies.inc.
+/// a class of cutter is a row of class_copies.cpp, with its outline.
 namespace capstan::verify {
 
 /// Feeds along its axis.
