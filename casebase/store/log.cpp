@@ -9,8 +9,6 @@
 namespace capstan::casebase {
 namespace {
 
-constexpr std::size_t kReportedRows = 20;
-
 Head head_of_case(const Case& c, const std::string& categories, const std::string& body) {
   Head head;
   head.kind = RowKind::kCase;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,9 @@
 #include "casebase/store/checksum.h"
 
 namespace capstan::casebase {
+
+/// How many rows that cannot be used are named one by one; the rest are counted.
+inline constexpr std::size_t kReportedRows = 20;
 
 /// A row says that something was cut, or what became of a case since. Nothing that is stored is ever altered.
 enum class RowKind : std::uint8_t {

@@ -8,12 +8,11 @@
 
 #include "casebase/record/encoding.h"
 #include "casebase/record/sha256.h"
+#include "casebase/store/row.h"
 #include "planner/ground/base/file.h"
 
 namespace capstan::casebase {
 namespace {
-
-constexpr std::size_t kReportedRows = 20;
 
 constexpr std::array<std::string_view, 7> kTexts = {
     "operation", "material_group", "tool_class", "machine_class", "verdict", "provenance", "source"};

@@ -11,6 +11,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/speeds_agree.h"
 
 namespace capstan::controls {
 namespace {
@@ -18,11 +19,6 @@ namespace {
 using model::AnyRef;
 using model::Finding;
 using model::TypeId;
-
-// Two speeds that follow from one another are the same within what people round; as exchange/iso14649 reads
-// them. Default, unsourced.
-constexpr double kAgrees = 1.25;
-constexpr int kProperty = 33;  // the program says what the plan does
 
 class Specification {
  public:
@@ -39,7 +35,7 @@ class Specification {
 
  private:
   void add(const char* code, Severity severity, std::string step, std::string message) {
-    out_.push_back({.property = kProperty,
+    out_.push_back({.property = kSaysWhatThePlanDoes,
                     .code = code,
                     .severity = severity,
                     .step = std::move(step),
@@ -122,14 +118,14 @@ class Specification {
       if (cutter == nullptr || step == nullptr || !step->its_operation.set()) continue;
       const auto* op = plan_.model.get<model::MachiningOperation>(step->its_operation);
       if (op == nullptr || AnyRef(op->its_technology) != technology) continue;
-      const double other =
-          std::numbers::pi * cutter->cutting_diameter_mm * std::abs(spindle_rpm) / std::abs(cutspeed_mm_min);
-      const bool agree = other < kAgrees && other > 1.0 / kAgrees;
+      const double follows = std::numbers::pi * cutter->cutting_diameter_mm * std::abs(spindle_rpm);
+      const double stated = std::abs(cutspeed_mm_min);
+      const bool agree = model::speeds_agree(stated, follows);
       add(agree ? "FIT-OVER" : "FIT-CONTRADICTION", agree ? Severity::kNote : Severity::kError, {},
           (agree ? "over-specified: " : "contradictory: ") + name(technology) +
               " states spindle and cutspeed" +
               (agree ? "; one follows from the other"
-                     : ", which differ by a factor of " + trimmed(other, 2) + " at the cutter's diameter"));
+                     : ", which differ by a factor of " + trimmed(follows / stated, 2) + " at the cutter's diameter"));
       return;
     }
     add("FIT-OVER", Severity::kNote, {},

@@ -7,6 +7,9 @@
 
 namespace capstan::controls {
 
+/// The property (safety.md) of findings on a plan's own statements: the program says what the plan does.
+inline constexpr int kSaysWhatThePlanDoes = 33;
+
 /// Whether a plan, as its file has it, tells a control what it must know, once and no more.
 ///
 /// Under-specified  FIT-OPEN, an error: decisions are open. No control closes them; late binding does.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planner/controls/controls.h"
+#include "planner/controls/specification.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/changed_by_hand.h"
@@ -26,7 +27,6 @@ using model::StepResult;
 
 // A feed or a time is missed when it is missed by more than this share: less is rounding.
 constexpr double kMissed = 0.01;  // default, unsourced
-constexpr int kProperty = 33;     // the program says what the plan does
 
 /// Of one kind of finding in one step: where it is worst, and how often it is there.
 struct Worst {
@@ -68,7 +68,7 @@ class Suitability {
 
  private:
   void add(const char* code, Severity severity, const std::string& step, long move, std::string message) {
-    out_.push_back({.property = kProperty,
+    out_.push_back({.property = kSaysWhatThePlanDoes,
                     .code = code,
                     .severity = severity,
                     .step = step,

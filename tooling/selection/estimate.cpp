@@ -112,10 +112,9 @@ std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Pre
     const double way = turn * (all_at_once ? 1.0 : std::ceil(p.depth_mm / p.pitch_mm - 1e-9)) + in_and_out;
     return way * p.bore_mm / (2.0 * r);
   }
-  constexpr double kMiddle = 0.3;  // of the radius, which cuts badly; default, unsourced
   const double hole = 0.5 * p.pre_hole_mm, flat = std::max(0.5 * d - c.corner_radius_mm, 0.25 * d);
   if (r - flat > hole + 1e-9) return std::nullopt;  // a core would stay
-  if (r + kMiddle * 0.5 * d <= 0.5 * p.open_below_mm)
+  if (r + model::kMiddleOfRadius * 0.5 * d <= 0.5 * p.open_below_mm)
     return turn * (std::ceil(p.depth_mm / ap_mm - 1e-9) + 1.0) + in_and_out;
   const model::Ramp ramp = model::ramp_of(c, w);
   if (!(ramp.angle_rad > 0.0) || r > 0.5 * d + 1e-9) return std::nullopt;

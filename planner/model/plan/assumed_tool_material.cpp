@@ -5,22 +5,21 @@ namespace {
 
 constexpr std::string_view kOfTool = "material of tool ";
 constexpr std::string_view kAssumed = "assumed: ";
-constexpr std::string_view kSettled = "settled: ";
 
 }  // namespace
 
 Provenance provenance_of(const AssumedToolMaterial& a) {
   return {std::string(kOfTool) + a.tool, std::string(to_text(a.substrate)),
-          std::string(a.settled ? kSettled : kAssumed) + a.why};
+          std::string(a.settled ? kSettledBy : kAssumed) + a.why};
 }
 
 std::optional<AssumedToolMaterial> assumed_tool_material(const Provenance& p) {
   if (!p.what.starts_with(kOfTool)) return std::nullopt;
   const auto substrate = substrate_from_text(p.value);
-  const bool settled = p.source.starts_with(kSettled);
+  const bool settled = p.source.starts_with(kSettledBy);
   if (!substrate || (!settled && !p.source.starts_with(kAssumed))) return std::nullopt;
   return AssumedToolMaterial{p.what.substr(kOfTool.size()), *substrate,
-                             p.source.substr(settled ? kSettled.size() : kAssumed.size()), settled};
+                             p.source.substr(settled ? kSettledBy.size() : kAssumed.size()), settled};
 }
 
 std::vector<AssumedToolMaterial> assumed_tool_materials(const Plan& plan) {

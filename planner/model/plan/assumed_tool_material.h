@@ -29,6 +29,8 @@ struct AssumedToolMaterial {
 /// What a row of provenance says, if it is such a one.
 [[nodiscard]] std::optional<AssumedToolMaterial> assumed_tool_material(const Provenance& p);
 
+/// What the sources of a material begin with that the caller settled (--assume).
+inline constexpr std::string_view kSettledBy = "settled: ";
 /// How a tool table's comment says it: "assumed carbide". Who reads the table takes no statement from it.
 inline constexpr std::string_view kAssumedWord = "assumed ";
 

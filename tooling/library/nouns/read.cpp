@@ -23,9 +23,6 @@ using model::MachiningTool;
 using model::Model;
 using model::Ref;
 
-constexpr double kSizeSlackMm = 1e-4;
-constexpr double kSecondsPerMinute = 60.0;
-
 /// From the gage line to the tool's end; 0 when a placement is missing or they lie together.
 double gage_length(const Model& m, const model::ToolUsage* usage) {
   if (usage == nullptr) return 0.0;

@@ -21,7 +21,6 @@ using model::Ref;
 
 /// Smaller face mills are not made, but with edges that lean; the word is used for end mills that face.
 constexpr double kLeastFacemillMm = 25.0;
-constexpr double kSizeSlackMm = 1e-4;
 
 /// Files use tapered kinds without a taper for plain tools.
 bool is_tapered(const Model& m, model::AnyRef body) {

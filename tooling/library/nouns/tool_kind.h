@@ -9,6 +9,11 @@
 
 namespace capstan::tooling {
 
+/// Sizes of a tool that differ by less are the same: files round them.
+inline constexpr double kSizeSlackMm = 1e-4;
+/// Expected tool life is seconds in the nouns (ISO 14649-111, time_measure), minutes in the library.
+inline constexpr double kSecondsPerMinute = 60.0;
+
 struct ToolParts {
   const model::CuttingTool* tool = nullptr;
   const model::MillingToolBody* body = nullptr;

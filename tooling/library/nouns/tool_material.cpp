@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/borne_feed.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
@@ -80,7 +81,6 @@ ToolMaterial by_practice(const model::Cutter& c) {
 }
 
 constexpr std::string_view kTaken = " taken: ";
-constexpr std::string_view kSettled = "settled: ";
 
 }  // namespace
 
@@ -103,10 +103,12 @@ bool material_is_open(const model::Cutter& c) {
 
 bool material_is_assumed(const model::Cutter& c) {
   const std::string* source = source_of(c, "substrate");
-  return material_is_open(c) || (source != nullptr && source->starts_with(kSettled));
+  return material_is_open(c) || (source != nullptr && source->starts_with(model::kSettledBy));
 }
 
-std::string settled_source(std::string_view option) { return std::string(kSettled) + std::string(option); }
+std::string settled_source(std::string_view option) {
+  return std::string(model::kSettledBy) + std::string(option);
+}
 
 std::string assumed_source(Substrate s, std::string_view why) {
   return std::string(kNotStated) + "; " + std::string(model::to_text(s)) + std::string(kTaken) +
@@ -114,7 +116,7 @@ std::string assumed_source(Substrate s, std::string_view why) {
 }
 
 std::string reason_of_source(std::string_view source) {
-  if (source.starts_with(kSettled)) return std::string(source.substr(kSettled.size()));
+  if (source.starts_with(model::kSettledBy)) return std::string(source.substr(model::kSettledBy.size()));
   const auto at = source.find(kTaken);
   return at == std::string_view::npos ? std::string("the slower one")
                                       : std::string(source.substr(at + kTaken.size()));

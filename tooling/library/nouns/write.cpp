@@ -6,6 +6,7 @@
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/plan/requirement.h"
 #include "tooling/library/nouns/nouns.h"
+#include "tooling/library/nouns/tool_kind.h"
 
 namespace capstan::tooling {
 namespace {
@@ -16,8 +17,6 @@ using model::CutterClass;
 using model::MachiningTool;
 using model::Model;
 using model::Ref;
-
-constexpr double kSecondsPerMinute = 60.0;
 
 /// Input of a body: a cutter, or the part of one that a requirement fixes.
 struct Body {

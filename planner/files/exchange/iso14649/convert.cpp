@@ -6,6 +6,7 @@
 
 #include "planner/files/exchange/common/text.h"
 #include "planner/files/exchange/iso14649/units.h"
+#include "planner/ground/base/exact_whole.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/stand_in.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -149,8 +150,7 @@ class Conversion {
   std::optional<std::int64_t> integer(const Value& typed) {
     const Value v = bare(typed);
     if (v.is(Kind::kInteger)) return v.as_integer();
-    constexpr double kExact = 9007199254740992.0;  // 2^53: whole doubles are exact below
-    if (v.is(Kind::kReal) && std::trunc(v.as_real()) == v.as_real() && std::abs(v.as_real()) < kExact) {
+    if (v.is(Kind::kReal) && std::trunc(v.as_real()) == v.as_real() && std::abs(v.as_real()) < kExactWhole) {
       warn("EXC-NUMBER", name() + ": real " + std::string(v.lexeme()) + " read as an integer");
       return static_cast<std::int64_t>(v.as_real());
     }

@@ -8,6 +8,7 @@
 #include "planner/files/exchange/iso14649/deviations_internal.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/speeds_agree.h"
 
 namespace capstan::exchange::deviations {
 
@@ -18,7 +19,6 @@ namespace {
 // Limits of what is possible at all, not of what is good: defaults, unsourced.
 constexpr double kMaxRpm = 60000.0;
 constexpr double kMinVc = 1.0, kMaxVcMilling = 2000.0, kMaxVcDrilling = 300.0;  // m/min
-constexpr double kAgrees = 1.25;              // cutspeed and pi D n within this factor say the same
 constexpr double kMaxFeedPerTooth = 0.5;      // mm, and at most a tenth of the diameter
 constexpr double kMaxFeedPerRevDrill = 0.06;  // of the diameter
 
@@ -151,7 +151,7 @@ void check_agreement(Reading& r, const Use& use) {
       "given beside the spindle speed, where the standard allows one of them; the spindle is used";
   if (use.diameter_mm > 0.0) {
     const double n = vc_of(use.diameter_mm, *t.spindle);
-    const bool agree = n / vc < kAgrees && vc / n < kAgrees;
+    const bool agree = model::speeds_agree(vc, n);
     why += agree ? ", and agrees"
                  : ", though " + show(std::abs(*t.spindle)) + " 1/min make " + show(n) +
                        " m/min of a diameter of " + trimmed(use.diameter_mm, 3) + " mm, not " + show(vc);

@@ -9,6 +9,7 @@
 #include "planner/making/toolpath/link/path_writer.h"
 #include "planner/making/toolpath/refuse.h"
 #include "planner/making/toolpath/region/patterns.h"
+#include "planner/model/plan/cutter/ramp.h"
 
 namespace capstan::toolpath {
 
@@ -33,8 +34,7 @@ void half_turn(PathWriter& w, Vec2 c, double r, bool to_right, double z, bool cw
 /// Whether the middle of the cutter, which cuts badly or not at all, goes down in the hole that is there: all
 /// the way through, or one that goes on below a shoulder.
 bool middle_in_air(const PathJob& task) {
-  constexpr double kMiddle = 0.3;  // of the radius; default, unsourced
-  const double reached = helix_radius(task) + kMiddle * 0.5 * task.cutter.cutting_diameter_mm;
+  const double reached = helix_radius(task) + model::kMiddleOfRadius * 0.5 * task.cutter.cutting_diameter_mm;
   return reached <= 0.5 * (task.shape.through ? task.previous_diameter_mm.value_or(0.0) : task.hole_below_mm);
 }
 

@@ -10,6 +10,9 @@ namespace capstan::model {
 ///         ferrous materials; the upper end.
 inline constexpr double kUsualRampRad = 3.0 * 3.14159265358979323846 / 180.0;
 
+/// How far from its axis, of the radius, a cutter cuts badly or not at all. Default, unsourced.
+inline constexpr double kMiddleOfRadius = 0.3;
+
 /// How a cutter goes down into solid material on a slope.
 struct Ramp {
   double angle_rad = 0.0;  ///< 0: it must not ramp

@@ -4,6 +4,7 @@
 #include "planner/files/exchange/ap238/codecs/codecs.h"
 #include "planner/files/exchange/ap238/read/reader.h"
 #include "planner/files/exchange/common/text.h"
+#include "planner/ground/base/exact_whole.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -87,8 +88,7 @@ std::optional<double> Reader::finite(Node n, double value, double factor, std::s
 }
 
 std::optional<std::int64_t> Reader::integer(Node n, double value, std::string_view what) const {
-  constexpr double kExact = 9007199254740992.0;  // 2^53: beyond, doubles are more than 1 apart
-  if (std::abs(value) <= kExact) return std::llround(value);
+  if (std::abs(value) <= kExactWhole) return std::llround(value);
   about(n, {.code = "EXC-VALUE",
             .severity = Severity::kWarning,
             .message = std::string(what) + " cannot be " + shortest(value) + "; left unset",
