@@ -17,6 +17,6 @@ if(TARGET capstan_engagement AND TARGET capstan_toolpath AND TARGET capstan_json
     add_test(NAME Kept.TakesTheInstructionsThatTheTableSays
       COMMAND capstan_kept --smoke ${kept}/fast.table $<TARGET_FILE:capstan> ${CMAKE_SOURCE_DIR}/examples)
     set_tests_properties(Kept.TakesTheInstructionsThatTheTableSays
-      PROPERTIES TIMEOUT 600 COST 600 SKIP_RETURN_CODE 77)
+      PROPERTIES TIMEOUT 1800 COST 600 SKIP_RETURN_CODE 77)
   endif()
 endif()
