@@ -53,7 +53,7 @@ StartValues start_of(const Cutter& c, const WorkMaterial& material, const Machin
   const CuttingPreset* preset = preset_for(c, material);
   double vc = preset != nullptr ? preset->vc_m_min : 0.0;
   double fz = preset != nullptr ? preset->fz_mm : 0.0;
-  std::string source = told && preset != nullptr ? preset->source : "";
+  std::string source = told && preset != nullptr ? preset->source.text() : std::string();
   if (vc <= 0.0) {
     vc = c.substrate == model::Substrate::kHss ? material.vc_hss_m_min : material.vc_carbide_m_min;
     source += (source.empty() ? "" : "; ") + std::string("vc: the material's");

@@ -278,10 +278,10 @@ constexpr const char* kSlowestOfGroup = "vc: the slowest shipped material of the
 
 /// What the start values of a series have in common, whatever the size.
 struct SeriesPreset {
-  std::string of;         ///< a material's id, or the letter of a group
+  SharedText of;          ///< a material's id, or the letter of a group
   std::size_t group = 0;  ///< of ISO 513, by its place in `Feeds::factor`
   double vc_m_min = 0.0;
-  std::string source;
+  SharedText source;
 };
 
 std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
@@ -304,7 +304,7 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
     return trimmed(times, 3) + " " + std::string(kCoated) + ": " + edge->second.source + ")";
   };
   std::map<std::string, double> slowest;
-  std::map<std::string_view, std::pair<double, std::string>> of_group;  // faster than a bare edge, and why
+  std::map<std::string_view, std::pair<double, SharedText>> of_group;  // faster than a bare edge, and why
   out.reserve(r.materials.size() + kIsoGroups.size());
   for (const WorkMaterial& m : r.materials) {
     const double bare = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
@@ -489,8 +489,8 @@ Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {
     p.material_group = own.id;
     const double factor = rounded(p.vc_m_min / slowest[i], 6);
     p.vc_m_min = rounded(factor * bare, 3);
-    p.source.replace(0, std::string_view(kSlowestOfGroup).size(),
-                     "vc: " + trimmed(factor, 3) + " x " + std::string(kMaterialsSpeed));
+    p.source = "vc: " + trimmed(factor, 3) + " x " + std::string(kMaterialsSpeed) +
+               p.source.text().substr(std::string_view(kSlowestOfGroup).size());
     c.presets.insert(c.presets.begin(), std::move(p));
   }
   return {};

@@ -71,7 +71,7 @@ std::string cutter_page(const model::Cutter& c) {
   Rows presets;
   for (const auto& p : c.presets)
     presets.push_back(
-        {p.material_group, "vc " + n(p.vc_m_min) + " m/min", "fz " + n(p.fz_mm) + " mm", p.source});
+        {p.material_group.text(), "vc " + n(p.vc_m_min) + " m/min", "fz " + n(p.fz_mm) + " mm", p.source.text()});
   if (!presets.empty()) out += "start values\n" + table(presets);
   Rows sources;
   for (const auto& [field, source] : c.sources) sources.push_back({field, source});
