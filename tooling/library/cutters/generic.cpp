@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
@@ -291,9 +290,7 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
   const std::string& fz_source = feeds->second.source;
   const auto& factor = feeds->second.factor;
   const auto place_of = [&](const std::string& group) {
-    const auto at = factor.find(group);
-    if (at == factor.end()) throw std::logic_error("no feed factor for the ISO group '" + group + "'");
-    return static_cast<std::size_t>(std::distance(factor.begin(), at));
+    return static_cast<std::size_t>(std::distance(factor.begin(), factor.find(group)));
   };
   const bool hss = s.base.substrate == model::Substrate::kHss;
   const auto edge = r.edges.find(s.edge);
@@ -345,10 +342,9 @@ void set_presets(const Series& s, const std::vector<SeriesPreset>& presets, cons
   // A tap advances by its pitch in a turn, whatever is cut.
   if (tap) c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / c.teeth;
   std::vector<double> fz_mm;
-  for (const auto& [group, factor] : feeds.factor)
-    fz_mm.push_back(tap ? c.fz_min_mm : rounded(factor * d, 5));
+  for (const auto& [of, factor] : feeds.factor) fz_mm.push_back(tap ? c.fz_min_mm : rounded(factor * d, 5));
   c.presets.reserve(presets.size());
-  for (const SeriesPreset& p : presets) c.presets.push_back({p.of, p.vc_m_min, fz_mm[p.group], p.source});
+  for (const SeriesPreset& p : presets) c.presets.push_back({p.of, p.vc_m_min, fz_mm.at(p.group), p.source});
 }
 
 void set_sources(const Series& s, const Reader& r, Cutter& c) {
