@@ -46,15 +46,12 @@ constexpr int kTeethInSoft = 3;
 struct Capacity {
   double power_w = 0.0, torque_nm = 0.0;
 };
-std::optional<Capacity> capacity(const Machine& m, double rpm) {
-  if (m.spindle.curve.empty()) return std::nullopt;
-  std::vector<mechanics::SpindlePoint> points;
-  for (const auto& p : m.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
-  const auto curve = mechanics::SpindleCurve::make(std::move(points));
+std::optional<Capacity> capacity(const Turning& t, double rpm) {
+  const auto& curve = t.curve;
   if (!curve) return std::nullopt;
   const auto at = curve->at(std::clamp(rpm, curve->min_rpm(), curve->max_rpm()));
   if (!at) return std::nullopt;
-  const double e = mechanics::spindle_efficiency(m.spindle.efficiency);
+  const double e = mechanics::spindle_efficiency(t.machine.spindle.efficiency);
   return Capacity{at->power_w * e, at->torque_nm * e};
 }
 
@@ -122,12 +119,12 @@ std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Pre
 }
 
 double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
-                 const Machine& m, const Preferences& p, std::string& limited) {
+                 const Turning& t, const Preferences& p, std::string& limited) {
   const double d = c.cutting_diameter_mm;
   const double volume = p.volume_mm3 > 0.0 ? p.volume_mm3 : kNominalVolumeMm3;
   double ae = kWidthRatio * d;
   if (p.width_mm > 0.0) ae = std::min(ae, p.width_mm);
-  double ap = deepest_mm(c, w, m, p, limited);
+  double ap = deepest_mm(c, w, t.machine, p, limited);
   // The speed is that of the widest circle that cuts, the start values are at the tip's.
   const double slower = d / widest_circle_mm(c, ap);
   const double rpm = slower * s.spindle_rpm;
@@ -146,7 +143,7 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
     const double margin = margin_of(w);
     const double kc = mechanics::specific_force_n_mm2(work, h_mean);
     const double power = margin * mechanics::cutting_power_w(ap * ae * feed, kc);
-    if (const auto most = capacity(m, rpm)) {
+    if (const auto most = capacity(t, rpm)) {
       scale_down(most->power_w / power, "power", scale, limited);
       scale_down(most->torque_nm / mechanics::spindle_torque_nm(power, rpm), "torque", scale, limited);
     }
@@ -186,7 +183,7 @@ double passes_s(const Cutter& c, const StartValues& s, const Preferences& p) {
 }
 
 double axial_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
-               const Machine& m, const Preferences& p, std::string& limited) {
+               const Turning& t, const Preferences& p, std::string& limited) {
   double length = p.depth_mm > 0.0 ? p.depth_mm : r.depth_of_cut_mm;
   if (!(length > 0.0)) length = r.reach_mm > 0.0 ? r.reach_mm : c.cutting_diameter_mm;
   double scale = 1.0;
@@ -196,7 +193,7 @@ double axial_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, 
         mechanics::drilling_loads({c.cutting_diameter_mm, s.fz_mm * c.teeth, s.spindle_rpm, c.teeth,
                                    c.point_angle_rad > 0.0 ? c.point_angle_rad : kPi, hole},
                                   {w.kc11_n_mm2, w.mc});
-    const auto most = capacity(m, s.spindle_rpm);
+    const auto most = capacity(t, s.spindle_rpm);
     if (l && most) {
       const double margin = margin_of(w), slope = 1.0 / (1.0 - w.mc);  // M grows with f^(1 - mc)
       scale_down(std::pow(most->torque_nm / (margin * l->torque_nm), slope), "torque", scale, limited);
@@ -220,14 +217,15 @@ std::optional<double> life_left_min(const Cutter& c) {
 }
 
 Estimate estimate(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
-                  const Machine& m, const Preferences& p) {
+                  const Turning& t, const Preferences& p) {
+  const Machine& m = t.machine;
   Estimate out;
   if (c.cutter_class == CutterClass::kTouchProbe || !(s.feed_mm_min > 0.0)) return out;
   const bool passes = p.passes_mm2 > 0.0 && p.ridges_mm > 0.0 && c.cutter_class == CutterClass::kBallEndmill;
   out.cutting_s = passes ? passes_s(c, s, p)
                   : model::has(c.cutter_class, model::CutterTrait::kAlongAxis)
-                      ? axial_s(c, r, s, w, m, p, out.limited_by)
-                      : milling_s(c, r, s, w, m, p, out.limited_by);
+                      ? axial_s(c, r, s, w, t, p, out.limited_by)
+                      : milling_s(c, r, s, w, t, p, out.limited_by);
   out.cutting_s *= std::max(1, p.places);
   const double minutes = out.cutting_s / 60.0 * std::max(1, p.batch);
   double whole = 0.0;  // of the batch

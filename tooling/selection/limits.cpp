@@ -125,12 +125,10 @@ std::optional<std::string> wrong_neck(const Cutter& c, const ToolRequirement& r)
 double efficiency(const Machine& m) { return mechanics::spindle_efficiency(m.spindle.efficiency); }
 
 /// The largest torque at or below a speed; nothing where the machine states no curve.
-std::optional<double> largest_torque_nm(const Machine& m, double rpm) {
-  if (m.spindle.curve.empty()) return std::nullopt;
-  std::vector<mechanics::SpindlePoint> points;
-  for (const auto& p : m.spindle.curve) points.push_back({p.rpm, p.power_w, p.torque_nm});
-  const auto curve = mechanics::SpindleCurve::make(std::move(points));
+std::optional<double> largest_torque_nm(const Turning& t, double rpm) {
+  const auto& curve = t.curve;
   if (!curve) return std::nullopt;
+  const Machine& m = t.machine;
   double out = 0.0;
   const auto look = [&](double n) {
     const auto at = curve->at(std::clamp(n, curve->min_rpm(), curve->max_rpm()));
@@ -306,7 +304,8 @@ std::optional<std::string> too_short(const Cutter& c, const ToolRequirement& r) 
 }
 
 std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& start, const WorkMaterial& w,
-                                           const Machine& m, const Preferences& p) {
+                                           const Turning& t, const Preferences& p) {
+  const Machine& m = t.machine;
   if (auto why = not_in_magazine(c, m, p)) return why;
   if (c.cutter_class == CutterClass::kTouchProbe) return std::nullopt;
   if (auto why = not_cut_with(c, start, w)) return why;
@@ -321,7 +320,7 @@ std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& s
            trimmed(start.vc_m_min, 1) + " m/min, " + w.id + " bears " + trimmed(wanted, 1) +
            slower_gear(m, 1000.0 * wanted / (kPi * c.cutting_diameter_mm));
   const auto needed = least_torque_nm(c, start, w, p);
-  const auto most = largest_torque_nm(m, start.spindle_rpm);
+  const auto most = largest_torque_nm(t, start.spindle_rpm);
   if (needed && most && *needed > *most * efficiency(m))
     return "its least useful cut takes " + trimmed(*needed, 2) + " Nm, the spindle gives " +
            trimmed(*most * efficiency(m), 2) + " at or below " + trimmed(start.spindle_rpm, 0) + " 1/min";

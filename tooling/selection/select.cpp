@@ -34,17 +34,16 @@ constexpr double kStiff = 3.0;
 /// Between equals the larger cutter, which is worth this over the smallest.
 constexpr double kPerSizeS = 1.0;
 
-/// A boring tool set to the wanted size, when it can be.
-Cutter as_set(const Cutter& c, const ToolRequirement& r) {
+/// A boring tool set to the wanted size, when it can be, and has to be.
+std::optional<Cutter> as_set(const Cutter& c, const ToolRequirement& r) {
   const double wanted = r.diameter_exact_mm > 0.0 ? r.diameter_exact_mm : r.diameter_max_mm;
-  if (c.adjustable_to_mm <= 0.0 || wanted < c.cutting_diameter_mm || wanted > c.adjustable_to_mm) return c;
+  if (c.adjustable_to_mm <= 0.0 || wanted <= c.cutting_diameter_mm || wanted > c.adjustable_to_mm)
+    return std::nullopt;
   Cutter out = c;
   out.cutting_diameter_mm = wanted;
-  if (wanted != c.cutting_diameter_mm) {
-    out.sources.emplace_back(
-        "cutting_diameter_mm",
-        "derived: set to the bore, " + mm_text(c.cutting_diameter_mm) + " to " + mm_text(c.adjustable_to_mm));
-  }
+  out.sources.emplace_back(
+      "cutting_diameter_mm",
+      "derived: set to the bore, " + mm_text(c.cutting_diameter_mm) + " to " + mm_text(c.adjustable_to_mm));
   return out;
 }
 
@@ -183,6 +182,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
                  const WorkMaterial& material, const Machine& machine, const Preferences& preferences) {
   const ToolRequirement& r = requirement;
   Selection out;
+  const Turning turning(machine);
   std::deque<Cutter> set;  // boring tools, set to size; addresses stay
   std::vector<Fit> fits;
   std::vector<Near> near;
@@ -193,7 +193,8 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     const std::size_t rank = rank_of(r, original.cutter_class);
     if (rank == r.classes.size() || original.cutting_diameter_mm <= 0.0) continue;
     if (original.teeth <= 0 && original.cutter_class != CutterClass::kTouchProbe) continue;
-    const Cutter& c = original.adjustable_to_mm > 0.0 ? set.emplace_back(as_set(original, r)) : original;
+    auto to_size = as_set(original, r);
+    const Cutter& c = to_size ? set.emplace_back(*std::move(to_size)) : original;
     if (is_other_size(c, r)) {
       other_sizes[c.cutter_class].insert(rounded(c.cutting_diameter_mm, 4));
       continue;
@@ -202,8 +203,8 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (!why) why = too_short(c, r);
     StartValues start;
     if (!why) {
-      if (c.cutter_class != CutterClass::kTouchProbe) start = start_values(c, material, machine);
-      why = not_for_machine(c, start, material, machine, preferences);
+      if (c.cutter_class != CutterClass::kTouchProbe) start = start_numbers(c, material, machine);
+      why = not_for_machine(c, start, material, turning, preferences);
       const auto never = not_cut_with(c, start, material);
       if (never && not_of.empty())
         not_of = ", not of " + std::string(model::to_text(c.substrate)) + " (" + c.id + ": " + *never + ")";
@@ -212,7 +213,7 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (why)
       near.push_back({&c, std::move(*why)});
     else
-      fits.push_back({&c, start, rank, estimate(c, r, start, material, machine, preferences), 0.0,
+      fits.push_back({&c, start, rank, estimate(c, r, start, material, turning, preferences), 0.0,
                       !model::offset_fault(c).empty()});
   }
   double largest = 0.0;
@@ -226,11 +227,13 @@ Selection select(const ToolRequirement& requirement, const std::vector<Cutter>& 
     if (a.unmeasured != b.unmeasured) return b.unmeasured;
     return a.score != b.score ? a.score < b.score : a.cutter->id < b.cutter->id;
   });
+  out.ranked.reserve(std::min(fits.size(), preferences.most));
   for (std::size_t i = 0; i < std::min(fits.size(), preferences.most); ++i) {
     const Fit& f = fits[i];
     out.ranked.push_back({*f.cutter, f.start.vc_m_min, f.start.fz_mm, f.score,
                           rounded(f.estimate.cutting_s + f.estimate.tool_s, 6),
-                          reason_for(*f.cutter, r, f.start, preferences, fits.size(), f.estimate)});
+                          reason_for(*f.cutter, r, start_values(*f.cutter, material, machine), preferences,
+                                     fits.size(), f.estimate)});
   }
   tell_near(near, preferences.most_rejected, out);
   sum_up_sizes(r, other_sizes, out);

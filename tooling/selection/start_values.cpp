@@ -37,25 +37,23 @@ double feed_limit(const Cutter& c, const Machine& m) {
              : std::min(m.axes[0].feed_max_mm_min, m.axes[1].feed_max_mm_min);
 }
 
-/// Holds the speed within a limit and says so.
-void limit_speed(double& rpm, double least, double most, const char* whose, std::string& text) {
+/// Holds the speed within a limit and says so, where it is told.
+void limit_speed(double& rpm, double least, double most, const char* whose, bool told, std::string& text) {
   const double held = std::max(least, most > 0.0 ? std::min(rpm, most) : rpm);
-  if (std::abs(held - rpm) > kSlack * rpm) {
+  if (told && std::abs(held - rpm) > kSlack * rpm) {
     text += "; speed " + std::string(held < rpm ? "lowered" : "raised") + " from " + trimmed(rpm, 0) +
             " to " + trimmed(held, 0) + " 1/min by the " + whose;
   }
   rpm = held;
 }
 
-}  // namespace
-
-StartValues start_values(const Cutter& c, const WorkMaterial& material, const Machine& machine) {
+StartValues start_of(const Cutter& c, const WorkMaterial& material, const Machine& machine, bool told) {
   StartValues out;
   if (c.cutter_class == CutterClass::kTouchProbe) return out;  // it neither turns nor cuts
   const CuttingPreset* preset = preset_for(c, material);
   double vc = preset != nullptr ? preset->vc_m_min : 0.0;
   double fz = preset != nullptr ? preset->fz_mm : 0.0;
-  std::string source = preset != nullptr ? preset->source : "";
+  std::string source = told && preset != nullptr ? preset->source.text() : std::string();
   if (vc <= 0.0) {
     vc = c.substrate == model::Substrate::kHss ? material.vc_hss_m_min : material.vc_carbide_m_min;
     source += (source.empty() ? "" : "; ") + std::string("vc: the material's");
@@ -83,13 +81,14 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
   const double turn_mm = std::numbers::pi * c.cutting_diameter_mm;
   double rpm = 1000.0 * vc / turn_mm;
   out.wanted_vc_m_min = vc;
-  limit_speed(rpm, 0.0, c.maximum_speed_rpm, "tool", text);
-  limit_speed(rpm, machine.spindle.rpm_min, machine.spindle.rpm_max, "spindle", text);
+  limit_speed(rpm, 0.0, c.maximum_speed_rpm, "tool", told, text);
+  limit_speed(rpm, machine.spindle.rpm_min, machine.spindle.rpm_max, "spindle", told, text);
   const double largest = model::borne_feed_mm(c, material);
   if (!tap && largest > 0.0 && fz > largest) {
-    const std::string* of = source_of(c, "fz_max_mm");
-    text += "; fz lowered from " + trimmed(fz, 4) + " to the cutter's largest, " + trimmed(largest, 4) +
-            " mm" + (of != nullptr ? " (" + *of + ")" : std::string());
+    const std::string* of = told ? source_of(c, "fz_max_mm") : nullptr;
+    if (told)
+      text += "; fz lowered from " + trimmed(fz, 4) + " to the cutter's largest, " + trimmed(largest, 4) +
+              " mm" + (of != nullptr ? " (" + *of + ")" : std::string());
     fz = largest;
   }
   if (fz < c.fz_min_mm) fz = c.fz_min_mm;
@@ -100,17 +99,28 @@ StartValues start_values(const Cutter& c, const WorkMaterial& material, const Ma
     const double least = tap ? fz : c.fz_min_mm;
     fz = std::max(least, limit / (c.teeth * rpm));
     if (fz * c.teeth * rpm > limit) rpm = std::max(machine.spindle.rpm_min, limit / (fz * c.teeth));
-    text += "; held to the axes' feed of " + trimmed(limit, 1) + " mm/min";
+    if (told) text += "; held to the axes' feed of " + trimmed(limit, 1) + " mm/min";
   }
   out.spindle_rpm = rpm;
   out.vc_m_min = rpm * turn_mm / 1000.0;
   out.fz_mm = fz;
   out.feed_mm_min = fz * c.teeth * rpm;
+  if (!told) return out;
   out.why = {
       "tooling.start." + material.id,
       "vc " + trimmed(out.vc_m_min, 2) + " m/min, fz " + trimmed(fz, 4) + " mm in " + material.id + text,
       source};
   return out;
+}
+
+}  // namespace
+
+StartValues start_values(const Cutter& c, const WorkMaterial& material, const Machine& machine) {
+  return start_of(c, material, machine, true);
+}
+
+StartValues start_numbers(const Cutter& c, const WorkMaterial& material, const Machine& machine) {
+  return start_of(c, material, machine, false);
 }
 
 }  // namespace capstan::tooling

@@ -17,6 +17,7 @@
 #include "planner/model/nouns/executable.h"
 #include "planner/model/plan/edit/held.h"
 #include "planner/model/plan/edit/provenance.h"
+#include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::service {
@@ -31,7 +32,8 @@ Result<model::Plan> read(Source source, bool strict, Job& job) {
 }
 
 /// Findings of each program among the outputs. One that was checked with its plan, and is the same to the
-/// byte, is not checked once more.
+/// byte, is not checked once more. With another tool table, or none, its text is: what it removes is the
+/// same, and nothing was found in that.
 std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<Output>& outputs, Job& job) {
   const model::Plan& plan = planned.part ? *planned.part : planned.plan;
   const pipeline::CheckedProgram& known = planned.program;
@@ -42,8 +44,14 @@ std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<O
     for (const Output& t : outputs) {
       if (t.format->holds == Holds::kToolTable && t.format->control == o.format->control) table = t.bytes;
     }
-    if (!known.text.empty() && o.bytes == known.text && table == known.tool_table) {
+    const bool checked = !known.text.empty() && o.bytes == known.text;
+    if (checked && table == known.tool_table) {
       for (const model::Finding& f : known.findings) out.push_back({o.path, f, true});
+      continue;
+    }
+    if (checked && known.findings.empty()) {
+      for (auto& f : verify::check_program_text({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters))
+        out.push_back({o.path, std::move(f), true});
       continue;
     }
     const model::CutBefore cut{planned.plan, planned.cut_before};

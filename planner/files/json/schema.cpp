@@ -159,7 +159,7 @@ class SchemaWriter {
       type("integer");
     } else if constexpr (std::is_floating_point_v<T>) {
       type("number");
-    } else if constexpr (std::is_same_v<T, std::string>) {
+    } else if constexpr (IsText<T>) {
       type("string");
     } else if constexpr (std::is_enum_v<T>) {
       one_of(spellings<T>());

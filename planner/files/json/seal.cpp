@@ -119,6 +119,8 @@ class Sealer {
       h.real(x);
     } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
       h.number(static_cast<std::uint64_t>(x));
+    } else if constexpr (std::is_same_v<T, SharedText>) {
+      h.text(x.text());
     } else if constexpr (std::is_convertible_v<T, std::string_view>) {
       h.text(x);
     } else if constexpr (std::is_base_of_v<AnyRef, T>) {

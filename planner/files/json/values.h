@@ -127,7 +127,7 @@ class ValueReader {
     } else if constexpr (std::is_floating_point_v<T>) {
       if (!t.is_number()) fault(at, "a number");
       x = t.template get<double>();
-    } else if constexpr (std::is_same_v<T, std::string>) {
+    } else if constexpr (IsText<T>) {
       x = unquoted_bytes(string_of(t, at));
     } else if constexpr (std::is_enum_v<T>) {
       x = static_cast<T>(spelled(string_of(t, at), spellings<T>(), at));

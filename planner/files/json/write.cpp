@@ -130,6 +130,8 @@ class Writer {
       out_.integer(x);
     } else if constexpr (std::is_floating_point_v<T>) {
       out_.number(x);
+    } else if constexpr (std::is_same_v<T, SharedText>) {
+      out_.text(x.text());
     } else if constexpr (std::is_convertible_v<T, std::string_view>) {
       out_.text(x);
     } else if constexpr (std::is_enum_v<T>) {

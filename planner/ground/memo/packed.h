@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "planner/ground/base/shared_text.h"
 #include "planner/ground/memo/fields.h"
 
 // Values as bytes, and back: numbers, enumerations, text, vectors, maps, pairs, optionals, shared constants,
@@ -56,6 +57,8 @@ void pack(std::string& out, const T& v) {
   } else if constexpr (std::is_same_v<T, std::string>) {
     pack(out, static_cast<std::uint64_t>(v.size()));
     out += v;
+  } else if constexpr (std::is_same_v<T, SharedText>) {
+    pack(out, v.text());
   } else if constexpr (kIs<T, std::vector>) {
     using E = typename T::value_type;
     pack(out, static_cast<std::uint64_t>(v.size()));
@@ -114,6 +117,10 @@ class Unpacker {
       const std::size_t n = count(1);
       v.assign(bytes_.substr(0, n));
       bytes_.remove_prefix(n);
+    } else if constexpr (std::is_same_v<T, SharedText>) {
+      std::string text;
+      read(text);
+      v = std::move(text);
     } else if constexpr (kIs<T, std::vector>) {
       using E = typename T::value_type;
       if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {

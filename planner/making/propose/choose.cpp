@@ -14,6 +14,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/cutter/sized_name.h"
 #include "tooling/selection/select.h"
+#include "tooling/selection/selections.h"
 
 namespace capstan::propose {
 namespace {
@@ -169,7 +170,10 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
         choice.edits == nullptr
             ? choice.usable
             : model::allowed(*choice.edits, names, choice.usable, step.tool.classes, kept, barred);
-    auto s = tooling::select(step.tool, usable, plan.material, plan.machine, wanted);
+    const bool asked_of_all = choice.selections != nullptr && &usable == &choice.usable;
+    model::Selection s = asked_of_all
+                             ? choice.selections->of(step.tool, wanted)
+                             : tooling::select(step.tool, usable, plan.material, plan.machine, wanted);
     s.rejected.insert(s.rejected.end(), barred.begin(), barred.end());
     const casebase::OfStep of{step.operation, member.feature, coolant_of(plan.machine, step)};
     step::weigh_by_cases(choice.cases, plan, of, shape, s);

@@ -16,6 +16,9 @@
 namespace capstan::casebase {
 class CaseBase;
 }
+namespace capstan::tooling {
+class Selections;
+}
 
 namespace capstan::propose {
 
@@ -41,6 +44,7 @@ struct Choice {
   const casebase::CaseBase* cases = nullptr;  ///< null: no precedents
   Thrift thrift = Thrift::kNone;
   const std::vector<model::Edit>* edits = nullptr;  ///< of the operator; null: none
+  tooling::Selections* selections = nullptr;        ///< from `usable`; null: each question is answered anew
 };
 
 struct Chosen {

@@ -12,8 +12,8 @@
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
 #include "planner/making/propose/by_cases.h"
-#include "planner/making/propose/corners.h"
 #include "planner/making/propose/coaxial_steps.h"
+#include "planner/making/propose/corners.h"
 #include "planner/making/propose/missing_tools.h"
 #include "planner/making/propose/operation_nouns.h"
 #include "planner/making/propose/shared_tools.h"
@@ -24,6 +24,7 @@
 #include "planner/model/plan/resources/changed_by_hand.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"
+#include "tooling/selection/selections.h"
 
 namespace capstan::propose {
 namespace {
@@ -77,7 +78,14 @@ void unplanned(model::Plan& plan, AnyRef feature, const FeatureShape& s, const s
 class Proposer {
  public:
   Proposer(model::Plan& plan, const Sources& sources, Proposed& out, Job& job)
-      : plan_(plan), sources_(sources), choice_(sources.choice), out_(out), job_(job) {}
+      : plan_(plan),
+        sources_(sources),
+        selections_(sources.choice.usable, plan.material, plan.machine),
+        choice_(sources.choice),
+        out_(out),
+        job_(job) {
+    choice_.selections = &selections_;
+  }
 
   void feature(AnyRef f, const std::vector<FeatureShape>& shapes) {
     if (left_out(f, shapes.front())) return;
@@ -372,7 +380,8 @@ class Proposer {
 
   model::Plan& plan_;
   const Sources& sources_;
-  const Choice& choice_;
+  tooling::Selections selections_;
+  Choice choice_;
   Proposed& out_;
   Job& job_;
   draft::CandidatePool pool_;

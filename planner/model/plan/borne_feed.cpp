@@ -32,7 +32,7 @@ const CuttingPreset* feed_preset(const Cutter& c, const WorkMaterial& m, bool of
 bool borrowed(const CuttingPreset& p) {
   // Searched from its bracket: sources are full of blanks, and selection calls this for every preset of every
   // candidate.
-  const std::string& s = p.source;
+  const std::string& s = p.source.text();
   for (std::size_t at = s.find('('); at != std::string::npos; at = s.find('(', at + 1)) {
     if (at > 0 && s.compare(at - 1, kBorrowed.size(), kBorrowed) == 0) return true;
   }

@@ -25,11 +25,11 @@ const model::CuttingPreset* stated_for(const model::Cutter& c, const model::Work
   const model::CuttingPreset* best = nullptr;
   std::size_t best_rank = group + 1;
   for (const model::CuttingPreset& p : c.presets) {
-    if (model::borrowed(p) != of_its_like) continue;
     if (what == Wanted::kFeed && !(p.fz_mm > 0.0)) continue;
     if (what == Wanted::kSpeed && !(p.vc_m_min > 0.0)) continue;
+    // Sources are long, and most presets are for other materials: these are passed over first.
     const std::size_t rank = rank_of(p.material_group);
-    if (rank >= best_rank) continue;
+    if (rank >= best_rank || model::borrowed(p) != of_its_like) continue;
     best = &p;
     best_rank = rank;
   }

@@ -47,7 +47,7 @@ class Filler {
       v = 1;  // a place among set-ups: the second
     } else if constexpr (std::is_same_v<T, bool>) {
       v = !v;
-    } else if constexpr (std::is_same_v<T, std::string>) {
+    } else if constexpr (IsText<T>) {
       v = "text " + std::to_string(n_);
     } else if constexpr (std::is_same_v<T, model::CutterClass>) {
       v = model::CutterClass::kTaperedEndmill;

@@ -103,10 +103,11 @@ TEST(LeastChip, IsLoweredByWhatAShopStatesAndByNoDefault) {
 
 /// By how much the source of a preset says that a coated edge is faster; 0: it says nothing.
 double coated_by(const model::CuttingPreset& p) {
-  const auto at = p.source.find(tooling::kCoated);
+  const std::string& said = p.source.text();
+  const auto at = said.find(tooling::kCoated);
   if (at == std::string::npos || at < 2) return 0.0;
-  const auto begin = p.source.find_last_of(' ', at - 2) + 1;
-  return std::stod(p.source.substr(begin, at - begin));
+  const auto begin = said.find_last_of(' ', at - 2) + 1;
+  return std::stod(said.substr(begin, at - begin));
 }
 
 TEST(CoatedEdges, RunAsMuchFasterInTheCheckAsTheLeastOfTheirKindInTheTable) {

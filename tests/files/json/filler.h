@@ -71,7 +71,7 @@ class Filler {
       x = static_cast<T>(random_() % 1000);
     } else if constexpr (std::is_floating_point_v<T>) {
       x = number();
-    } else if constexpr (std::is_same_v<T, std::string>) {
+    } else if constexpr (IsText<T>) {
       x = text();
     } else if constexpr (std::is_enum_v<T>) {
       x = static_cast<T>(random_() % spellings<T>().size());

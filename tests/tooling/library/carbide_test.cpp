@@ -161,9 +161,9 @@ TEST(Complete, TakesTheBareSpeedOfADrillOfWhichNothingSaysThatItIsCoated) {
   EXPECT_NEAR(start_values(generic("generic/drill_carbide/8"), material("C45"), machine()).vc_m_min, 81.12,
               1e-9);
   for (const auto& p : c.presets) {
-    EXPECT_EQ(p.source.find(kCoated), std::string::npos) << p.source;
-    EXPECT_EQ(p.source.find("x x"), std::string::npos) << p.source;
-    EXPECT_NE(p.source.find("fz: "), std::string::npos) << p.source;
+    EXPECT_EQ(p.source.find(kCoated), std::string::npos) << p.source.text();
+    EXPECT_EQ(p.source.find("x x"), std::string::npos) << p.source.text();
+    EXPECT_NE(p.source.find("fz: "), std::string::npos) << p.source.text();
   }
 }
 

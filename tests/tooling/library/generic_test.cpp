@@ -67,7 +67,7 @@ TEST(GenericLibrary, GivesEveryCutterAPresetForEveryMaterialThatItsSubstrateCuts
   for (const Cutter& c : library()) {
     if (c.cutter_class == CutterClass::kTouchProbe) continue;
     std::map<std::string, model::CuttingPreset> presets;
-    for (const auto& p : c.presets) EXPECT_TRUE(presets.emplace(p.material_group, p).second) << c.id;
+    for (const auto& p : c.presets) EXPECT_TRUE(presets.emplace(p.material_group.text(), p).second) << c.id;
     for (const auto& m : materials) {
       const bool cut = c.substrate == model::Substrate::kCarbide || m.vc_hss_m_min > 0.0;
       ASSERT_EQ(presets.count(m.id), cut ? 1u : 0u) << c.id << " " << m.id;

@@ -82,19 +82,22 @@ void fill_lengths(Cutter& c, const Cutter& g, Filler& f) {
 /// The speed of a bare edge: what its source says the coated one is faster by is taken back, "1.3 (coated:
 /// ...)".
 void as_bare(model::CuttingPreset& p) {
-  const auto coated = p.source.find(kCoated);
+  const std::string& said = p.source.text();
+  const auto coated = said.find(kCoated);
   if (coated == std::string::npos || coated == 0) return;
-  const auto begin = p.source.find_last_of(' ', coated - 2) + 1;
-  auto end = p.source.find(") x ", coated);
+  const auto begin = said.find_last_of(' ', coated - 2) + 1;
+  auto end = said.find(") x ", coated);
   const bool of_group = end == std::string::npos;  // "..., 1.3 (coated: ...); fz: ..."
-  if (of_group) end = p.source.find("; fz: ", coated);
-  const auto faster = parse_double(std::string_view(p.source).substr(begin, coated - 1 - begin));
+  if (of_group) end = said.find("; fz: ", coated);
+  const auto faster = parse_double(std::string_view(said).substr(begin, coated - 1 - begin));
   if (!faster || !(*faster > 0.0) || end == std::string::npos) {
     p.vc_m_min = 0.0;
     return;
   }
   p.vc_m_min = rounded(p.vc_m_min / *faster, 3);
-  p.source.erase(of_group ? begin - 2 : begin, of_group ? end - (begin - 2) : end + 4 - begin);
+  std::string bare = said;
+  bare.erase(of_group ? begin - 2 : begin, of_group ? end - (begin - 2) : end + 4 - begin);
+  p.source = std::move(bare);
 }
 
 /// An own preset that names a shipped material says in its source of which group that is.
@@ -107,7 +110,8 @@ void tell_groups(Cutter& c) {
       const bool it = m.id == p.material_group ||
                       std::find(m.names.begin(), m.names.end(), p.material_group) != m.names.end();
       if (!it) continue;
-      if (!p.source.ends_with(model::of_group(m.iso_group))) p.source += model::of_group(m.iso_group);
+      if (!p.source.ends_with(model::of_group(m.iso_group)))
+        p.source = p.source.text() + model::of_group(m.iso_group);
       break;
     }
   }
@@ -136,7 +140,7 @@ Speed speed_of_like(const Cutter* like, const std::string& material) {
   for (model::CuttingPreset p : like->presets) {
     if (p.material_group != material) continue;
     as_bare(p);
-    return {p.vc_m_min, p.source.substr(0, p.source.find("; fz: "))};
+    return {p.vc_m_min, p.source.text().substr(0, p.source.find("; fz: "))};
   }
   return {};
 }
@@ -172,11 +176,11 @@ class ByGrade {
   void apply(model::CuttingPreset& p) const {
     if (edge_ == nullptr) return;
     const model::WorkMaterial* m = material(p.material_group);
-    const std::string group = m != nullptr ? m->iso_group : p.material_group;
+    const std::string group = m != nullptr ? m->iso_group : p.material_group.text();
     const auto times = edge_->over_bare.find(group);
     if (times == edge_->over_bare.end()) return;
     if (times->second == 1.0) {
-      p.source += " (as bare: no figure for " + grade_.said + " in group " + group + ")";
+      p.source = p.source.text() + " (as bare: no figure for " + grade_.said + " in group " + group + ")";
       return;
     }
     const std::string factor = trimmed(times->second, 3) + " " +
@@ -185,19 +189,21 @@ class ByGrade {
     const double card = m == nullptr                             ? 0.0
                         : c_.substrate == model::Substrate::kHss ? m->vc_hss_m_min
                                                                  : m->vc_carbide_m_min;
+    std::string source = p.source;
     if (p.vc_m_min > 0.0) {
       p.vc_m_min = rounded(times->second * p.vc_m_min, 3);
     } else if (card > 0.0) {
       p.vc_m_min = rounded(times->second * card, 3);
-      p.source = "vc: " + std::string(kMaterialsSpeed) + "; " + p.source;
+      source = "vc: " + std::string(kMaterialsSpeed) + "; " + source;
     } else {
       return;
     }
-    if (const auto fz_at = p.source.find("; fz: "); m == nullptr && fz_at != std::string::npos) {
-      p.source.insert(fz_at, ", " + factor);
-    } else if (p.source.starts_with("vc: ")) {
-      p.source.insert(4, factor + " x ");
+    if (const auto fz_at = source.find("; fz: "); m == nullptr && fz_at != std::string::npos) {
+      source.insert(fz_at, ", " + factor);
+    } else if (source.starts_with("vc: ")) {
+      source.insert(4, factor + " x ");
     }
+    p.source = std::move(source);
   }
 
  private:
@@ -240,11 +246,13 @@ void fill_feeds(Cutter& c, const Cutter& g, const std::vector<Cutter>& generic, 
   for (const model::CuttingPreset& p : c.presets) {
     // Whoever was completed before has them already.
     if (borrowed(p)) return;
-    own += (own.empty() ? "" : ", ") + p.material_group;
+    own += (own.empty() ? "" : ", ") + p.material_group.text();
   }
   const Cutter* same_material = c.substrate == g.substrate ? &g : nearest_of_material(c, generic);
   const std::size_t stated = c.presets.size();
   const ByGrade by_grade(c);
+  const std::string of_like =
+      " (as " + g.id + (own.empty() ? "" : "; its own values are for " + own + " only") + ")";
   for (model::CuttingPreset p : g.presets) {
     const auto end = c.presets.begin() + static_cast<std::ptrdiff_t>(stated);
     if (std::any_of(c.presets.begin(), end,
@@ -259,10 +267,11 @@ void fill_feeds(Cutter& c, const Cutter& g, const std::vector<Cutter>& generic, 
       const Speed like = speed_of_like(same_material, p.material_group);
       p.vc_m_min = like.vc_m_min;
       if (const auto fz_at = p.source.find("; fz: "); fz_at != std::string::npos)
-        p.source = like.vc_m_min > 0.0 ? like.source + p.source.substr(fz_at) : p.source.substr(fz_at + 2);
+        p.source = like.vc_m_min > 0.0 ? like.source + p.source.text().substr(fz_at)
+                                       : p.source.text().substr(fz_at + 2);
     }
     by_grade.apply(p);
-    p.source += " (as " + g.id + (own.empty() ? "" : "; its own values are for " + own + " only") + ")";
+    p.source = p.source.text() + of_like;
     c.presets.push_back(std::move(p));
   }
 }

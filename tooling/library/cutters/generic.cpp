@@ -277,10 +277,10 @@ constexpr const char* kSlowestOfGroup = "vc: the slowest shipped material of the
 
 /// What the start values of a series have in common, whatever the size.
 struct SeriesPreset {
-  std::string of;  ///< a material's id, or the letter of a group
-  std::string iso_group;
+  SharedText of;          ///< a material's id, or the letter of a group
+  std::size_t group = 0;  ///< of ISO 513, by its place in `Feeds::factor`
   double vc_m_min = 0.0;
-  std::string source;
+  SharedText source;
 };
 
 std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
@@ -288,6 +288,10 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
   const auto feeds = r.feeds.find(s.feeds);
   if (feeds == r.feeds.end()) return out;
   const std::string& fz_source = feeds->second.source;
+  const auto& factor = feeds->second.factor;
+  const auto place_of = [&](const std::string& group) {
+    return static_cast<std::size_t>(std::distance(factor.begin(), factor.find(group)));
+  };
   const bool hss = s.base.substrate == model::Substrate::kHss;
   const auto edge = r.edges.find(s.edge);
   const auto over_bare = [&](const std::string& group) {
@@ -297,7 +301,7 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
     return trimmed(times, 3) + " " + std::string(kCoated) + ": " + edge->second.source + ")";
   };
   std::map<std::string, double> slowest;
-  std::map<std::string_view, std::pair<double, std::string>> of_group;  // faster than a bare edge, and why
+  std::map<std::string_view, std::pair<double, SharedText>> of_group;  // faster than a bare edge, and why
   out.reserve(r.materials.size() + kIsoGroups.size());
   for (const WorkMaterial& m : r.materials) {
     const double bare = hss ? m.vc_hss_m_min : m.vc_carbide_m_min;
@@ -312,7 +316,7 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
       source = "vc: " + times + std::string(kMaterialsSpeed) + "; fz: " + fz_source;
     }
     const double vc = rounded(bare * s.speed_factor * faster, 3);
-    out.push_back({m.id, m.iso_group, vc, source});
+    out.push_back({m.id, place_of(m.iso_group), vc, source});
     const auto [at, fresh] = slowest.emplace(m.iso_group, vc);
     if (!fresh) at->second = std::min(at->second, vc);
   }
@@ -322,7 +326,7 @@ std::vector<SeriesPreset> presets_of(const Series& s, const Reader& r) {
     if (vc == slowest.end()) continue;
     const double faster = over_bare(group);
     const std::string times = faster == 1.0 ? "" : ", " + by_edge(faster);
-    out.push_back({group, group, vc->second, kSlowestOfGroup + times + "; fz: " + fz_source});
+    out.push_back({group, place_of(group), vc->second, kSlowestOfGroup + times + "; fz: " + fz_source});
   }
   return out;
 }
@@ -337,11 +341,10 @@ void set_presets(const Series& s, const std::vector<SeriesPreset>& presets, cons
   const bool tap = c.cutter_class == CutterClass::kTap;
   // A tap advances by its pitch in a turn, whatever is cut.
   if (tap) c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / c.teeth;
-  std::map<std::string_view, double> fz_of;
-  for (const auto& [group, factor] : feeds.factor) fz_of[group] = tap ? c.fz_min_mm : rounded(factor * d, 5);
+  std::vector<double> fz_mm;
+  for (const auto& [of, factor] : feeds.factor) fz_mm.push_back(tap ? c.fz_min_mm : rounded(factor * d, 5));
   c.presets.reserve(presets.size());
-  for (const SeriesPreset& p : presets)
-    c.presets.push_back({p.of, p.vc_m_min, fz_of.at(p.iso_group), p.source});
+  for (const SeriesPreset& p : presets) c.presets.push_back({p.of, p.vc_m_min, fz_mm.at(p.group), p.source});
 }
 
 void set_sources(const Series& s, const Reader& r, Cutter& c) {
@@ -482,8 +485,8 @@ Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {
     p.material_group = own.id;
     const double factor = rounded(p.vc_m_min / slowest[i], 6);
     p.vc_m_min = rounded(factor * bare, 3);
-    p.source.replace(0, std::string_view(kSlowestOfGroup).size(),
-                     "vc: " + trimmed(factor, 3) + " x " + std::string(kMaterialsSpeed));
+    p.source = "vc: " + trimmed(factor, 3) + " x " + std::string(kMaterialsSpeed) +
+               p.source.text().substr(std::string_view(kSlowestOfGroup).size());
     c.presets.insert(c.presets.begin(), std::move(p));
   }
   return {};

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/base/shared_text.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
 #include "tooling/library/records/records.h"
 
@@ -69,6 +70,7 @@ class Encoder {
     put(v.size(), 4);
     bytes += v;
   }
+  void operator()(const SharedText& v) { (*this)(v.text()); }
   template <class T>
   void operator()(const std::vector<T>& v) {
     put(v.size(), 4);
@@ -96,17 +98,22 @@ class Encoder {
 /// or go on past the end.
 class Decoder {
  public:
-  explicit Decoder(std::string_view bytes, const std::vector<std::string>* shared = nullptr)
+  explicit Decoder(std::string_view bytes, const std::vector<SharedText>* shared = nullptr)
       : rest_(bytes), shared_(shared) {}
 
-  void shared(std::string& v) {
+  template <IsText T>
+  void shared(T& v) {
     if (shared_ == nullptr) return (*this)(v);
     const auto place = static_cast<std::size_t>(take(4));
     if (place >= shared_->size()) {
       ok_ = false;
       return;
     }
-    v = (*shared_)[place];
+    if constexpr (std::is_same_v<T, SharedText>) {
+      v = (*shared_)[place];
+    } else {
+      v = (*shared_)[place].text();
+    }
   }
   void shared(std::vector<std::pair<std::string, std::string>>& v) {
     const std::size_t n = length();
@@ -147,6 +154,11 @@ class Decoder {
     const std::size_t n = length();
     v.assign(rest_.substr(0, n));
     rest_.remove_prefix(n);
+  }
+  void operator()(SharedText& v) {
+    std::string text;
+    (*this)(text);
+    v = std::move(text);
   }
   template <class T>
   void operator()(std::vector<T>& v) {
@@ -207,7 +219,7 @@ class Decoder {
 
   static constexpr std::size_t kReserved = 64;  // a length that lies must not cost memory
   std::string_view rest_;
-  const std::vector<std::string>* shared_;
+  const std::vector<SharedText>* shared_;
   bool ok_ = true;
 };
 

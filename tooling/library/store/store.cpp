@@ -169,7 +169,7 @@ struct ToolStore::Impl {
   Database db;
   Statement by_place;
   Header header;
-  std::vector<std::string> texts;
+  std::vector<SharedText> texts;                                ///< of SharedTexts, by place
   std::vector<IndexKey> keys;                                   ///< by class, then diameter, then place
   std::map<int, std::pair<std::size_t, std::size_t>> of_class;  ///< where a class begins and ends in `keys`
   std::map<int, double> widest_range;  ///< of tools that can be set, per class: diameter_to - diameter

@@ -223,10 +223,10 @@ void cite(std::string& source, const Citations& citations, Fields& top) {
   std::string out;
   for (std::size_t i = 0; i < source.size();) {
     if (out.size() > kLongestSource || top.fault_count() > kMostFaults) break;
-    if (source[i] != '@') {
-      out += source[i++];
-      continue;
-    }
+    const std::size_t at = std::min(source.find('@', i), source.size());
+    out.append(source, i, at - i);
+    i = at;
+    if (i == source.size()) break;
     std::size_t end = i + 1;
     while (end < source.size() && of_name(source[end])) ++end;
     const std::string name = source.substr(i + 1, end - i - 1);

@@ -70,8 +70,8 @@ std::string cutter_page(const model::Cutter& c) {
   std::string out = c.id + (c.description.empty() ? "" : ": " + c.description) + "\n" + table(rows);
   Rows presets;
   for (const auto& p : c.presets)
-    presets.push_back(
-        {p.material_group, "vc " + n(p.vc_m_min) + " m/min", "fz " + n(p.fz_mm) + " mm", p.source});
+    presets.push_back({p.material_group.text(), "vc " + n(p.vc_m_min) + " m/min", "fz " + n(p.fz_mm) + " mm",
+                       p.source.text()});
   if (!presets.empty()) out += "start values\n" + table(presets);
   Rows sources;
   for (const auto& [field, source] : c.sources) sources.push_back({field, source});

@@ -304,6 +304,12 @@ class Loader {
 
   // Computes the entities allowed where an entity or select is required.
   void admitted() {
+    const std::size_t n = t_->entities.size();
+    subtypes_.assign(n * t_->row, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const EntityId a : t_->entities[i].ancestors_first)
+        subtypes_[static_cast<std::size_t>(a) * t_->row + i / 64] |= std::uint64_t{1} << (i % 64);
+    }
     for (Type& type : t_->types) {
       if (type.kind != TypeKind::kEntity && type.kind != TypeKind::kSelect) continue;
       type.admitted.assign(t_->row, 0);
@@ -326,10 +332,7 @@ class Loader {
   }
 
   void admit(Type& type, std::size_t ancestor) const {
-    for (std::size_t i = 0; i < t_->entities.size(); ++i) {
-      if ((t_->ancestors[i * t_->row + ancestor / 64] >> (ancestor % 64) & 1U) != 0)
-        type.admitted[i / 64] |= std::uint64_t{1} << (i % 64);
-    }
+    for (std::size_t w = 0; w < t_->row; ++w) type.admitted[w] |= subtypes_[ancestor * t_->row + w];
   }
 
   struct Later {
@@ -342,6 +345,7 @@ class Loader {
   std::vector<Type*> own_;  // of each line
   std::vector<const Type*> basic_;
   std::vector<Later> later_;
+  std::vector<std::uint64_t> subtypes_;  // as Tables::ancestors, the other way round: entity times subtype
 };
 
 }  // namespace

@@ -35,6 +35,11 @@ void describe_part(RecordFields& f, S& x, std::size_t part, const std::string& p
 inline void describe_value(RecordFields& f, const std::string& name, model::Unit, std::string& v) {
   f.text(name, v);
 }
+inline void describe_value(RecordFields& f, const std::string& name, model::Unit, SharedText& v) {
+  std::string text = v;
+  f.text(name, text);
+  if (v != text) v = std::move(text);
+}
 inline void describe_value(RecordFields& f, const std::string& name, model::Unit unit, double& v) {
   f.real(name, unit, v);
 }

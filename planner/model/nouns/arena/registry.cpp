@@ -72,12 +72,16 @@ const Registry& registry() {
 
 const NounType& noun_type(TypeId t) {
   if (t == TypeId::kNone || t >= TypeId::kCount) throw std::logic_error("no such kind of object");
-  return registry().type(t);
+  static const Registry& kRegistry = registry();  // asked for each reference of each file: no call
+  return kRegistry.type(t);
 }
 
 std::optional<TypeId> find_noun(std::string_view keyword) { return registry().find(keyword); }
 
-bool is_a(TypeId t, TypeId ancestor) { return registry().is_a(t, ancestor); }
+bool is_a(TypeId t, TypeId ancestor) {
+  static const Registry& kRegistry = registry();  // as above
+  return kRegistry.is_a(t, ancestor);
+}
 
 const Attribute* find_attribute(TypeId t, std::string_view name) {
   for (const Attribute& a : noun_type(t).attributes) {

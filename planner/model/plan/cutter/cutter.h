@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/base/shared_text.h"
 #include "planner/ground/geometry/profile.h"
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/model/nouns/arena/attribute.h"
@@ -16,10 +17,10 @@ struct MachiningTool;
 
 /// Start values for one material group, from a catalogue or the shipped table.
 struct CuttingPreset {
-  std::string material_group;  ///< ISO 513 letter (P, M, K, N, S, H) or a material's name
+  SharedText material_group;  ///< ISO 513 letter (P, M, K, N, S, H) or a material's name
   double vc_m_min = 0.0;
   double fz_mm = 0.0;  ///< per tooth; drills, reamers: per revolution divided by teeth
-  std::string source;
+  SharedText source;   ///< a sentence or two, which all sizes of a series say
   friend bool operator==(const CuttingPreset&, const CuttingPreset&) = default;
 };
 

@@ -77,7 +77,8 @@ std::optional<Reference> reference_of(const model::WorkMaterial& m, const model:
     const auto* p = s == c.substrate ? stated_for(c, m, of_its_like, Wanted::kSpeed) : nullptr;
     if (p == nullptr) continue;
     out.vc_m_min = p->vc_m_min;
-    out.source = (of_its_like ? "that of a cutter like it for " : "the tool's own for ") + p->material_group;
+    out.source =
+        (of_its_like ? "that of a cutter like it for " : "the tool's own for ") + p->material_group.text();
     // Where its speed counts a coating already ("1.7 (coated ..."), nothing comes on top.
     if (of_its_like && p->source.find("(coated") == std::string::npos) out.coated = coated;
     return out;

@@ -31,7 +31,8 @@ ByPresets by_presets(const model::Cutter& c, const model::WorkMaterial& m) {
   for (const model::CuttingPreset& p : c.presets) {
     const bool of_it = p.fz_mm > 0.0 && !model::borrowed(p) && p.source.ends_with(group);
     if (of_it && (out.mm == 0.0 || p.fz_mm < out.mm))
-      out = {p.fz_mm, "the tool's start value for " + p.material_group + ", of ISO group " + m.iso_group};
+      out = {p.fz_mm,
+             "the tool's start value for " + p.material_group.text() + ", of ISO group " + m.iso_group};
   }
   return out;
 }

@@ -65,13 +65,13 @@ CatalogueItem item_of(const Cutter& c) {
   for (const auto& p : c.presets) {
     if (own && borrowed(p)) continue;  // the reader fills it in again
     Preset q;
-    q.name = q.material = p.material_group;
+    q.name = q.material = p.material_group.text();
     if (p.vc_m_min > 0.0) q.vc_m_min = p.vc_m_min;
     if (p.fz_mm > 0.0 && model::has(c.cutter_class, model::CutterTrait::kAlongAxis))
       q.feed_per_revolution_mm = p.fz_mm * std::max(c.teeth, 1);
     else if (p.fz_mm > 0.0)
       q.fz_mm = p.fz_mm;
-    q.source = p.source;
+    q.source = p.source.text();
     out.presets.push_back(std::move(q));
   }
   return out;

@@ -99,10 +99,10 @@ class Writer {
     std::string out;
     for (const auto& p : presets) {
       if (p.source.find("(as ") != std::string::npos || p.material_group.empty()) continue;  // completed
-      out += "\n      - {material: " + json_quoted(p.material_group);
+      out += "\n      - {material: " + json_quoted(p.material_group.text());
       if (p.vc_m_min > 0.0) out += ", vc_m_min: " + shortest(p.vc_m_min);
       if (p.fz_mm > 0.0) out += ", fz: " + spelled(p.fz_mm, mm_per_unit_);
-      out += ", source: " + json_quoted(p.source) + "}";
+      out += ", source: " + json_quoted(p.source.text()) + "}";
     }
     return out;
   }

@@ -54,7 +54,7 @@ std::vector<bool> kept(const std::vector<Knot>& k, const SectionNumbers& toleran
 
 }  // namespace
 
-PathSections::PathSections(const model::SectionSeries* s) : s_(s) {
+PathSections::PathSections(const model::SectionSeries* s, std::size_t moves) : s_(s) {
   for (std::size_t i = 0; s_ != nullptr && i < s_->size(); ++i) {
     order_.push_back(i);
     const SectionNumbers v = numbers(i);
@@ -66,6 +66,9 @@ PathSections::PathSections(const model::SectionSeries* s) : s_(s) {
   std::stable_sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
     return std::pair(s_->move[a], s_->at_mm[a]) < std::pair(s_->move[b], s_->at_mm[b]);
   });
+  // A wrong file may name moves that the path does not have.
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    begins_.resize(std::min<std::size_t>(s_->move[order_[k]], moves) + 1, k);
 }
 
 SectionNumbers PathSections::numbers(std::size_t i) const {
@@ -79,10 +82,11 @@ double PathSections::step_mm(std::size_t i) const {
 }
 
 SectionNumbers PathSections::at(std::size_t move, double at_mm) const {
-  const auto it = std::lower_bound(
-      order_.begin(), order_.end(), at_mm - kSamePlace,
-      [&](std::size_t i, double v) { return s_->move[i] != move ? s_->move[i] < move : s_->at_mm[i] < v; });
-  if (it == order_.end() || s_->move[*it] != move) return {};
+  const auto place = [this](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
+  const auto end = place(begin_of(move + 1));
+  const auto it = std::lower_bound(place(begin_of(move)), end, at_mm - kSamePlace,
+                                   [this](std::size_t i, double v) { return s_->at_mm[i] < v; });
+  if (it == end) return {};
   const bool here = at_mm >= s_->at_mm[*it] - step_mm(*it) * (1.0 + kSameStep) - kSamePlace;
   return here ? numbers(*it) : SectionNumbers{};
 }
@@ -90,8 +94,7 @@ SectionNumbers PathSections::at(std::size_t move, double at_mm) const {
 std::vector<std::pair<double, SectionNumbers>> PathSections::inside(std::size_t move,
                                                                     double length_mm) const {
   std::vector<std::pair<double, SectionNumbers>> out;
-  auto it = std::lower_bound(order_.begin(), order_.end(), move,
-                             [this](std::size_t i, std::size_t m) { return s_->move[i] < m; });
+  auto it = order_.begin() + static_cast<std::ptrdiff_t>(begin_of(move));
   std::vector<Knot> knots = {{0.0, at(move, 0.0)}};
   for (; it != order_.end() && s_->move[*it] == move; ++it) {
     const double end = s_->at_mm[*it], begin = end - step_mm(*it);
@@ -112,9 +115,9 @@ std::vector<std::pair<double, SectionNumbers>> PathSections::inside(std::size_t 
 
 double PathSections::volume(std::size_t first, std::size_t last) const {
   double out = 0.0;
-  auto it = std::lower_bound(order_.begin(), order_.end(), first,
-                             [this](std::size_t i, std::size_t m) { return s_->move[i] < m; });
-  for (; it != order_.end() && s_->move[*it] <= last; ++it) out += s_->removed_mm3[*it];
+  for (auto it = order_.begin() + static_cast<std::ptrdiff_t>(begin_of(first));
+       it != order_.end() && s_->move[*it] <= last; ++it)
+    out += s_->removed_mm3[*it];
   return out;
 }
 

@@ -15,8 +15,8 @@ using SectionNumbers = std::array<double, 7>;
 /// The measured sections of a path, by place.
 class PathSections {
  public:
-  /// May be null: no sections.
-  explicit PathSections(const model::SectionSeries* series);
+  /// Of a path of so many moves. The series may be null: no sections.
+  PathSections(const model::SectionSeries* series, std::size_t moves);
 
   /// Those of the measured step in which the place lies; zeros in air.
   [[nodiscard]] SectionNumbers at(std::size_t move, double at_mm) const;
@@ -29,9 +29,14 @@ class PathSections {
  private:
   [[nodiscard]] SectionNumbers numbers(std::size_t i) const;
   [[nodiscard]] double step_mm(std::size_t i) const;
+  /// Where the samples of a move begin in `order_`; those of the next one follow.
+  [[nodiscard]] std::size_t begin_of(std::size_t move) const {
+    return move < begins_.size() ? begins_[move] : order_.size();
+  }
 
   const model::SectionSeries* s_;
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> order_;   ///< samples by move and place
+  std::vector<std::size_t> begins_;  ///< by move
   SectionNumbers tolerance_{};
 };
 

@@ -225,7 +225,7 @@ class Splitter {
     schedule_ = result != nullptr && result->schedule && result->schedule->feed_mm_min.size() == path->size()
                     ? result->schedule
                     : nullptr;
-    const PathSections sections(result != nullptr ? result->sections.get() : nullptr);
+    const PathSections sections(result != nullptr ? result->sections.get() : nullptr, path->size());
     Curves curves(m_, *path, frame_);
     bool first = true;
     for (std::size_t i = 1; i < path->size();) {

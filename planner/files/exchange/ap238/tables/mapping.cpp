@@ -27,17 +27,28 @@ void Mapping::index() {
   at_.resize(schema.size());
   of_.resize(model::kTypeCount);
   rows_of_.resize(model::kTypeCount);
+  std::vector<std::vector<std::uint32_t>> rooted(schema.size());
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    const EntityId root = objects_[i].root.entities.front();
-    for (std::size_t e = 0; e < at_.size(); ++e) {
-      if (schema.is_a(static_cast<EntityId>(e), root)) at_[e].push_back(i);
-    }
+    rooted[static_cast<std::size_t>(objects_[i].root.entities.front())].push_back(i);
     if (objects_[i].written) of_[static_cast<std::size_t>(objects_[i].noun)].push_back(i);
   }
-  for (std::size_t t = 1; t < model::kTypeCount; ++t) {
-    for (const Row& r : rows_) {
-      if (model::is_a(static_cast<TypeId>(t), r.noun)) rows_of_[t].push_back(&r);
+  for (std::size_t e = 0; e < at_.size(); ++e) {
+    const EntityId leaf = static_cast<EntityId>(e);
+    for (const EntityId a : schema.closure({&leaf, 1})) {
+      const auto& there = rooted[static_cast<std::size_t>(a)];
+      at_[e].insert(at_[e].end(), there.begin(), there.end());
     }
+    std::sort(at_[e].begin(), at_[e].end());
+  }
+  std::vector<std::vector<const Row*>> own(model::kTypeCount);
+  for (const Row& r : rows_) own[static_cast<std::size_t>(r.noun)].push_back(&r);
+  for (std::size_t t = 1; t < model::kTypeCount; ++t) {
+    auto& all = rows_of_[t];
+    for (TypeId at = static_cast<TypeId>(t); at != TypeId::kNone; at = model::noun_type(at).parent) {
+      const auto& here = own[static_cast<std::size_t>(at)];
+      all.insert(all.end(), here.begin(), here.end());
+    }
+    std::sort(all.begin(), all.end());  // they stand in one list, in order
   }
 }
 

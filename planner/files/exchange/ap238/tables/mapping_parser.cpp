@@ -19,14 +19,12 @@ std::string_view trimmed(std::string_view s) {
 }
 
 std::vector<std::string> split(std::string_view s, char by) {
-  std::vector<std::string> out(1);
-  for (const char c : s) {
-    if (c == by) {
-      out.emplace_back();
-    } else {
-      out.back() += c;
-    }
+  std::vector<std::string> out;
+  for (std::size_t end = s.find(by); end != std::string_view::npos; end = s.find(by)) {
+    out.emplace_back(s.substr(0, end));
+    s.remove_prefix(end + 1);
   }
+  out.emplace_back(s);
   return out;
 }
 
@@ -58,7 +56,7 @@ class Parser {
       if (statement.empty()) began = number;
       const bool more = !line.empty() && line.back() == '\\';
       if (more) line.remove_suffix(1);
-      statement += std::string(line);
+      statement += line;
       if (more) {
         statement += ' ';
         continue;
@@ -142,17 +140,19 @@ class Parser {
       }
       std::size_t end = i;
       while (end < s.size() && is_word(s[end])) ++end;
-      const std::string name(s.substr(i, end - i));
-      const auto it = macros_.find(name);
-      if (it == macros_.end() || end >= s.size() || s[end] != '(') {
+      const std::string_view name = s.substr(i, end - i);
+      const bool called = end < s.size() && s[end] == '(';
+      const auto it = called ? macros_.find(name) : macros_.end();
+      if (it == macros_.end()) {
         out += name;
         i = end;
         continue;
       }
       const auto close = s.find(')', end);
-      if (close == std::string_view::npos) wrong("')' expected after " + name);
+      if (close == std::string_view::npos) wrong("')' expected after " + std::string(name));
       const auto arguments = split(s.substr(end + 1, close - end - 1), ',');
-      if (arguments.size() != it->second.names.size()) wrong("wrong number of arguments of " + name);
+      if (arguments.size() != it->second.names.size())
+        wrong("wrong number of arguments of " + std::string(name));
       out += substituted(it->second, arguments);
       i = close + 1;
     }
@@ -382,9 +382,10 @@ class Parser {
       }
     }
     constraints(s, out);
-    prefix_ += std::string(before.substr(0, before.size() - s.size()));
+    prefix_ += before.substr(0, before.size() - s.size());
     if (out.own) prefix_ += own_;
-    const auto [it, added] = interned_.emplace(prefix_, static_cast<std::uint32_t>(out_.prefixes_.size()));
+    const auto [it, added] =
+        interned_.try_emplace(prefix_, static_cast<std::uint32_t>(out_.prefixes_.size()));
     if (added) out_.prefixes_.push_back(prefix_);
     out.prefix = it->second;
     s = trimmed(s);
@@ -472,7 +473,7 @@ class Parser {
 
   Mapping& out_;
   const express::Dictionary& schema_;
-  std::map<std::string, Macro> macros_;
+  std::map<std::string, Macro, std::less<>> macros_;
   std::map<std::string, std::uint32_t> interned_;
   std::string place_, prefix_, own_;
 };
