@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/region/patterns.h"
@@ -253,6 +254,21 @@ class Contours {
     done_[i].push_back(t);
   }
 
+  /// From the end of the track that was cut last onto one beside it, on arcs that leave the one and meet the
+  /// other along their sense: a straight step across would cut the cutter's whole width and stop at both
+  /// ends. Returns the track begun where it is met; nothing where the arcs fit nowhere.
+  std::optional<Track> bend_onto(std::size_t i, const Track& t) {
+    const auto& last = done_[i].empty() ? done_[last_] : done_[i];
+    const Vec2 here = xy(c_.writer.at());
+    if (last.empty() || last.back().segments.empty() || t.segments.empty() || !t.closed ||
+        std::abs(c_.writer.at().z - level_.z_mm) > 1e-9 || norm(last.back().end() - here) > 1e-6)
+      return std::nullopt;
+    const auto& segments = last.back().segments;
+    const Vec2 from = segments.size() > 1 ? segments[segments.size() - 2].to : last.back().start;
+    const Vec2 leave = direction_at(from, segments.back(), 1.0);
+    return c_.bend_onto(level_, t, leave);
+  }
+
   /// One loop of a ring: from where the cutter is, from a neighbour that is cut already, or into the solid.
   Status one(std::size_t i, const Track& t, const std::vector<std::size_t>& neighbours, bool entered,
              bool wall) {
@@ -262,6 +278,10 @@ class Contours {
       return {};
     }
     if (entered || beside(i)) {
+      if (const auto joined = bend_onto(i, t)) {
+        cut(i, *joined);
+        return {};
+      }
       const Spot spot = nearest(t, xy(c_.writer.at()));
       if (c_.cut_to(level_, spot.point)) {
         cut(i, begun_at(t, spot));

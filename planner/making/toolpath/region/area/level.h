@@ -54,6 +54,10 @@ class LevelCutter {
   void go_cleared(const Level& level, geometry::Vec2 p);
   /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
   const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm, double cover_mm);
+  /// From where the cutter is, moving in the unit direction `leave`, onto a closed track beside it, on arcs
+  /// that meet it ahead, along its sense: straight across, the cutter would cut with its whole width and stop
+  /// at both ends. Returns the track begun where it is met; nothing, and no move, where the arcs fit nowhere.
+  std::optional<Track> bend_onto(const Level& level, const Track& track, geometry::Vec2 leave);
   /// A straight cut on the level to p when it stays within the centres.
   bool cut_to(const Level& level, geometry::Vec2 p);
 
@@ -75,6 +79,8 @@ class LevelCutter {
  private:
   void tell(Severity severity, const std::string& code, const std::string& message);
   void go_above(const Level& level, geometry::Vec2 p);
+  /// From where the cutter is onto the track: on an arc where one fits, else straight to the spot.
+  Track onto(const Level& level, const Track& track, const Spot& spot);
   std::optional<Track> from_outside(const Level& level, const Track& track);
   std::optional<Track> by_helix(const Level& level, const Track& track, const geometry::Region& leaf);
   std::optional<Track> by_bore(const Level& level, const Track& track, geometry::Vec2 middle);
