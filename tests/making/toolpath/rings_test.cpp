@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "planner/making/toolpath/region/area/biarc.h"
+#include "planner/making/toolpath/region/area/cutting_part.h"
 #include "planner/making/toolpath/region/area/work_area.h"
 #include "tests/making/toolpath/path_helpers.h"
 
@@ -188,6 +189,21 @@ TEST(RingLinks, InwardsBendAsWell) {
   const auto turns = turns_at_links(t, *g);
   EXPECT_FALSE(turns.empty());
   EXPECT_THAT(turns, testing::Each(testing::Lt(2.0)));
+}
+
+TEST(CuttingPart, IsTheStretchThatTakesWhatIsLeft) {
+  const Track round = track_of(geometry::rectangle({0, 0}, {40, 2}).loops.front());
+  Region uncut = geometry::rectangle({10, 0.5}, {30, 1.5});
+  const Track one = cutting_part(round, uncut, 4.0, Begun::kAnywhere);
+  EXPECT_FALSE(one.closed);
+  EXPECT_GT(length_of(one),
+            12.0);  // 20 mm less the reach of the cutter's disc at both ends, and pieces of 1 mm
+  EXPECT_LT(length_of(one), 30.0);
+  EXPECT_LT(geometry::area(uncut), 1e-3);
+  Region nothing = geometry::rectangle({10, 20}, {30, 21});
+  EXPECT_TRUE(cutting_part(round, nothing, 4.0, Begun::kAnywhere).segments.empty());
+  Region all = geometry::rectangle({-4, -4}, {44, 6});
+  EXPECT_TRUE(cutting_part(round, all, 4.0, Begun::kAtStart).closed);
 }
 
 TEST(Biarc, LeavesAndMeetsAlongTheGivenDirections) {

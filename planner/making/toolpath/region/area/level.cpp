@@ -190,6 +190,20 @@ std::optional<Track> LevelCutter::bend_onto(const Level& level, const Track& tra
   return std::nullopt;
 }
 
+Track LevelCutter::part(const Track& track, geometry::Region& uncut, double cover_mm, Begun begun) {
+  for (const Part& p : parts_) {
+    if (!same(p.of, track) || p.uncut.loops != uncut.loops || p.cover_mm != cover_mm || p.begun != begun)
+      continue;
+    uncut = p.left;
+    return p.part;
+  }
+  Part p{.of = track, .uncut = uncut, .cover_mm = cover_mm, .begun = begun, .part = {}, .left = {}};
+  p.part = cutting_part(track, uncut, cover_mm, begun);
+  p.left = uncut;
+  parts_.push_back(std::move(p));
+  return parts_.back().part;
+}
+
 Track LevelCutter::onto(const Level& level, const Track& track, const Spot& spot) {
   const Vec2 way = spot.point - xy(writer.at());
   if (norm(way) > kSmallestArc) {
