@@ -84,7 +84,8 @@ class LevelCutter {
  private:
   void tell(Severity severity, const std::string& code, const std::string& message);
   void go_above(const Level& level, geometry::Vec2 p);
-  /// From where the cutter is onto the track: on an arc where one fits, else straight to the spot.
+  std::optional<Track> bend(const Level& level, const Track& track, geometry::Vec2 leave, double ahead);
+  /// From where the cutter stands clear onto the track: on an arc where one fits, else straight to the spot.
   Track onto(const Level& level, const Track& track, const Spot& spot);
   std::optional<Track> from_outside(const Level& level, const Track& track);
   std::optional<Track> by_helix(const Level& level, const Track& track, const geometry::Region& leaf);
