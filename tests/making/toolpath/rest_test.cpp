@@ -151,6 +151,35 @@ TEST(RestMachining, DoesNotGoBackThroughAirAtTheFeedOfACut) {
   EXPECT_LT(idle, 0.4 * whole_mm) << "of " << whole_mm << " mm";
 }
 
+TEST(RestMachining, CutsAllLevelsOfACornerBeforeTheNextCorner) {
+  PathJob t = area_job(geometry::rounded_rectangle({0, 0}, {60, 40}, 2.0), 4.0, 3.0);
+  t.axial_depth_mm = 1.0;
+  t.cleared_by = Cleared{12.0, 0.0, 0.0};
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+  int corners = 0, rapids = 0;
+  Vec2 last{30, 20};
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    const auto p = g->path.point(i), before = g->path.point(i - 1);
+    if (g->path.kind[i] == model::MoveKind::kRapid && norm(Vec2{p.x - before.x, p.y - before.y}) > 1e-6)
+      ++rapids;
+    if (g->path.role[i] != model::MoveRole::kCut) continue;
+    if ((p.x < 30) != (last.x < 30) || (p.y < 20) != (last.y < 20) || corners == 0) ++corners;
+    last = {p.x, p.y};
+  }
+  EXPECT_EQ(corners, 4);
+  EXPECT_EQ(rapids, 3) << "from corner to corner, not from level to level";
+  HeightMap map({-2, -2}, {62, 42}, 0.2, 0.0);
+  PathJob first = area_job(t.shape.area, 4.0, 12.0);
+  first.rest_follows = true;
+  const auto wide = generate(first, job);
+  ASSERT_TRUE(wide);
+  map.run(*wide, first.cutter);
+  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+}
+
 TEST(RestMachining, LeavesNoFeatherEdgesOnFinishedWalls) {
   // A finishing pair without allowance, measured on a fine grid along the walls.
   const Region pocket = geometry::rounded_rectangle({0, 0}, {40, 30}, 4.0);

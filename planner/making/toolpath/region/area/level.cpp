@@ -232,7 +232,8 @@ std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& 
   for (const auto& [d, a] : near) {
     const Spot spot = track.closed ? nearest(track, a) : Spot{.point = track.start};
     if (!level.inside.contains(a, spot.point)) continue;
-    writer.over(a);
+    // In what a wider cutter has cleared, from level to level without going out.
+    level.rest.empty() ? writer.over(a) : go_above(level, a);
     writer.descend(level.z_mm, level.z_mm);
     writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
     return track.closed ? begun_at(track, spot) : track;
