@@ -19,10 +19,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostTurns = 5'000;
 constexpr double kSameHeight = 1e-6;  // mm
-/// How far ahead a ring is met by arcs from the one beside it, in distances between the two: on equal arcs
-/// between straight rings the way then leans by 60 and by 90 degrees. Flatter ways are longer slots: at 45
-/// degrees pockets of one level took up to 1.7 % longer than by straight steps. Default, unsourced.
-constexpr double kAhead[] = {1.732, 1.0};
+/// How far ahead a ring is met by arcs from the one beside it, in distances between the two, the first that
+/// fits: on equal arcs between straight rings the way then leans by 60, 45 and 90 degrees. Flatter ways are
+/// longer slots: at 45 degrees pockets of one level took up to 1.7 % longer than by straight steps. Default,
+/// unsourced.
+constexpr double kAhead[] = {1.732, 2.414, 1.0};
 /// The same where the way begins square to the ring: a quarter of a circle.
 constexpr double kQuarter = 1.0;
 
