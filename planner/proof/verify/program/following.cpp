@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/control_options.h"
 
 // A path of the plan beside the text's blocks, one after the other. The reader of this room has made moves of
 // the text; nothing of what writes programs is used, so that a fault there is a departure here.
@@ -454,6 +455,16 @@ bool Following::numbers_agree(std::size_t i, const Block& b) {
   // A control may have stopped the spindle when the tap was out.
   tapped_ = tapped_ || b.synchronised;
   const bool drawn_away = tapped_ && !feeds && b.spindle_rpm == 0.0;
+  if (back) {
+    // A machine may be set to bring taps out faster, by a whole factor.
+    const double factor = std::max(1.0, model::control_number(c_.machine, "tap_retract", 1.0));
+    const double wanted = factor * std::abs(speed);
+    if (std::abs(std::abs(b.spindle_rpm) - wanted) > factor * speed_slack_)
+      return say(
+          b.line,
+          "the tap comes out at " + plain(std::abs(b.spindle_rpm)) + " rpm; the plan says " + plain(wanted),
+          move, 22, "CHK-TEXT-TAP");
+  }
   if (!back && !drawn_away && std::abs(b.spindle_rpm - speed) > speed_slack_)
     return say(b.line, "the spindle turns at " + plain(b.spindle_rpm) + " rpm; the plan says " + plain(speed),
                move);
