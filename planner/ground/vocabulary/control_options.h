@@ -100,6 +100,10 @@ inline constexpr std::array kControlOptions{
         "turns", "yes no", 0, 0, false,
         "a helix of more than one turn as one block with TURN=, or as arcs of at most half a turn",
         "Siemens, helical interpolation"},
+    ControlOptionRow{
+        "plane_reset", "no yes", 0, 0, false,
+        "PLANE RESET STAY and M129 at the program's head, for machines that tilt the working plane",
+        "Heidenhain, PLANE and M128; default, unsourced: an option of the control"},
 };
 
 /// The value of that option in such a list; "-": it is not in it.

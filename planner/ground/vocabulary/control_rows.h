@@ -43,6 +43,10 @@ inline constexpr std::array kControlRows{
     ControlRow{"siemens", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called block_numbers=steps prove_out=m1 line_length=200 "
                "tool_call=number smoothing=cycle832 turns=yes"},
+    // Looks ahead 1,024 blocks (iTNC 530), also for lower feeds; shares of the axes' limits: default,
+    // unsourced.
+    ControlRow{"heidenhain", 0.86602540378443864676, 0.5, false,
+               "cycles=feature next_tool=called prove_out=m1 line_length=200 plane_reset=no"},
 };
 
 /// The control's row; null for a dialect without one.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "planner/proof/verify/program/fanuc/reader.h"
+#include "planner/proof/verify/program/heidenhain/reader.h"
 #include "planner/proof/verify/program/linuxcnc/reader.h"
 #include "planner/proof/verify/program/siemens/reader.h"
 
@@ -48,6 +49,18 @@ constexpr std::array kReaders{
                   .speed_decimals = 0,
                   .words = siemens::kWords,
                   .options = "prove_out=m1 line_length=200"},
+    DialectReader{.dialect = "heidenhain",
+                  .name = "Heidenhain TNC 640",
+                  .work_offsets = heidenhain::kOffsets,
+                  .program = &heidenhain::read_program,
+                  .tool_table = nullptr,
+                  .speed_decimals = 0,
+                  .words = heidenhain::kWords,
+                  .options = "prove_out=m1 line_length=200",
+                  .numbered_code = 2470000,
+                  .numbered_name = "PRESET",
+                  .sign = "BEGINPGM",
+                  .sign_meaning = "BEGIN PGM, the head of a program in conversational language"},
 };
 
 }  // namespace
