@@ -16,8 +16,8 @@ namespace capstan::controls::heidenhain {
 /// Offset   `CYCL DEF 247` with a row of the preset table, 1 to 99 (`PRESET1` in the plan).
 ///
 /// Tool     `TOOL CALL 5 Z S3000`: change, tool axis, length and speed; `TOOL CALL Z S2500` a speed alone;
-///          `TOOL DEF 6` makes the next one ready. A speed that the plan changes within a path is such a block,
-///          too, at which the tool stops: no word of L or C states a speed.
+///          `TOOL DEF 6` makes the next one ready. A speed that the plan changes within a path is such a
+///          block, too, at which the tool stops: no word of L or C states a speed.
 ///
 /// Top      of Z by `L Z+0 R0 FMAX M91`: M91 counts from the machine's datum, in its block, without the
 /// tool's
