@@ -4,6 +4,7 @@
 #include <array>
 
 #include "planner/controls/fanuc/fanuc.h"
+#include "planner/controls/heidenhain/heidenhain.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/controls/siemens/siemens.h"
 
@@ -11,20 +12,12 @@ namespace capstan::controls {
 namespace {
 
 constexpr std::array kDialects{
-    &linuxcnc::kDialect,
-    &fanuc::kFanuc,
-    &fanuc::kHaas,
-    &siemens::kDialect,
-};
-
-constexpr std::array kUnwritten{
-    Unwritten{"heidenhain", "Heidenhain", ".h"},
+    &linuxcnc::kDialect, &fanuc::kFanuc, &fanuc::kHaas, &siemens::kDialect, &heidenhain::kDialect,
 };
 
 }  // namespace
 
 std::span<const Dialect* const> dialects() { return kDialects; }
-std::span<const Unwritten> unwritten() { return kUnwritten; }
 
 const Dialect* find_dialect(std::string_view id) {
   const auto* at =

@@ -22,12 +22,6 @@ namespace capstan::controls {
 /// it, `suitability` says that it is assumed (FIT-TOLERANCE).
 [[nodiscard]] model::Machine with_control(model::Machine machine, const std::string& dialect);
 
-/// Controls that are known by name and whose programs are not written yet.
-struct Unwritten {
-  std::string_view id, name, ending;
-};
-[[nodiscard]] std::span<const Unwritten> unwritten();
-
 /// The plan as a program of its machine's control (Plan::machine.control.dialect).
 /// Fails  OUT-DIALECT for a control that has no row, and as the control's writer.
 [[nodiscard]] Result<std::string> write_program(const model::Plan& plan, Job& job,

@@ -41,7 +41,7 @@ struct Conformance {
 };
 
 /// One control that programs are written for: what it is, what its files hold and who writes them. How it
-/// follows a path is in ground/vocabulary/path_following.h, for timing and feeds need it; who reads its
+/// follows a path is in ground/vocabulary/control_rows.h, for timing and feeds need it; who reads its
 /// programs back for the check in proof/verify/program/readers.cpp.
 struct Dialect {
   std::string_view id;                             ///< as model::Control::dialect has it

@@ -18,6 +18,8 @@ inline Plan plan_for(const char* dialect) {
   Plan plan = capstan::testing::empty_plan();
   plan.machine.axes[2].travel_min_mm = -400.0;
   plan.machine = with_control(plan.machine, dialect);
+  const auto offsets = find_dialect(dialect)->work_offsets;
+  for (std::size_t i = 0; i < plan.setups.size(); ++i) plan.setups[i].work_offset = offsets[i];
   return plan;
 }
 

@@ -169,7 +169,7 @@ TEST(Suitability, AProgramThatDoesNotStopForToolsChangedByHandIsAnError) {
   plan.steps.back().cutter_id = "another";
   plan.machine.magazine_pockets = 1;
   EXPECT_THAT(codes(plan, {}), IsEmpty()) << "LinuxCNC's M6 waits";
-  for (const char* dialect : {"fanuc", "haas", "siemens"}) {
+  for (const char* dialect : {"fanuc", "haas", "siemens", "heidenhain"}) {
     plan.machine.control.dialect = dialect;
     plan.machine.control_options = {};
     EXPECT_THAT(codes(plan, {}), Contains("FIT-TOOL-CHANGE")) << dialect;

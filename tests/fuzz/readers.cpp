@@ -226,6 +226,7 @@ void program_of(const char* control, std::string bytes) {
 }
 void program_fanuc(std::string bytes) { program_of("fanuc", std::move(bytes)); }
 void program_siemens(std::string bytes) { program_of("siemens", std::move(bytes)); }
+void program_heidenhain(std::string bytes) { program_of("heidenhain", std::move(bytes)); }
 void program_table(std::string bytes) {
   (void)verify::check_program_text(
       {"input.ngc", "T1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z5\nM30\n", std::move(bytes)}, nullptr, generic(), {});
@@ -247,9 +248,7 @@ const std::vector<Reader>& readers() {
        {"tooling/data/machines/generic_vmc.yaml", "tooling/data/machines/tormach_1100mx.yaml",
         "examples/reference_pocket_machine.yaml"}},
       {"machine_ini", machine_ini, {}},
-      {"control_profile",
-       control_profile,
-       {"planner/controls/profile/data/grbl.yaml", "planner/controls/profile/data/heidenhain.yaml"}},
+      {"control_profile", control_profile, {"planner/controls/profile/data/grbl.yaml"}},
       {"materials", materials, {"tooling/data/materials.yaml"}},
       {"workholding",
        workholding,
@@ -294,6 +293,9 @@ const std::vector<Reader>& readers() {
       {"program_siemens",
        program_siemens,
        {"tests/controls/siemens/golden/pocket.mpf", "tests/controls/siemens/golden/holes_cycles.mpf"}},
+      {"program_heidenhain",
+       program_heidenhain,
+       {"tests/controls/heidenhain/golden/pocket.h", "tests/controls/heidenhain/golden/holes_cycles.h"}},
       {"program_table", program_table, {}},
   };
   return kAll;

@@ -30,6 +30,7 @@ const std::vector<Class>& classes() {
 
 std::vector<Class> classes_of(const std::string& dialect) {
   if (dialect == "linuxcnc") return classes();
+  if (dialect == "heidenhain") return classes_in_heidenhain();
   // What their programs have not: tool tables, G33.1, a tolerance of G64; what is theirs alone: an F that a
   // mode forgets, small letters.
   static const std::set<std::string> kOthers = {"wider path tolerance", "tap without step", "another pitch",

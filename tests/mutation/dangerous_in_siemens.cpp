@@ -125,6 +125,16 @@ std::vector<Class> dangerous_in_siemens() {
        [](const Emitted& e, Random& r) {
          return parameter_changed(e, r, is_tapping, 10, [&](double v) { return v * r.between(1.1, 4.0); });
        }},
+      {"tap brought out at another speed", Kind::kDangerous, false,
+       [](const Emitted& e, Random& r) {
+         return parameter_changed(e, r, is_tapping, 11, [&](double v) { return v * r.between(1.1, 4.0); });
+       }},
+      {"retract with frames left on", Kind::kDangerous, true,
+       [](const Emitted& e, Random& r) {
+         return changed(e, r, is_retract, [&](std::string l) {
+           return l.replace(l.find("SUPA"), 4, r.below(2) == 0 ? "G53" : "G153");
+         });
+       }},
       {"tap drawn away by a spindle that turns back", Kind::kDangerous, false,
        [](const Emitted& e, Random& r) {
          return parameter_changed(e, r, is_tapping, 6, [](double) { return 4.0; });

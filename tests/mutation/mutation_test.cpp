@@ -89,9 +89,25 @@ TEST(MutationSeed, EveryDangerousEditOfASiemensProgramIsFoundAndNoBenignOneBlame
   RecordProperty("edits", edits);
 }
 
+TEST(MutationSeed, EveryDangerousEditOfAHeidenhainProgramIsFoundAndNoBenignOneBlamed) {
+  Options o;
+  o.edits = soaks() ? 12 : 6;
+  o.first_seed = next_seed();
+  o.dialect = "heidenhain";
+  int edits = 0;
+  for (const Row& row : study(o)) {
+    edits += row.edits;
+    EXPECT_GT(row.edits, 0) << row.of.name << " edits none of the programs";
+    EXPECT_EQ(row.dangerous_missed, 0) << told(row);
+    EXPECT_EQ(row.different_missed, 0) << told(row);
+    EXPECT_EQ(row.benign_blamed, 0) << told(row);
+  }
+  RecordProperty("edits", edits);
+}
+
 std::vector<Emitted> all_emitted() {
   std::vector<Emitted> out = emitted_and_planned();
-  for (const char* dialect : {"fanuc", "haas", "siemens"}) {
+  for (const char* dialect : {"fanuc", "haas", "siemens", "heidenhain"}) {
     for (Emitted& e : emitted_for(dialect)) {
       e.name += std::string(", ") + dialect;
       out.push_back(std::move(e));

@@ -42,11 +42,12 @@ model::Plan with_a_short_arc(const char* control) {
     }
   });
   k.plan.machine = controls::with_control(k.plan.machine, control);
+  k.plan.setups[0].work_offset = controls::find_dialect(control)->work_offsets.front();
   return k.plan;
 }
 
 TEST(Rounding, AnArcShorterThanTheLastDecimalIsNoWholeTurn) {
-  for (const char* control : {"fanuc", "haas", "siemens"}) {
+  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain"}) {
     const model::Plan plan = with_a_short_arc(control);
     const auto findings =
         verify::check_program_text({"part", program_of(plan), ""}, &plan, plan.machine, plan.cutters);
@@ -77,11 +78,12 @@ model::Plan with_a_small_arc(const char* control) {
     }
   });
   k.plan.machine = controls::with_control(k.plan.machine, control);
+  k.plan.setups[0].work_offset = controls::find_dialect(control)->work_offsets.front();
   return k.plan;
 }
 
 TEST(Rounding, ASmallArcWhoseCentreIsRoundedEndsWhereItIsMeant) {
-  for (const char* control : {"fanuc", "haas", "siemens"}) {
+  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain"}) {
     const model::Plan plan = with_a_small_arc(control);
     const auto findings =
         verify::check_program_text({"part", program_of(plan), ""}, &plan, plan.machine, plan.cutters);

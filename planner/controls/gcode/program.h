@@ -26,7 +26,7 @@ class Program {
   void comment(std::string_view text);
   /// A comment of one line, however long: what the check reads. The caller keeps it short (marker_text).
   void marker(std::string_view text);
-  void blank() { text_ += '\n'; }
+  void blank();
 
   /// A cycle had a feed of its own: the next one is written.
   void forget_feed() { feed_.clear(); }
@@ -41,6 +41,10 @@ class Program {
   void cut(geometry::Vec3 to, double feed_mm_min);
   /// Stands in the block of the next move of Z, which is then written whole.
   void with_next_height(std::string words) { with_height_ = std::move(words); }
+  /// Stands in the block of the next move, whatever moves; `words` begin with a blank.
+  void with_next_move(std::string words) { with_move_ = std::move(words); }
+  /// In a block of their own what still waits for a move.
+  void write_waiting();
   /// Words are always written, changed or not.
   void rapid_xy(geometry::Vec3 to);
   void rapid_z(double z);
@@ -57,16 +61,26 @@ class Program {
   [[nodiscard]] std::string take() { return std::move(text_); }
 
  private:
+  [[nodiscard]] std::string coordinate(double v) const;
   [[nodiscard]] std::string changed(geometry::Vec3 to) const;
+  /// A line with its number, where each has one (BlockNumbers::kLines).
+  void numbered_line(std::string_view text);
+  /// `from`, decimals and feed are filled in.
+  void turn(ArcBlock arc, double feed_mm_min);
+  [[nodiscard]] std::string arc_text(const ArcBlock& arc) const;
   void arrive(geometry::Vec3 to);
+  /// What waits for the next move, once.
+  [[nodiscard]] std::string waiting();
   [[nodiscard]] std::string feed_word(double feed_mm_min);
 
   const model::Control& control_;
   const Words& words_;
   std::string text_;
   std::optional<double> x_, y_, z_;
-  std::string feed_, with_height_, step_number_;
+  std::string feed_, with_height_, with_move_, step_number_;
   long block_ = 0;
+  bool goes_on_ = false;     ///< the next line belongs to the block before it
+  bool restate_xy_ = false;  ///< the last block's end is rounded otherwise than a place is
 };
 
 }  // namespace capstan::controls::gcode

@@ -64,14 +64,19 @@ void write_setup(const model::Plan& plan, std::size_t n, std::optional<std::size
 
 std::string clamping_text(const model::Plan& plan, std::size_t n, std::size_t before, std::size_t longest) {
   const auto here = model::placed_in(plan, n);
-  const std::string at = zero(plan, n);
-  const std::string first = "set-up " + std::to_string(n + 1) + ": clamp the workpiece anew, " +
-                            model::turn_text(model::placed_in(plan, before), here) + ", its " +
-                            model::axis_text(here, {0, 0, 1}) + " up; set " + plan.setups[n].work_offset;
-  const std::string last = ", then continue";
-  const std::string where = at.empty() ? " as the program says" : ": " + at;
-  const bool fits = first.size() + where.size() + last.size() <= longest;
-  return first + (fits ? where : " as the program says") + last;
+  const std::string at = zero(plan, n), set_up = "set-up " + std::to_string(n + 1) + ": ";
+  const std::string lies = model::turn_text(model::placed_in(plan, before), here) + ", its " +
+                           model::axis_text(here, {0, 0, 1}) + " up; ";
+  const std::string set = "set " + plan.setups[n].work_offset, last = ", then continue";
+  const std::string anew = "clamp the workpiece anew", by_comments = " as the program says";
+  // The comments before it say the rest.
+  for (const std::string& text :
+       {set_up + anew + ", " + lies + set + (at.empty() ? by_comments : ": " + at) + last,
+        set_up + anew + ", " + lies + set + by_comments + last,
+        set_up + "clamp anew, " + lies + set + last}) {
+    if (text.size() <= longest) return text;
+  }
+  return set_up + anew + by_comments + "; " + set + last;
 }
 
 }  // namespace capstan::controls::gcode

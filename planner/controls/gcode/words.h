@@ -26,8 +26,19 @@ struct HoleCycle {
   int decimals = 0, feed_decimals = 0;      ///< of the control
 };
 
-/// The blocks that number themselves with N.
-enum class BlockNumbers : unsigned char { kNone, kSteps, kAll };
+/// The blocks that number themselves with N; kLines: each line from 0 by a number alone, comments too, but
+/// not those that go on with a block (the line before ends with ~), and no line is blank.
+enum class BlockNumbers : unsigned char { kNone, kSteps, kAll, kLines };
+
+/// An arc, or a helix of one block. Units  mm; places of the work offset, rounded as they are written.
+struct ArcBlock {
+  geometry::Vec3 from{}, to{};
+  double i = 0.0, j = 0.0;  ///< centre from the start
+  bool clockwise = false;
+  int further_turns = 0;  ///< of a helix: whole ones before the arc that ends at `to`
+  int decimals = 0, centre_decimals = 0;
+  std::string feed = {};  ///< as a word with a blank before it; empty: as before
+};
 
 /// What one control says in its own way; `write` (writer.h) says the rest as all RS-274 controls do. A member
 /// with a default says what NIST RS274/NGC 3.5 says; a control that agrees leaves it out.
@@ -48,14 +59,18 @@ struct Words {
   /// The text of a comment or marker as this control may read it; the same where it is empty.
   std::function<std::string(std::string_view)> comment = {};
   BlockNumbers block_numbers = BlockNumbers::kNone;
-  /// Changes the tool, by its number or its id; one or more lines.
-  std::function<std::string(const std::string& tool, const std::string& id)> change_tool =
-      [](const std::string& tool, const std::string& /*id*/) { return "T" + tool + " M6"; };
+  /// Changes the tool, by its number or its id; `speed`: that of its first move. One or more lines.
+  std::function<std::string(const std::string& tool, const std::string& id, const std::string& speed)>
+      change_tool = [](const std::string& tool, const std::string& /*id*/, const std::string& /*speed*/) {
+        return "T" + tool + " M6";
+      };
   /// Makes the tool of the next change ready, right after a change; nothing where it is empty.
   std::function<std::string(const std::string& next, const std::string& id)> stage_tool = {};
   /// Behind the last step of each tool, when it is away and all is off; nothing where it is empty.
   std::string tool_end = {};
-  /// Applies the length offset of the tool in the spindle.
+  /// Names the work offset of a set-up; its name alone where it is empty.
+  std::function<std::string(const std::string& name)> work_offset = {};
+  /// Applies the length offset of the tool in the spindle; no line where it says nothing.
   std::function<std::string(const std::string& tool)> length_offset = [](const std::string& tool) {
     return "G43 H" + tool;
   };
@@ -63,14 +78,30 @@ struct Words {
   /// it would itself move Z.
   bool offset_moves_z = false;
   std::function<std::string(double value, int decimals)> number = {};
+  /// The number of an axis's word; as `number` where it is empty.
+  std::function<std::string(double value, int decimals)> coordinate = {};
+  /// Straight moves: what stands before the axes' words, and between them and the feed.
+  std::string_view rapid_begin = "G0", rapid_end = "", cut_begin = "G1", cut_end = "";
+  /// An arc in one or more lines; G2 and G3 with I and J where it is empty.
+  std::function<std::string(const ArcBlock& arc)> arc = {};
   /// A speed in 1/min, with `speed_decimals`; as `number` where it is empty.
   std::function<std::string(double rpm)> speed = {};
+  /// Starts the spindle; `called`: the change of the tool stated this speed. `S M3`, `S M4` where it is
+  /// empty.
+  std::function<std::string(const std::string& speed, bool clockwise, bool called)> spindle = {};
+  /// A new speed within a step of a spindle that turns on the same way; as a start where it is empty.
+  std::function<std::string(const std::string& speed)> new_speed = {};
+  /// Such a speed stands in the block of the next move (S without M): a block between two cuts would stop the
+  /// tool on the wall.
+  bool speed_in_move = false;
   /// The path mode for a tolerance in mm; exact stop where the text is empty. `finishes`: a finishing step.
   std::function<std::string(const std::string& tolerance, bool finishes)> path_mode = {};
   /// To that height in machine coordinates, by rapid.
   std::function<std::string(const std::string& z)> retract = {};
   /// A line that shows a text to the operator; the program stops with an M0 behind it.
   std::function<std::string(const std::string& text)> message = {};
+  /// Takes the message away when the program goes on; nothing where it is empty.
+  std::string message_end = {};
   std::function<std::string(const std::string& seconds)> dwell = {};
   /// Rigid tapping at `at`, where the tool is; it ends at `initial_z`. One or more lines.
   std::function<std::string(const HoleCycle& hole)> tap = {};

@@ -50,7 +50,7 @@ class Writer {
     write_header(plan_, condemned_, program_);
     write_setup(plan_, plan_.steps.front().setup, std::nullopt, program_);
     program_.blank();
-    program_.line(words_.first_state);
+    if (!words_.first_state.empty()) program_.line(words_.first_state);
     tolerance(0.0, true);
     retract();
     stop();
@@ -77,7 +77,8 @@ class Writer {
  private:
   // Characters of a message that leaves so many of the line free.
   [[nodiscard]] std::size_t room(std::size_t free) const {
-    return words_.longest_line - std::min(free, words_.longest_line);
+    const std::size_t of_line = words_.longest_line - std::min(free, words_.longest_line);
+    return words_.longest_message > 0 ? std::min(of_line, words_.longest_message) : of_line;
   }
 
   // What a message has no room for is in a comment before it.
@@ -87,6 +88,7 @@ class Writer {
     if (cut) program_.comment(text);
     program_.line(words_.message(cut ? shortened(text, most) : text));
     program_.line("M0");
+    if (!words_.message_end.empty()) program_.line(words_.message_end);
   }
 
   // `after` is written whole, `text` before it as far as there is room: the comments have it all.
@@ -181,22 +183,23 @@ class Writer {
     if (!why.empty()) stop_for(why, n);
     // Behind a step with the same tool a restart would not call it.
     if (new_tool) program_.number_step(n + 1);
-    program_.line(words_.step_state);
+    if (!words_.step_state.empty()) program_.line(words_.step_state);
     tolerance(step.contour_tolerance_mm, !roughs(step));
-    program_.line(setup.work_offset);
+    program_.line(words_.work_offset ? words_.work_offset(setup.work_offset) : setup.work_offset);
     const std::string t = std::to_string(cutter.pocket);
     if (new_tool && cutter.cutter_class == model::CutterClass::kBoringTool)
       program_.comment("T" + t + ": the boring tool is set to diameter " +
                        program_.number(cutter.cutting_diameter_mm) + " mm");
     if (new_tool) {
-      program_.line(words_.change_tool(t, cutter.id));
+      called_ = speed_text(speed(step, step.path->size() > 1 ? 1 : 0));
+      program_.line(words_.change_tool(t, cutter.id, called_));
       if (const Cutter* next = next_tool(n); next != nullptr && words_.stage_tool)
         program_.line(words_.stage_tool(std::to_string(next->pocket), next->id));
     }
     if (words_.offset_moves_z) {
       program_.with_next_height(" " + words_.length_offset(t));
-    } else {
-      program_.line(words_.length_offset(t));
+    } else if (const std::string offset = words_.length_offset(t); !offset.empty()) {
+      program_.line(offset);
     }
     tool_ = cutter.pocket;
     setup_ = step.setup;
@@ -208,6 +211,7 @@ class Writer {
     const Vec3 start = program_.round(step.path->point(0));
     const auto before = program_.at();
     program_.forget();
+    program_.with_next_move({});  // the last step's
     if (!from_top) {
       double top = std::max(start.z, program_.round({0.0, 0.0, setup.security_z_mm}).z);
       if (before) top = std::max(top, before->z);
@@ -248,10 +252,16 @@ class Writer {
     return step.schedule ? step.schedule->spindle_rpm[move] : step.spindle_rpm;
   }
 
+  [[nodiscard]] std::string speed_text(double rpm) const {
+    const double turns_at = std::abs(rounded(rpm, words_.speed_decimals));
+    return words_.speed ? words_.speed(turns_at) : words_.number(turns_at, words_.speed_decimals);
+  }
+
   // `always`: stated even when it is so already. A start and a reversal wait for the spindle.
   void spindle(double rpm, bool always) {
     const double wanted = rounded(rpm, words_.speed_decimals);
     if (wanted == speed_ && !always) return;
+    program_.with_next_move({});
     if (wanted == 0.0) {
       program_.line("M5");
       speed_ = 0.0;
@@ -259,10 +269,20 @@ class Writer {
     }
     const bool turns = speed_ != 0.0 && (speed_ > 0.0) == (wanted > 0.0);
     if (!turns && speed_ != 0.0) program_.line("M5");
-    const double turns_at = std::abs(wanted);
-    program_.line("S" +
-                  (words_.speed ? words_.speed(turns_at) : words_.number(turns_at, words_.speed_decimals)) +
-                  (wanted > 0.0 ? " M3" : " M4"));
+    const std::string text = speed_text(wanted);
+    if (turns && !always && words_.speed_in_move) {
+      program_.with_next_move(" S" + text);
+      speed_ = wanted;
+      return;
+    }
+    if (turns && !always && words_.new_speed) {
+      program_.line(words_.new_speed(text));
+      speed_ = wanted;
+      return;
+    }
+    program_.line(words_.spindle ? words_.spindle(text, wanted > 0.0, text == called_)
+                                 : "S" + text + (wanted > 0.0 ? " M3" : " M4"));
+    called_.clear();
     if (!turns) dwell(plan_.machine.spindle.spin_up_s);
     speed_ = wanted;
   }
@@ -328,8 +348,9 @@ class Writer {
   }
 
   void dwell(double seconds) {
-    if (rounded(seconds, words_.dwell_decimals) > 0.0)
-      program_.line(words_.dwell(words_.number(seconds, words_.dwell_decimals)));
+    if (rounded(seconds, words_.dwell_decimals) <= 0.0) return;
+    program_.write_waiting();
+    program_.line(words_.dwell(words_.number(seconds, words_.dwell_decimals)));
   }
 
   Status arc(const CutterPath& path, std::size_t i, double feed) {
@@ -353,6 +374,7 @@ class Writer {
     if (!hole) return std::nullopt;
     const auto text = words_.cycle(hole->cycle);
     if (!text) return std::nullopt;
+    program_.write_waiting();
     program_.moved(*text, *program_.at());
     program_.forget_feed();
     return hole->last_move;
@@ -387,6 +409,7 @@ class Writer {
     hole.rpm = speed_;
     hole.decimals = plan_.machine.control.decimals;
     hole.feed_decimals = plan_.machine.control.feed_decimals;
+    program_.write_waiting();
     program_.moved(words_.tap(hole), top);
     program_.forget_feed();
     return up;
@@ -400,6 +423,7 @@ class Writer {
   int tool_ = 0;
   std::size_t setup_ = 0;
   double speed_ = 0.0;
+  std::string called_;  // speed that the change of the tool stated, until the spindle starts
   bool flood_ = false, mist_ = false;
 };
 

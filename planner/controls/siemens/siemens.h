@@ -17,6 +17,10 @@ namespace capstan::controls::siemens {
 ///
 /// Tool     `T5 M6` or `T="name" M6`; its length by `D1` in the block of the first move of Z.
 ///
+/// Speed    `S M3` where the spindle starts; where the plan has another speed for a part of a path, S alone
+/// in
+///          the block of its first move, so that no block without a move stops the tool between two cuts.
+///
 /// Top      of Z by `G0 SUPA Z D0`: SUPA suppresses all frames of its block and keeps the tool's length,
 /// which
 ///          D0 takes away.
@@ -28,7 +32,7 @@ namespace capstan::controls::siemens {
 ///          first from the raw piece, and CYCLE83 counts it from RFP. Modes of the later lists of parameters
 ///          (_GMODE, _DMODE, _AMODE) are left out: 0, as the shorter lists.
 ///
-/// Stops    `MSG("...")` of 124 characters at most, then `M0`.
+/// Stops    `MSG("...")` of 124 characters at most, `M0`, and `MSG()`, which takes the text away.
 ///
 /// Not written yet: POCKET3, POCKET4, SLOT1, HOLES1, HOLES2, CYCLE61, 71, 72, CYCLE800.
 ///

@@ -92,7 +92,7 @@ gcode::Words words_of(const model::Machine& machine) {
   w.comment_end = "";
   w.first_state = w.step_state = "G17 G40 G90 G94 G710\nMCALL";
   w.block_numbers = gcode::block_numbers_of(machine);
-  w.change_tool = [tool](const std::string& number, const std::string& id) {
+  w.change_tool = [tool](const std::string& number, const std::string& id, const std::string& /*speed*/) {
     return tool(number, id) + " M6";
   };
   if (is("next_tool", "staged")) w.stage_tool = tool;
@@ -105,6 +105,8 @@ gcode::Words words_of(const model::Machine& machine) {
   };
   w.retract = [](const std::string& z) { return "G0 SUPA Z" + z + " D0"; };
   w.message = [](const std::string& text) { return "MSG(\"" + without_quotes(text) + "\")"; };
+  w.message_end = "MSG()";
+  w.speed_in_move = true;
   w.dwell = [](const std::string& seconds) { return "G4 F" + seconds; };
   w.tap = &tap_text;
   w.tap_stops_spindle = true;

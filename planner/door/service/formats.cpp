@@ -76,8 +76,6 @@ std::vector<Format> table() {
     out.push_back(
         {table_name, "tool table", {table_ending}, table_media, Holds::kToolTable, false, d, &tool_table});
   }
-  for (const controls::Unwritten& u : controls::unwritten())
-    out.push_back({u.id, u.name, {u.ending}, {}, Holds::kProgram});
   out.push_back({"report", "report", {".html"}, "text/html", Holds::kReport, false, nullptr, &report});
   out.push_back({"edits", "edits", {".yaml"}, "application/yaml", Holds::kEdits, false, nullptr, &edits});
   return out;

@@ -3,10 +3,12 @@
 #include <array>
 #include <string_view>
 
+#include "planner/ground/vocabulary/control_rows.h"
+
 namespace capstan::model {
 
 /// What controls of one kind do differently from machine to machine: a row per option. Which controls have
-/// it, and its value where a machine's file states none, is in `kControlDefaults`. Machine files state
+/// it, and its value where a machine's file states none, is in `kControlRows`. Machine files state
 /// options under `control`; writers and readers of programs ask `control_option`
 /// (planner/model/plan/resources/control_options.h).
 struct ControlOptionRow {
@@ -21,13 +23,15 @@ struct ControlOptionRow {
 
 /// Sources: FANUC Series 0i-MODEL B operator's manual B-63844EN/02 ("0i"), FANUC Series 30i user's manual
 /// (machining centre) B-63944EN-2/02 ("30i"), FANUC connection manual B-63833EN-1/02 ("0i connection"), Haas
-/// mill operator's manual 96-8000 ("Haas"), and for Siemens those of planner/controls/siemens/siemens.h.
+/// mill operator's manual 96-8000 ("Haas"), and for Siemens and Heidenhain those of
+/// planner/controls/siemens/siemens.h and planner/controls/heidenhain/heidenhain.h.
 inline constexpr std::array kControlOptions{
     ControlOptionRow{
         "cycles", "feature explicit", 0, 0, false,
         "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
-        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84); or explicit moves",
-        "30i 5.1; Haas, canned cycles; Siemens, drilling cycles"},
+        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84; Heidenhain: CYCL DEF 200, 201, 207); "
+        "or explicit moves",
+        "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling"},
     ControlOptionRow{
         "retract", "g53 g28", 0, 0, false,
         "to the top of Z in machine coordinates, or by way of the reference point, which is there",
@@ -96,27 +100,10 @@ inline constexpr std::array kControlOptions{
         "turns", "yes no", 0, 0, false,
         "a helix of more than one turn as one block with TURN=, or as arcs of at most half a turn",
         "Siemens, helical interpolation"},
-};
-
-/// A control and the options that it has, each with the value that holds where nothing is stated:
-/// "cycles=feature retract=g53". An empty value: not stated. A new control is a row.
-struct ControlDefaults {
-  std::string_view control, options;
-};
-inline constexpr std::array kControlDefaults{
-    ControlDefaults{"fanuc",
-                    "cycles=feature retract=g53 tap=m29 tap_feed=per_revolution dwell=milliseconds "
-                    "extended_offsets=0 ai_contour=no path_tolerance=assumed next_tool=staged arcs=half "
-                    "largest_radius_mm=99999.999 helices=yes block_numbers=steps program_number=1 "
-                    "prove_out=m1 comments=upper line_length=200 peck_clearance_mm= codes="},
-    ControlDefaults{"haas",
-                    "cycles=feature retract=g53 tap=g84 tap_feed=per_minute tap_retract=0 dwell=seconds "
-                    "extended_offsets=99 smoothness=yes next_tool=staged arcs=half "
-                    "largest_radius_mm=15404.000 helices=yes block_numbers=steps program_number=1 "
-                    "prove_out=m1 comments=mixed line_length=200 peck_clearance_mm= codes="},
-    ControlDefaults{"siemens",
-                    "cycles=feature next_tool=called block_numbers=steps prove_out=m1 line_length=200 "
-                    "tool_call=number smoothing=cycle832 turns=yes"},
+    ControlOptionRow{
+        "plane_reset", "no yes", 0, 0, false,
+        "PLANE RESET STAY and M129 at the program's head, for machines that tilt the working plane",
+        "Heidenhain, PLANE and M128; default, unsourced: an option of the control"},
 };
 
 /// The value of that option in such a list; "-": it is not in it.
@@ -134,10 +121,8 @@ inline constexpr std::array kControlDefaults{
 
 /// The option's value for that control where nothing is stated; "-": the control has no such option.
 [[nodiscard]] constexpr std::string_view default_of(const ControlOptionRow& row, std::string_view dialect) {
-  for (const ControlDefaults& d : kControlDefaults) {
-    if (d.control == dialect) return value_in(d.options, row.name);
-  }
-  return "-";
+  const ControlRow* control = find_control_row(dialect);
+  return control != nullptr ? value_in(control->options, row.name) : "-";
 }
 
 /// The row of that name which this control has; null: there is none.

@@ -94,7 +94,7 @@ class KnownFeeds {
 ///     v_i^2 <= v_(i+1)^2 + 2 a L_i
 ///
 /// so that each move can be braked within itself to the feed of the next, where the control needs that
-/// (PathFollowing::brakes_within_a_move), and it arrives at a heavy section slow enough. Last, neighbours
+/// (ControlRow::brakes_within_a_move), and it arrives at a heavy section slow enough. Last, neighbours
 /// within `group_ratio` share the lower feed, and no run of moves asks for more than its fastest move
 /// reaches.
 ///

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/ground/vocabulary/path_following.h"
+#include "planner/ground/vocabulary/control_rows.h"
 
 namespace capstan::motion {
 namespace {
@@ -109,7 +109,7 @@ Result<Limits> limits_of(const Machine& machine) {
   }
   out.tolerance_mm = machine.control.path_tolerance_mm;
   out.block_s = machine.control.block_time_s;
-  const model::PathFollowing& follows = model::path_following(machine.control.dialect);
+  const model::ControlRow& follows = model::control_row(machine.control.dialect);
   out.turning_share = follows.turning_share;
   out.along_share = follows.along_share;
   return out;

@@ -97,6 +97,10 @@ std::optional<DialectSign> of_block(const std::string& block) {
     if (number) return DialectSign{{kFanuc, kHaas}, block + ", a program number", 0};
     if (is_o_word(block)) return DialectSign{{kLinuxCnc}, block.substr(0, 20) + ", an O-word", 0};
   }
+  for (const DialectReader& reader : readers()) {
+    if (!reader.sign.empty() && block.find(reader.sign) != std::string::npos)
+      return DialectSign{{reader.dialect}, std::string(reader.sign_meaning), 0};
+  }
   if (block.find("#<") != std::string::npos) return DialectSign{{kLinuxCnc}, "#<...>, a named parameter", 0};
   for (const Word& w : words()) {
     if (find_word(block, w.word) == std::string::npos) continue;

@@ -4,18 +4,17 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/proof/verify/program/readers.h"
 
 namespace capstan::verify {
 
 std::string_view reader_default(std::string_view control, std::string_view name) {
-  for (const ReaderDefaults& d : kReaderDefaults) {
-    if (d.control != control) continue;
-    for (std::string_view rest = d.options; !rest.empty();) {
-      const std::string_view one = rest.substr(0, rest.find(' '));
-      const std::size_t equals = one.find('=');
-      if (one.substr(0, equals) == name) return one.substr(equals + 1);
-      rest.remove_prefix(one.size() == rest.size() ? rest.size() : one.size() + 1);
-    }
+  const DialectReader* reader = reader_of(control);
+  for (std::string_view rest = reader != nullptr ? reader->options : ""; !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find(' '));
+    const std::size_t equals = one.find('=');
+    if (one.substr(0, equals) == name) return one.substr(equals + 1);
+    rest.remove_prefix(one.size() == rest.size() ? rest.size() : one.size() + 1);
   }
   return "-";
 }

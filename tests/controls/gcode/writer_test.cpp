@@ -83,7 +83,9 @@ TEST(GcodeWriter, TakesCommentsStatesAndToolChangesFromAControlThatHasItsOwn) {
   words.comment_end = "";
   words.first_state = "G71 D0";
   words.step_state = "G71";
-  words.change_tool = [](const std::string& tool, const std::string& /*id*/) { return "T=" + tool + "\nM6"; };
+  words.change_tool = [](const std::string& tool, const std::string& /*id*/, const std::string& /*speed*/) {
+    return "T=" + tool + "\nM6";
+  };
   words.length_offset = [](const std::string& tool) { return "D" + tool; };
   Plan plan = testing::empty_plan();
   testing::add_step(plan, "a", "em18", cut());

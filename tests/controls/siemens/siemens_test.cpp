@@ -113,6 +113,36 @@ TEST(SiemensProgram, AToolIsCalledByItsIdOnlyWhereThatMayBeAName) {
   EXPECT_FALSE(is_tool_name(std::string(33, 'a')));
 }
 
+// A ramp has a lower speed than the cut behind it. Nothing stands between the two.
+TEST(SiemensProgram, ANewSpeedWithinAPathStandsInTheBlockOfItsMove) {
+  Plan plan = pocket_plan("siemens");
+  model::FeedSchedule s = *plan.steps[0].schedule;
+  s.spindle_rpm[3] = s.spindle_rpm[4] = 2000.0;  // the helix
+  plan.steps[0].schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+  const std::string text = program_of(plan);
+  EXPECT_THAT(text, HasSubstr("\nG2 X6 Y0 Z-1 I3 J0 S2000\nG2 X0 Y0 Z-2.5 I-3 J0\nG1 Y-5.5 S3000\n"));
+  EXPECT_THAT(text, Not(HasSubstr("S2000 M3")));
+}
+
+// 124 characters are shown; what has no room stands in the comments before it.
+TEST(SiemensProgram, TheMessageOfAClampingIsWholeAndTakenAwayBehindItsStop) {
+  Plan plan = pocket_plan("siemens");
+  plan.setups.push_back(plan.setups[0]);
+  plan.setups[1].work_offset = "G55";
+  auto second = plan.steps[0];
+  second.setup = 1;
+  plan.steps.push_back(second);
+  const std::string text = program_of(plan);
+  const std::size_t at = text.find("MSG(\"set-up 2: clamp ");
+  ASSERT_NE(at, std::string::npos);
+  const std::string line = text.substr(at, text.find('\n', at) - at);
+  EXPECT_LE(line.size(), 124 + std::string("MSG(\"\")").size());
+  EXPECT_THAT(line, HasSubstr("set G55"));
+  EXPECT_THAT(line, HasSubstr("then continue\")"));
+  EXPECT_THAT(line, Not(HasSubstr("...")));
+  EXPECT_THAT(text, HasSubstr(line + "\nM0\nMSG()\n"));
+}
+
 TEST(SiemensProgram, AnOptionThatTheControlDoesNotHaveIsRefused) {
   Plan plan = pocket_plan("siemens");
   choose(plan, "dwell", "seconds");

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "planner/ground/vocabulary/path_following.h"
+#include "planner/ground/vocabulary/control_rows.h"
 #include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/verify.h"
 #include "tooling/shop/machine/machine.h"
@@ -16,8 +16,8 @@ namespace capstan::service {
 namespace {
 
 TEST(Controls, EachHasAWriterAReaderAndAWayToFollowPaths) {
-  ASSERT_EQ(controls::dialects().size(), model::kPathFollowing.size());
-  for (const model::PathFollowing& follows : model::kPathFollowing) {
+  ASSERT_EQ(controls::dialects().size(), model::kControlRows.size());
+  for (const model::ControlRow& follows : model::kControlRows) {
     EXPECT_GT(follows.turning_share, 0.0);
     EXPECT_GT(follows.along_share, 0.0);
     const controls::Dialect* control = controls::find_dialect(follows.dialect);

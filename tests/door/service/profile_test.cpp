@@ -43,7 +43,7 @@ TEST(CheckProfile, AnUnknownControlIsWrongUsage) {
 // The figure of the machine's file is LinuxCNC's; no word of a program of Fanuc states it, one of Haas's
 // does.
 TEST(PlanForAControl, ThatCannotStateItsToleranceIsWarnedOfOnce) {
-  for (const char* control : {"fanuc", "haas", "siemens"}) {
+  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain"}) {
     Request request;
     EXPECT_TRUE(set(request, "control", control));
     Job job;

@@ -37,6 +37,11 @@ TEST(DialectSign, OWordsNamedParametersAndAToleranceAreLinuxCncs) {
   EXPECT_EQ(told("G64 P0.01\n"), "linuxcnc 1");
 }
 
+TEST(DialectSign, TheHeadOfAConversationalProgramIsHeidenhains) {
+  EXPECT_EQ(told("0 BEGIN PGM PART MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n"), "heidenhain 1");
+  EXPECT_EQ(told("BEGIN PGM 123 MM\n"), "heidenhain 1");
+}
+
 TEST(DialectSign, WhatEachReadsSaysNothing) {
   EXPECT_EQ(told(""), "any");
   EXPECT_EQ(told("%\nG21 G17 G90\nG64\nG54\nT1 M6\nG1 X1. F100.\nM30\n%\n"), "any");

@@ -70,8 +70,8 @@ TEST(ControlOptions, EachHasASourceAMeaningAndALineInTheReadme) {
     EXPECT_FALSE(row.meaning.empty()) << row.name;
     EXPECT_NE(readme.find("| `" + std::string(row.name) + "` |"), std::string::npos) << row.name;
     bool has_it = false;
-    for (const auto& [dialect, options] : model::kControlDefaults) {
-      const std::string_view value = model::default_of(row, dialect);
+    for (const model::ControlRow& control : model::kControlRows) {
+      const std::string_view dialect = control.dialect, value = model::default_of(row, dialect);
       has_it = has_it || value != "-";
       if (value == "-" || value.empty()) continue;
       EXPECT_EQ(model::control_option_fault(dialect, {std::string(row.name), std::string(value)}), "")
@@ -82,7 +82,8 @@ TEST(ControlOptions, EachHasASourceAMeaningAndALineInTheReadme) {
 }
 
 TEST(ControlOptions, OfEachControlAreRowsOfTheTable) {
-  for (const auto& [dialect, options] : model::kControlDefaults) {
+  for (const model::ControlRow& control : model::kControlRows) {
+    const std::string_view dialect = control.dialect, options = control.options;
     std::size_t found = 0;
     for (const model::ControlOptionRow& row : model::kControlOptions)
       found += model::default_of(row, dialect) != "-";

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "planner/ground/base/number.h"
-#include "planner/ground/vocabulary/path_following.h"
+#include "planner/ground/vocabulary/control_rows.h"
 
 namespace capstan::optimise::feed {
 namespace {
@@ -141,7 +141,7 @@ Followed followed(const FeedQuestion& q, const CutterPath& path, std::vector<dou
   }
   group(path, q.group_ratio, f.feed_mm_min);
   const auto settle = [&] {
-    if (reach && model::path_following(machine.control.dialect).brakes_within_a_move) brake(path, *reach, f);
+    if (reach && model::control_row(machine.control.dialect).brakes_within_a_move) brake(path, *reach, f);
     for (std::size_t i = 1; i < path.size(); ++i) {
       if (at_feed(path, i)) f.feed_mm_min[i] = down(f.feed_mm_min[i]);
     }

@@ -1,12 +1,25 @@
 #include "planner/proof/verify/program/block_state.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/proof/verify/findings.h"
 
 namespace capstan::verify {
 
 using model::MoveKind;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kMostHalfTurns = 500000;  ///< of a program, as of cycles' moves; default, unsourced
+/// Of a half turn. Both ends of a helix and its centre are rounded, so that half turns leave a rest of some
+/// micrometres, which no control makes a move of. Default, unsourced: well above what rounding leaves on
+/// a radius of 1 mm, and well below what a program means by a part of a turn.
+constexpr double kLeastOfHalfTurn = 0.01;
+
+}  // namespace
 
 void BlockState::fault(int property, std::string code, std::string message, bool undecided) {
   if (out_.faults.size() < kFaultCap)
@@ -156,6 +169,35 @@ void BlockState::arc(const BlockSaid& s, bool clockwise) {
   b.radius_start = norm(xy(b.from) - b.centre);
   b.radius_end = norm(xy(b.to) - b.centre);
   put(b);
+}
+
+void BlockState::half_turns(const Block& whole, double total) {
+  const double way = whole.move == MoveKind::kArcCw ? -1.0 : 1.0;
+  const geometry::Vec2 spoke = xy(whole.from) - whole.centre;
+  const double halves = std::min(total / kPi, 1.0 * kMostHalfTurns);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(halves - kLeastOfHalfTurn)));
+  turned_ += pieces;
+  if (turned_ >= kMostHalfTurns) {
+    put(whole);
+    return fault(33, "CHK-TOO-LARGE",
+                 "the program's helices come to more than " + std::to_string(kMostHalfTurns / 2) +
+                     " turns, and this one was not followed",
+                 true);
+  }
+  Block b = whole;
+  b.from_turns = true;
+  for (int k = 1; k <= pieces; ++k) {
+    const double turned = kPi * k, c = std::cos(way * turned), t = std::sin(way * turned);
+    const geometry::Vec2 at =
+        whole.centre + geometry::Vec2{c * spoke.x - t * spoke.y, t * spoke.x + c * spoke.y};
+    b.to = k == pieces
+               ? whole.to
+               : geometry::Vec3{at.x, at.y, whole.from.z + (whole.to.z - whole.from.z) * turned / total};
+    b.radius_start = norm(xy(b.from) - b.centre);
+    b.radius_end = norm(xy(b.to) - b.centre);
+    put(b);
+    b.from = b.to;
+  }
 }
 
 void BlockState::to(geometry::Vec3 p, MoveKind kind, bool synchronised) {

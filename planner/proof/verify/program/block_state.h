@@ -33,6 +33,9 @@ class BlockState {
   void straight(const BlockSaid& s, int mode, bool machine_coordinates);
   /// By R, or by I and J; both ways of giving an arc mean the same to all these controls.
   void arc(const BlockSaid& s, bool clockwise);
+  /// A helix of one block: `whole` turns by `total`, rad, about its centre, up or down in step. It becomes
+  /// half turns; what is left at the end as less than kLeastOfHalfTurn belongs to the last one.
+  void half_turns(const Block& whole, double total);
   void put(Block b);
   /// A move of a canned cycle.
   void to(geometry::Vec3 p, model::MoveKind kind, bool synchronised = false);
@@ -58,6 +61,7 @@ class BlockState {
   double started_s_ = 0.0;
   bool moved_since_ = false;
   std::size_t cycle_blocks_ = 0;
+  int turned_ = 0;  ///< half turns of helices
   bool mist_ = false, flood_ = false, left_ = false;
   double tolerance_ = kNoTolerance, naive_ = kNoTolerance;
   bool exact_stop_ = false;

@@ -1,9 +1,8 @@
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include "planner/proof/verify/program/program.h"
+#include "planner/proof/verify/program/readers.h"
 
 // What a program's comments say of itself, and the names of work offsets.
 
@@ -46,10 +45,7 @@ std::optional<double> number(const std::string& text) {
   return v;
 }
 
-/// Numbered offsets beyond G59: FANUC's and Haas's.
-constexpr std::array<std::pair<int, std::string_view>, 2> kExtended = {
-    {{541000, "G54.1P"}, {1540000, "G154P"}}};
-constexpr int kMostExtended = 1000;
+constexpr int kMostNumbered = 1000;  ///< offsets of one name
 
 /// Whether a comment begins with these words, one or two blanks before them allowed.
 bool begins(const std::string& text, const char* words) {
@@ -60,10 +56,13 @@ bool begins(const std::string& text, const char* words) {
 }  // namespace
 
 int offset_code(std::string_view name) {
-  for (const auto& [code, prefix] : kExtended) {
-    if (!name.starts_with(prefix)) continue;
+  for (const DialectReader& reader : readers()) {
+    const std::string_view prefix = reader.numbered_name;
+    if (prefix.empty() || !name.starts_with(prefix)) continue;
     const auto n = number(std::string(name.substr(prefix.size())));
-    return n && *n >= 1.0 && *n < kMostExtended && *n == std::floor(*n) ? code + static_cast<int>(*n) : 0;
+    return n && *n >= 1.0 && *n < kMostNumbered && *n == std::floor(*n)
+               ? reader.numbered_code + static_cast<int>(*n)
+               : 0;
   }
   static constexpr std::string_view kDigits = "0123456789";
   if (name.size() == 4 && name.starts_with("G5")) {  // Siemens: G505 to G599
@@ -81,9 +80,10 @@ int offset_code(std::string_view name) {
 
 std::string offset_name(int code) {
   if (code == 0) return "no work offset";
-  for (const auto& [first, prefix] : kExtended) {
-    if (code > first && code < first + kMostExtended)
-      return std::string(prefix) + std::to_string(code - first);
+  for (const DialectReader& reader : readers()) {
+    const int first = reader.numbered_code;
+    if (first > 0 && code > first && code < first + kMostNumbered)
+      return std::string(reader.numbered_name) + std::to_string(code - first);
   }
   return "G" + std::to_string(code / 10) + (code % 10 != 0 ? "." + std::to_string(code % 10) : "");
 }

@@ -25,11 +25,14 @@ void check_tolerance(const ProgramCase& c, const model::StepResult& step,
     const auto agrees = [&](double v) { return std::abs(v - wanted) <= 0.51 * unit; };
     if (agrees(p) && agrees(q) && !b->exact_stop) continue;
     std::string stated = p >= kNoTolerance ? "no path tolerance" : "a path tolerance of " + mm(p);
-    if (p <= 0.0) stated = b->exact_stop ? "exact stops (G61.1)" : "the exact path (G61)";
+    if (p <= 0.0)
+      stated = b->exact_stop ? "exact stops (G61.1)"
+                             : "the exact path (" + std::string(c.reader.words.exact) + ")";
     if (agrees(p) && !agrees(q)) stated = "points left out that lie within " + mm(q) + " (G64 Q)";
-    findings.error(33, "CHK-TEXT-TOLERANCE", {at.order, at.step, b->line},
-                   "the text moves with " + stated + "; the step has " +
-                       (wanted > 0.0 ? mm(wanted) : std::string("the exact path (G61)")));
+    findings.error(
+        33, "CHK-TEXT-TOLERANCE", {at.order, at.step, b->line},
+        "the text moves with " + stated + "; the step has " +
+            (wanted > 0.0 ? mm(wanted) : "the exact path (" + std::string(c.reader.words.exact) + ")"));
     return;
   }
 }

@@ -16,17 +16,20 @@ constexpr double kSlackMm = 1e-6;
 /// Follows radius compensation (G41, G42) through the blocks.
 class Compensation {
  public:
-  Compensation(const ProgramCase& c, Findings& out) : c_(c), out_(out) {}
+  Compensation(const ProgramCase& c, Findings& out) : c_(c), words_(c.reader.words), out_(out) {}
 
   void run() {
     for (const Block& b : c_.program.blocks) {
       const bool on = b.radius_offset >= 0;
       if (b.kind == Block::Kind::kToolChange && on)
         out_.error(25, "CHK-COMP-CHANGE", c_.where(b),
-                   "M6 changes the tool while cutter compensation is active; cancel it before (G40)");
+                   std::string(words_.change) +
+                       " changes the tool while cutter compensation is active; cancel it before (" +
+                       std::string(words_.no_radius) + ")");
       if (b.kind == Block::Kind::kEnd && on)
         out_.error(25, "CHK-COMP-END", c_.where(b),
-                   "the program ends with cutter compensation active; cancel it before (G40)");
+                   "the program ends with cutter compensation active; cancel it before (" +
+                       std::string(words_.no_radius) + ")");
       if (b.kind != Block::Kind::kMove) continue;
       // A move of the height alone neither leads in nor out.
       const bool flat = b.words[0] || b.words[1] || b.move != MoveKind::kLine;
@@ -89,6 +92,7 @@ class Compensation {
   }
 
   const ProgramCase& c_;
+  const ControlWords& words_;
   Findings& out_;
   bool was_on_ = false;
 };
@@ -131,7 +135,9 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
                      std::string("the program cuts with ") +
                          (b.flood && !s.flood ? "flood coolant (M8)" : "mist (M7)") +
                          " on, the step is planned without; state M9" +
-                         (s.flood ? ", then M8" : s.mist ? ", then M7" : ""));
+                         (s.flood  ? ", then M8"
+                          : s.mist ? ", then M7"
+                                   : ""));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/control_options.h"
 
 // A path of the plan beside the text's blocks, one after the other. The reader of this room has made moves of
 // the text; nothing of what writes programs is used, so that a fault there is a departure here.
@@ -454,8 +455,12 @@ bool Following::numbers_agree(std::size_t i, const Block& b) {
   // A control may have stopped the spindle when the tap was out.
   tapped_ = tapped_ || b.synchronised;
   const bool drawn_away = tapped_ && !feeds && b.spindle_rpm == 0.0;
-  if (!back && !drawn_away && std::abs(b.spindle_rpm - speed) > speed_slack_)
-    return say(b.line, "the spindle turns at " + plain(b.spindle_rpm) + " rpm; the plan says " + plain(speed),
+  // A machine may be set to bring taps out faster, by a whole factor.
+  const double factor = back ? std::max(1.0, model::control_number(c_.machine, "tap_retract", 1.0)) : 1.0;
+  const double turns = back ? std::abs(b.spindle_rpm) : b.spindle_rpm;
+  const double wanted_rpm = back ? factor * std::abs(speed) : speed;
+  if (!drawn_away && std::abs(turns - wanted_rpm) > factor * speed_slack_)
+    return say(b.line, "the spindle turns at " + plain(turns) + " rpm; the plan says " + plain(wanted_rpm),
                move);
   if (!step_.through && (b.flood != step_.flood || b.mist != step_.mist) && !feeds)
     return say(b.line, "the coolant is not the plan's", move, 29, "CHK-TEXT-STATE");

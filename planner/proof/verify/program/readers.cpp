@@ -3,6 +3,7 @@
 #include <array>
 
 #include "planner/proof/verify/program/fanuc/reader.h"
+#include "planner/proof/verify/program/heidenhain/reader.h"
 #include "planner/proof/verify/program/linuxcnc/reader.h"
 #include "planner/proof/verify/program/siemens/reader.h"
 
@@ -16,14 +17,55 @@ Program read_linuxcnc(std::string_view text, const model::Machine& /*machine*/) 
 
 // A new control is a folder beside linuxcnc/ and a row.
 constexpr std::array kReaders{
-    DialectReader{"linuxcnc", "LinuxCNC", linuxcnc::kWorkOffsets, &read_linuxcnc, &linuxcnc::read_tool_table},
-    DialectReader{"fanuc", "Fanuc", fanuc::kFanucOffsets, &fanuc::read_program, nullptr, 0, false},
-    DialectReader{"haas", "Haas", fanuc::kHaasOffsets, &fanuc::read_program, nullptr, 0, true},
-    DialectReader{"siemens", "Siemens 840D sl", siemens::kOffsets, &siemens::read_program, nullptr, 0, true,
-                  "G0 SUPA Z", " D0", "D1"},
+    DialectReader{.dialect = "linuxcnc",
+                  .name = "LinuxCNC",
+                  .work_offsets = linuxcnc::kWorkOffsets,
+                  .program = &read_linuxcnc,
+                  .tool_table = &linuxcnc::read_tool_table},
+    DialectReader{.dialect = "fanuc",
+                  .name = "Fanuc",
+                  .work_offsets = fanuc::kFanucOffsets,
+                  .program = &fanuc::read_program,
+                  .tool_table = nullptr,
+                  .speed_decimals = 0,
+                  .states_tolerance = false,
+                  .options = fanuc::kFanucOptions,
+                  .numbered_code = 541000,
+                  .numbered_name = "G54.1P"},
+    DialectReader{.dialect = "haas",
+                  .name = "Haas",
+                  .work_offsets = fanuc::kHaasOffsets,
+                  .program = &fanuc::read_program,
+                  .tool_table = nullptr,
+                  .speed_decimals = 0,
+                  .options = fanuc::kHaasOptions,
+                  .numbered_code = 1540000,
+                  .numbered_name = "G154P"},
+    DialectReader{.dialect = "siemens",
+                  .name = "Siemens 840D sl",
+                  .work_offsets = siemens::kOffsets,
+                  .program = &siemens::read_program,
+                  .tool_table = nullptr,
+                  .speed_decimals = 0,
+                  .words = siemens::kWords,
+                  .options = "prove_out=m1 line_length=200"},
+    DialectReader{.dialect = "heidenhain",
+                  .name = "Heidenhain TNC 640",
+                  .work_offsets = heidenhain::kOffsets,
+                  .program = &heidenhain::read_program,
+                  .tool_table = nullptr,
+                  .speed_decimals = 0,
+                  .words = heidenhain::kWords,
+                  .options = "prove_out=m1 line_length=200",
+                  .numbered_code = 2470000,
+                  .numbered_name = "PRESET",
+                  .sign = "BEGINPGM",
+                  .sign_meaning = "BEGIN PGM, the head of a program in conversational language"},
 };
 
 }  // namespace
+
+std::span<const DialectReader> readers() { return kReaders; }
 
 const DialectReader* reader_of(std::string_view dialect) {
   for (const DialectReader& reader : kReaders) {

@@ -9,6 +9,16 @@
 
 namespace capstan::verify {
 
+/// What a control says for things that messages of the check name; as RS-274 has them where a reader's row
+/// does not say otherwise.
+struct ControlWords {
+  std::string_view to_top = "G53 G0 Z", to_top_end = "";  ///< to the top of Z, which stands between
+  std::string_view in_machine = "G53", length = "G43", change = "M6";
+  std::string_view unit = "unit (G20/G21)", plane = "plane (G17)", distance = "distance mode (G90/G91)",
+                   feed_mode = "feed mode (G93/G94/G95)", no_radius = "G40", no_cycle = "G80", exact = "G61",
+                   start = "M3 or M4", speed = "S", feed = "F";
+};
+
 /// Who reads the programs of a control back for the check: written from the control's manual, without the
 /// writer's code. What it says of the control is a copy on purpose; tests/door/service/controls_test.cpp
 /// holds it against the writer's.
@@ -21,9 +31,18 @@ struct DialectReader {
   ToolTable (*tool_table)(std::string_view text);  ///< null for a control that reads no tool table
   int speed_decimals = 1;                          ///< of S, 1/min
   bool states_tolerance = true;                    ///< its programs say how far corners are rounded
-  /// As it says them, for messages: to the top of Z, which follows, and the length of a tool.
-  std::string_view to_top = "G53 G0 Z", to_top_end = "", length = "G43";
+  ControlWords words = {};
+  /// Options that it asks for, each with its value where a machine's file states none: "prove_out=m1".
+  std::string_view options = {};
+  /// Work offsets that count on behind this name, as codes from this one: {541000, "G54.1P"}.
+  int numbered_code = 0;
+  std::string_view numbered_name = {};
+  /// What stands in each of its programs and in none of another control, without blanks; empty: unknown.
+  std::string_view sign = {}, sign_meaning = {};
 };
+
+/// All of them, in the order of the controls.
+[[nodiscard]] std::span<const DialectReader> readers();
 
 /// The reader for programs of that control; null when there is none.
 [[nodiscard]] const DialectReader* reader_of(std::string_view dialect);

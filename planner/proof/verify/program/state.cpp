@@ -69,29 +69,30 @@ constexpr unsigned kNeededAtStart = kStatedUnits | kStatedPlane | kStatedDistanc
                                     kStatedRadius | kStatedCycle | kStatedOffset | kStatedLength |
                                     kStatedSpindle | kStatedSpeed;
 
-std::string missing_text(unsigned missing) {
-  static constexpr std::pair<unsigned, const char*> kNames[] = {{kStatedUnits, "unit (G20/G21)"},
-                                                                {kStatedPlane, "plane (G17)"},
-                                                                {kStatedDistance, "distance mode (G90/G91)"},
-                                                                {kStatedFeedMode, "feed mode (G93/G94/G95)"},
-                                                                {kStatedRadius, "G40"},
-                                                                {kStatedCycle, "G80"},
-                                                                {kStatedOffset, "work offset"},
-                                                                {kStatedLength, "length offset (G43)"},
-                                                                {kStatedSpindle, "M3 or M4"},
-                                                                {kStatedSpeed, "S"},
-                                                                {kStatedFeed, "F"}};
+std::string missing_text(unsigned missing, const ControlWords& words) {
+  const std::pair<unsigned, std::string> names[] = {
+      {kStatedUnits, std::string(words.unit)},
+      {kStatedPlane, std::string(words.plane)},
+      {kStatedDistance, std::string(words.distance)},
+      {kStatedFeedMode, std::string(words.feed_mode)},
+      {kStatedRadius, std::string(words.no_radius)},
+      {kStatedCycle, std::string(words.no_cycle)},
+      {kStatedOffset, "work offset"},
+      {kStatedLength, "length offset (" + std::string(words.length) + ")"},
+      {kStatedSpindle, std::string(words.start)},
+      {kStatedSpeed, std::string(words.speed)},
+      {kStatedFeed, std::string(words.feed)}};
   std::string out;
-  for (const auto& [bit, name] : kNames) {
+  for (const auto& [bit, name] : names) {
     if ((missing & bit) == 0U) continue;
-    out += (out.empty() ? "" : ", ") + std::string(name);
+    out += (out.empty() ? "" : ", ") + name;
   }
   return out;
 }
 
 class StateChecks {
  public:
-  StateChecks(const ProgramCase& c, Findings& findings) : c_(c), out_(findings) {
+  StateChecks(const ProgramCase& c, Findings& findings) : c_(c), words_(c.reader.words), out_(findings) {
     if (c.plan != nullptr && !c.plan->setups.empty()) {
       security_ = 1e300;
       for (const auto& s : c.plan->setups) security_ = std::min(security_, s.security_z_mm);
@@ -114,21 +115,24 @@ class StateChecks {
 
  private:
   [[nodiscard]] std::string retract() const {
-    return std::string(c_.reader.to_top) + plain(top_of(c_.machine)) + std::string(c_.reader.to_top_end);
+    return std::string(words_.to_top) + plain(top_of(c_.machine)) + std::string(words_.to_top_end);
   }
 
   void tool_change(const Block& b) {
     if (b.spindle_rpm != 0.0)
       out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
-                 "M6 while the spindle turns at " + plain(b.spindle_rpm) + " rpm");
+                 std::string(words_.change) + " while the spindle turns at " + plain(b.spindle_rpm) + " rpm");
     // The next tool may be longer: only the top of the machine clears whatever it is.
     if (!at_top(b, c_.machine) && (c_.plan != nullptr || !b.unmoved))
       out_.error(7, "CHK-TOOL-CHANGE", c_.where(b),
-                 (b.known_to[2] ? "M6 at z = " + plain(b.to.z) : std::string("M6 at an unknown height")) +
+                 std::string(words_.change) +
+                     (b.known_to[2] ? " at z = " + plain(b.to.z) : std::string(" at an unknown height")) +
                      ", not retracted: " + retract() + " comes before it");
     if (b.cycle_active)
       out_.error(26, "CHK-CYCLE", c_.where(b),
-                 "M6 changes the tool while a cycle is active; cancel it before (G80)");
+                 std::string(words_.change) +
+                     " changes the tool while a cycle is active; cancel it before (" +
+                     std::string(words_.no_cycle) + ")");
     if (b.tool > 0 && c_.cutters.empty() && !c_.has_table && c_.plan == nullptr) {
       if (said_.insert({105, 0}).second)
         out_.error(
@@ -167,7 +171,7 @@ class StateChecks {
     if (b.length_offset < 0 && low && (named_z || feeds) && said_.insert({8, b.marker}).second)
       out_.error(8, "CHK-LENGTH-OFFSET", c_.where(b),
                  "the tool goes to Z" + plain(b.to.z) + " without a length offset; state " +
-                     std::string(c_.reader.length) + " before");
+                     std::string(words_.length) + " before");
     const bool cutting = feeds && !b.in_machine;
     if (cutting && !b.known_from[2] && !b.words[2] && said_.insert({27, b.line}).second)
       out_.error(27, "CHK-POSITION", c_.where(b),
@@ -195,11 +199,12 @@ class StateChecks {
     }
     if (across && (b.words[2] || !was_at_top_))
       out_.error(9, "CHK-MACHINE-MOVE", c_.where(b),
-                 "a move across in machine coordinates (G53) below the top of Z, " +
-                     plain(top_of(c_.machine)) + ", may hit the piece; go to the top first");
+                 "a move across in machine coordinates (" + std::string(words_.in_machine) +
+                     ") below the top of Z, " + plain(top_of(c_.machine)) +
+                     ", may hit the piece; go to the top first");
     if (!b.words[2] || b.to.z >= top_of(c_.machine) - 1e-6) return;
-    const std::string text = "G53 moves Z to " + plain(b.to.z) + " in machine coordinates, below the top, " +
-                             plain(top_of(c_.machine));
+    const std::string text = std::string(words_.in_machine) + " moves Z to " + plain(b.to.z) +
+                             " in machine coordinates, below the top, " + plain(top_of(c_.machine));
     // Own programs go to the top and nowhere else; others may have another height in mind.
     if (!c_.program.markers.empty() || (machine_z_ && b.to.z < *machine_z_ - 1e-6)) {
       out_.error(10, "CHK-MACHINE-MOVE", c_.where(b), text + ", may hit the piece; go to the top");
@@ -264,8 +269,9 @@ class StateChecks {
     if (!b.synchronised) needed |= kStatedFeed;
     const unsigned missing = needed & ~b.stated;
     if (missing != 0U) {
-      out_.error(27, "CHK-RESTART", c_.where(b),
-                 "not stated between the step's start and its first feed move: " + missing_text(missing));
+      out_.error(
+          27, "CHK-RESTART", c_.where(b),
+          "not stated between the step's start and its first feed move: " + missing_text(missing, words_));
     }
   }
 
@@ -280,12 +286,16 @@ class StateChecks {
     if (!high)
       out_.error(32, "CHK-END-LOW", at, "the program ends at z = " + plain(b.to.z) + ", not retracted");
     if (b.cycle_active)
-      out_.error(26, "CHK-CYCLE", at, "a cycle is still active at the end; cancel it (G80)");
+      out_.error(26, "CHK-CYCLE", at,
+                 "a cycle is still active at the end; cancel it (" + std::string(words_.no_cycle) + ")");
     if (b.radius_offset >= 0)
-      out_.error(32, "CHK-END-RADIUS", at, "radius compensation is still active at the end; cancel it (G40)");
+      out_.error(32, "CHK-END-RADIUS", at,
+                 "radius compensation is still active at the end; cancel it (" +
+                     std::string(words_.no_radius) + ")");
   }
 
   const ProgramCase& c_;
+  const ControlWords& words_;
   Findings& out_;
   double security_ = 1e300;
   int checked_ = -2;

@@ -53,7 +53,8 @@ void check_header_lengths(const ProgramCase& c, Findings& findings) {
     if (reading.against_reference && (*h.length_mm != 0.0 || reading.zeros < 2)) continue;
     findings.error(6, "CHK-TOOL-OFFSET", {1, "", h.line},
                    "the program's header gives T" + std::to_string(h.tool) + " a length of " +
-                       mm(*h.length_mm) + ": it is not measured; G43 H" + std::to_string(h.tool) +
+                       mm(*h.length_mm) + ": it is not measured; " + std::string(c.reader.words.length) +
+                       " with T" + std::to_string(h.tool) +
                        " would take that for a length: measure the tool, and check with the tool table");
   }
 }

@@ -28,6 +28,14 @@ namespace capstan::verify::fanuc {
 /// and two hexadecimal digits, names in small letters. Any other comment comes back as it is.
 [[nodiscard]] std::string plain_comment(std::string_view text);
 
+/// What is taken where the machine's file says nothing.
+inline constexpr std::string_view kFanucOptions =
+    "tap=m29 dwell=milliseconds extended_offsets=0 arcs=half largest_radius_mm=99999.999 helices=yes "
+    "prove_out=m1 line_length=200 peck_clearance_mm= codes=";
+inline constexpr std::string_view kHaasOptions =
+    "tap=g84 dwell=seconds extended_offsets=99 arcs=half largest_radius_mm=15404.000 helices=yes "
+    "prove_out=m1 line_length=200 peck_clearance_mm= codes=";
+
 /// The names of work offsets, a copy on purpose: tests/door/service/controls_test.cpp holds it against the
 /// writer's.
 inline constexpr std::array<std::string_view, 54> kFanucOffsets = {

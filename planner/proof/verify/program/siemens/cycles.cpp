@@ -93,14 +93,12 @@ double coarse_pitch(double size) {
 
 /// Numbers; of CYCLE832 also the words _OFF, _FINISH, _SEMIFIN and _ROUGH.
 std::optional<CycleCall> Interpreter::parameters(const Item& call) {
-  static constexpr std::array<std::pair<std::string_view, double>, 4> kWords = {
+  static constexpr std::array<std::pair<std::string_view, double>, 4> kTypes = {
       {{"_OFF", 0.0}, {"_FINISH", 1.0}, {"_SEMIFIN", 2.0}, {"_ROUGH", 3.0}}};
   constexpr std::string_view kCycle = "CYCLE";
   CycleCall out;
-  const auto number =
-      call.name.starts_with(kCycle) ? parse_double(call.name.substr(kCycle.size())) : std::nullopt;
-  for (const int known : {81, 82, 83, 84, 85, 86, 89, 832}) {
-    if (number && *number == known) out.number = known;
+  for (const int known : {81, 82, 83, 84, 85, 86, 89, 832}) {  // by name: CYCLE081 is another subprogram
+    if (call.name == std::string(kCycle) + std::to_string(known)) out.number = known;
   }
   if (out.number == 0) {
     fault(33, "CHK-UNVERIFIABLE", call.name + "() is not followed", true);
@@ -111,7 +109,7 @@ std::optional<CycleCall> Interpreter::parameters(const Item& call) {
     const std::string& p = call.params[i];
     std::optional<double> value;
     if (!p.empty()) value = parse_double(p.front() == '+' ? p.substr(1) : p);
-    for (const auto& [word, means] : kWords) {
+    for (const auto& [word, means] : kTypes) {
       if (out.number == 832 && i == 1 && p == word) value = means;
     }
     if (!p.empty() && (!value || !std::isfinite(*value))) {
@@ -165,7 +163,11 @@ void Interpreter::tolerance_cycle(const CycleCall& c) {
                  "the type of machining " + plain(type) + " of CYCLE832 is not followed; state 0 to 3", true);
   if (type != 0.0 && !(tolerance > 0.0))
     fault(33, "CHK-CYCLE", "CYCLE832 has the tolerance " + mm(tolerance) + "; it must be above zero");
-  tolerance_ = naive_ = type == 0.0 ? kNoTolerance : tolerance;
+  // The cycle states CTOL itself, or takes it off: what stood before it is gone, and G642 behind it rounds by
+  // it.
+  contour_tolerance_ = type == 0.0 ? kNoTolerance : tolerance;
+  by_contour_tolerance_ = type != 0.0;
+  tolerance_ = naive_ = contour_tolerance_;
 }
 
 std::optional<Interpreter::Planes> Interpreter::planes(const CycleCall& c) {

@@ -123,41 +123,14 @@ bool Interpreter::gather(const Line& l, BlockWords& s) {
   return true;
 }
 
-/// Half turns from the start, the last one perhaps shorter; up or down as it turns.
-void Interpreter::turn(Block whole, int further) {
-  constexpr double kPi = std::numbers::pi;
+/// Whole turns and the arc.
+void Interpreter::turn(const Block& whole, int further) {
   Move m;
   m.kind = whole.move;
   m.from = whole.from;
   m.to = whole.to;
   m.centre = whole.centre;
-  const double total = sweep_of(m) + 2.0 * kPi * further;
-  const double way = whole.move == model::MoveKind::kArcCw ? -1.0 : 1.0;
-  const geometry::Vec2 spoke = xy(whole.from) - whole.centre;
-  const auto pieces = static_cast<int>(std::ceil(total / kPi - 1e-9));
-  constexpr int kMostPieces = 500000;  // of a program, as of cycles' moves; default, unsourced
-  turned_ += pieces;
-  if (turned_ > kMostPieces) {
-    put(whole);
-    return fault(33, "CHK-TOO-LARGE",
-                 "the program's TURN= come to more than " + std::to_string(kMostPieces / 2) +
-                     " turns, and this one was not followed",
-                 true);
-  }
-  Block b = whole;
-  b.from_turns = true;
-  for (int k = 1; k <= pieces; ++k) {
-    const double turned = std::min(total, kPi * k), c = std::cos(way * turned), t = std::sin(way * turned);
-    const geometry::Vec2 at =
-        whole.centre + geometry::Vec2{c * spoke.x - t * spoke.y, t * spoke.x + c * spoke.y};
-    b.to = k == pieces
-               ? whole.to
-               : geometry::Vec3{at.x, at.y, whole.from.z + (whole.to.z - whole.from.z) * turned / total};
-    b.radius_start = norm(xy(b.from) - b.centre);
-    b.radius_end = norm(xy(b.to) - b.centre);
-    put(b);
-    b.from = b.to;
-  }
+  half_turns(whole, sweep_of(m) + 2.0 * std::numbers::pi * further);
 }
 
 void Interpreter::arc_block(const BlockWords& s) {
@@ -167,13 +140,13 @@ void Interpreter::arc_block(const BlockWords& s) {
   if (s.turns < 0.0 || s.turns > 999.0 || *s.turns != std::floor(*s.turns))
     return fault(23, "CHK-ARC", "TURN=" + plain(*s.turns) + " is no number of turns from 0 to 999");
   if (*s.turns == 0.0) return;
-  Block whole = out_.blocks.back();
+  const Block whole = out_.blocks.back();
   out_.blocks.pop_back();
-  turn(std::move(whole), static_cast<int>(*s.turns));
+  turn(whole, static_cast<int>(*s.turns));
 }
 
-/// SUPA and G53 suppress frames, not the tool: with its length on Z says where the tip goes, wherever that
-/// is.
+/// SUPA suppresses all frames and shifts, not the tool: with its length on Z says where the tip goes,
+/// wherever that is. G53 leaves the base frames on, G153 shifts by the handwheel and from outside.
 void Interpreter::to_machine_place(const BlockWords& s) {
   if (modal_)
     fault(26, "CHK-CYCLE",
@@ -182,6 +155,15 @@ void Interpreter::to_machine_place(const BlockWords& s) {
     return fault(33, "CHK-WORD", "a move in machine coordinates behind an arc; state G0 with it");
   if (!absolute_) return fault(33, "CHK-WORD", "SUPA in incremental mode (G91) is not followed; state G90");
   straight(s, motion_, true);
+  if (!s.supa) {
+    fault(10, "CHK-MACHINE-MOVE",
+          std::string(s.code(153) ? "G153 leaves shifts by handwheel and external offsets on"
+                                  : "G53 leaves base frames and shifts by handwheel on") +
+              ", so where the axes go is not known; state SUPA");
+    machine_z_.reset();
+    out_.blocks.back().machine_z.reset();
+    return;
+  }
   if (!s.is('Z') || length_off_) return;
   fault(10, "CHK-MACHINE-MOVE",
         (length_ < 0 ? "whether a tool's length is on is machine data here, so that Z"

@@ -68,7 +68,7 @@ class Interpreter : private BlockState {
   void motion(const BlockWords& s);
   void to_machine_place(const BlockWords& s);
   void arc_block(const BlockWords& s);
-  void turn(Block whole, int further);
+  void turn(const Block& whole, int further);
   void wait(const BlockWords& s);
   // Cycles: cycles.cpp.
   void call_block(const Item& call, bool modal);
@@ -89,11 +89,11 @@ class Interpreter : private BlockState {
   int motion_ = 1;  ///< of group 1: G1 after a reset
   double next_tool_ = -1.0;
   double contour_tolerance_ = kNoTolerance;  ///< CTOL=
+  bool by_contour_tolerance_ = false;        ///< CYCLE832 or G642 is on, which round by CTOL
   std::optional<CycleCall> modal_;
   bool any_ = false;
   bool length_off_ = false;      ///< D0 was stated since; a reset and M6 leave it to machine data
   bool feed_unit_known_ = true;  ///< G70 and G71 leave F in the unit of the control's basic system
-  int turned_ = 0;               ///< pieces that TURN= was taken to
 };
 
 }  // namespace capstan::verify::siemens

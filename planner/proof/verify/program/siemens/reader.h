@@ -5,6 +5,7 @@
 
 #include "planner/model/plan/resources/machine.h"
 #include "planner/proof/verify/program/program.h"
+#include "planner/proof/verify/program/readers.h"
 
 namespace capstan::verify::siemens {
 
@@ -17,7 +18,8 @@ namespace capstan::verify::siemens {
 /// becomes a fault, and reading goes on.
 ///
 /// The tool's length is that of D1, stated behind each change: whether M6 takes D1 by itself is machine data
-/// (MD20270). SUPA and G53 leave the length on; only with D0 does Z say where the axis goes.
+/// (MD20270). SUPA leaves the length on; only with D0 does Z say where the axis goes. G53 and G153 leave
+/// shifts on, which are not known: a move with them is a fault.
 ///
 /// A tool called by its name is that of the header's line with that id.
 ///
@@ -25,6 +27,16 @@ namespace capstan::verify::siemens {
 /// Source  as planner/controls/siemens/siemens.h has it; steps of CYCLE83 near the bottom, the limit on
 ///         coming back and lengths of MSG: default, unsourced.
 [[nodiscard]] Program read_program(std::string_view text, const model::Machine& machine);
+
+/// For messages.
+inline constexpr ControlWords kWords{.to_top = "G0 SUPA Z",
+                                     .to_top_end = " D0",
+                                     .in_machine = "SUPA",
+                                     .length = "D1",
+                                     .unit = "unit (G700/G710)",
+                                     .feed_mode = "feed mode (G94/G95)",
+                                     .no_cycle = "MCALL",
+                                     .exact = "G60"};
 
 /// The names of work offsets, a copy on purpose: tests/door/service/controls_test.cpp holds it against the
 /// writer's.

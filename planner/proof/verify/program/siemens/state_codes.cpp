@@ -31,6 +31,7 @@ void Interpreter::path_mode(int g, const BlockWords& s) {
   if (g == 60) tolerance = 0.0;
   if (g == 641 && s.adis) tolerance = std::max(*s.adis, s.adispos.value_or(0.0)) * units();
   if (g == 642) tolerance = contour_tolerance_;
+  by_contour_tolerance_ = g == 642;
   tolerance_ = naive_ = tolerance;
 }
 
@@ -146,10 +147,9 @@ void Interpreter::change_tool() {
 }
 
 void Interpreter::state_codes(const BlockWords& s) {
-  if (s.ctol) contour_tolerance_ = *s.ctol * units();
+  if (s.ctol) contour_tolerance_ = *s.ctol < 0.0 ? kNoTolerance : *s.ctol * units();  // below 0: machine data
   for (int i = 0; i < s.g_count; ++i) state_code(s.g[i], s);
-  if (s.ctol && tolerance_ < kNoTolerance && tolerance_ > 0.0 && !s.code(642))
-    fault(33, "CHK-WORD", "CTOL= without G642 in its block is not followed");
+  if (s.ctol && by_contour_tolerance_) tolerance_ = naive_ = contour_tolerance_;
   select_tool(s);
   if (s.is('F') && !s.code(4)) {
     if (!feed_unit_known_) {

@@ -164,6 +164,14 @@ TEST(SiemensArcs, AHelixWithTurnsIsThatManyWholeOnesAndTheRest) {
   EXPECT_TRUE(finds(read("G3 X1 Y2 Z11 I-4 J0 TURN=1.5 F100\n"), "CHK-ARC"));
 }
 
+// From (17.3, 50) half a turn and four about a centre that was rounded: 9.0001 half turns are nine.
+TEST(SiemensArcs, WhatRoundingLeavesOfAHelixIsNoMoveOfItsOwn) {
+  const auto p = read("G0 X17.3 Y50 Z18\nG3 X22.7 Y50 Z14 I2.7 J-0.00023 TURN=4 F100\n");
+  EXPECT_EQ(faults(p), "");
+  EXPECT_EQ(moves(p).size(), 1U + 9U);
+  EXPECT_EQ(moves(p).back(), "A 22.7 50 14");
+}
+
 TEST(SiemensArcs, ByRadiusAreTheShorterWayAndBelowZeroTheLonger) {
   const auto shorter = read("G3 X1 Y10 CR=4 F100\n"), longer = read("G3 X1 Y10 CR=-4 F100\n");
   ASSERT_EQ(faults(shorter) + faults(longer), "");
@@ -211,6 +219,39 @@ TEST(SiemensState, ToleranceIsWhatCornersMayBeRoundedBy) {
   EXPECT_EQ(of("G641 ADIS=0.03 ADISPOS=0.05\n"), 0.05);
   EXPECT_EQ(of("G64\n"), kNoTolerance);
   EXPECT_EQ(of("G641\n"), kNoTolerance);
+}
+
+// CYCLE832 states CTOL itself; CTOL behind it is the newer word, and G642 behind it rounds by what it stated.
+TEST(SiemensState, TheLastOfCycle832AndCtolIsTheTolerance) {
+  const auto of = [](const std::string& body) {
+    const auto p = read(body + "G0 X9\n");
+    EXPECT_EQ(faults(p), "") << body;
+    return p.blocks[p.blocks.size() - 2].tolerance_mm;
+  };
+  EXPECT_EQ(of("CYCLE832(0.02,3,1)\nCTOL=0.5\n"), 0.5);
+  EXPECT_EQ(of("CTOL=0.5\nCYCLE832(0.02,3,1)\n"), 0.02);
+  EXPECT_EQ(of("CTOL=0.5\nCYCLE832(0.02,3,1)\nG642\n"), 0.02);
+  EXPECT_EQ(of("CTOL=0.5\nCYCLE832(0,0,1)\nG642\n"), kNoTolerance);
+  EXPECT_EQ(of("G642 CTOL=0.03\nCTOL=0.04\n"), 0.04);
+  EXPECT_EQ(of("G60\nCTOL=0.04\n"), 0.0);  // nothing is rounded
+  EXPECT_EQ(of("G642 CTOL=0.03\nCTOL=-1\n"), kNoTolerance);
+}
+
+TEST(SiemensState, OnlySupaLeavesNoShiftOnInAMoveOfTheMachine) {
+  for (const char* body : {"G0 G53 Z0 D0\n", "G0 G153 Z0 D0\n"}) {
+    const auto p = read(body);
+    EXPECT_TRUE(finds(p, "CHK-MACHINE-MOVE")) << body;
+    EXPECT_FALSE(p.blocks[p.blocks.size() - 2].machine_z) << body;
+  }
+}
+
+TEST(SiemensText, ACycleHasOneName) {
+  for (const char* body : {"F100\nCYCLE081(15,1,1,-8)\n", "F100\nCYCLE81.0(15,1,1,-8)\n"})
+    EXPECT_FALSE(read(body).faults.empty()) << body;
+}
+
+TEST(SiemensText, AMessageIsTakenAwayByAnEmptyOne) {
+  EXPECT_EQ(faults(read("MSG(\"wait\")\nM0\nMSG()\n")), "");
 }
 
 TEST(SiemensText, BlocksAreReadAsTheControlReadsThem) {

@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/program/heidenhain/interpreter.h"
+
+// Cycles. Those with lines .0, .1 act where they stand; of those with Q parameters 247 does, and 200, 201 and
+// 207 run where they are called, along Z below the tool. All begin by rapid at the set-up clearance Q200
+// above the surface Q203, and end by rapid at the second one, Q204, where that is higher.
+
+namespace capstan::verify::heidenhain {
+
+using model::MoveKind;
+
+namespace {
+
+constexpr double kClose = 1e-9;
+
+enum Q : int {
+  kClearance = 200,
+  kDepth = 201,
+  kPlunge = 202,
+  kSurface = 203,
+  kSecond = 204,
+  kFeed = 206,
+  kFeedOut = 208,
+  kDwellTop = 210,
+  kDwellDepth = 211,
+  kPitch = 239,
+  kPreset = 339,
+  kDepthReference = 395,
+  kRetractFactor = 403
+};
+
+struct Known {
+  int cycle;
+  std::array<int, 9> needed;    ///< 0: none
+  std::array<int, 2> may_have;  ///< with one value that changes nothing
+};
+constexpr std::array<Known, 4> kKnown = {{
+    {200, {kClearance, kDepth, kFeed, kPlunge, kDwellTop, kSurface, kSecond, kDwellDepth}, {kDepthReference}},
+    {201, {kClearance, kDepth, kFeed, kDwellDepth, kFeedOut, kSurface, kSecond}, {}},
+    {207, {kClearance, kDepth, kPitch, kSurface, kSecond}, {kRetractFactor}},
+    {247, {kPreset}, {}},
+}};
+
+bool in(std::span<const int> all, int one) { return std::find(all.begin(), all.end(), one) != all.end(); }
+
+}  // namespace
+
+void Interpreter::cycle_definition(const std::vector<std::string>& w) {
+  if (w.size() < 3) return fault(26, "CHK-CYCLE", "CYCL DEF has no number");
+  if (w[2].find('.') != std::string::npos) return old_cycle(w[2], w);
+  const auto number = number_behind(w[2], "");
+  if (!number || *number != std::floor(*number) || *number < 0.0 || *number > 9999.0)
+    return fault(26, "CHK-CYCLE", "CYCL DEF " + w[2].substr(0, 20) + " is no cycle's number");
+  q_cycle(static_cast<int>(*number), w);
+}
+
+/// 9: waits where it stands. 32: the tolerance of paths; 32.1 without T leaves it to machine data.
+void Interpreter::old_cycle(const std::string& number, const std::vector<std::string>& w) {
+  if (number == "9.0") {
+    waits_for_dwell_ = true;
+    return;
+  }
+  if (number == "9.1") {
+    const double seconds = w.size() == 5 && w[3] == "DWELL" ? number_behind(w[4], "").value_or(-1.0) : -1.0;
+    if (!waits_for_dwell_ || seconds < 0.0)
+      fault(33, "CHK-WORD", "cycle 9.1 takes DWELL and seconds, behind 9.0");
+    waits_for_dwell_ = false;
+    if (seconds >= 0.0) dwell(seconds);
+    return;
+  }
+  if (number == "32.0") {
+    tolerance_part_ = 1;
+    tolerance_ = naive_ = kNoTolerance;
+    return;
+  }
+  if (number == "32.1" && tolerance_part_ == 1) {
+    tolerance_part_ = 2;
+    if (w.size() == 3) return;
+    const auto t = w.size() == 4 ? number_behind(w[3], "T") : std::nullopt;
+    if (!t || !(*t > 0.0))
+      return fault(33, "CHK-CYCLE", "cycle 32.1 takes T, a tolerance above zero, or nothing");
+    tolerance_ = naive_ = *t * units();
+    return;
+  }
+  if (number == "32.2" && tolerance_part_ == 2) {
+    tolerance_part_ = 0;
+    const bool known = w.size() > 3 && (w[3] == "HSC-MODE:0" || w[3] == "HSC-MODE:1") &&
+                       (w.size() == 4 || (w.size() == 5 && number_behind(w[4], "TA")));
+    if (!known)
+      fault(33, "CHK-UNVERIFIABLE", "cycle 32.2 is followed with HSC-MODE:0 or 1 and TA only", true);
+    return;
+  }
+  unfollowed("CYCL DEF " + number.substr(0, 20));
+}
+
+void Interpreter::q_cycle(int number, const std::vector<std::string>& w) {
+  cycle_.reset();
+  const auto* known =
+      std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& k) { return k.cycle == number; });
+  if (known == kKnown.end()) return unfollowed("CYCL DEF " + std::to_string(number));
+  CycleDefinition c;
+  c.number = number;
+  const std::string name = "cycle " + std::to_string(number) + ": ";
+  for (std::size_t i = 3; i < w.size(); ++i) {
+    const std::size_t equals = w[i].find('=');
+    if (w[i].front() != 'Q' || equals == std::string::npos) {
+      if (c.q.empty()) continue;  // its name
+      return fault(33, "CHK-SYNTAX", name + w[i].substr(0, 20) + " stands among its parameters");
+    }
+    const auto q = number_behind(w[i].substr(0, equals), "Q");
+    const auto value = number_behind(w[i].substr(equals + 1), "");
+    if (!q || !value) {
+      fault(33, "CHK-UNVERIFIABLE", name + w[i].substr(0, 20) + " is no number and not followed", true);
+      return;
+    }
+    const int parameter = static_cast<int>(*q);
+    if (*q != parameter || (!in(known->needed, parameter) && !in(known->may_have, parameter))) {
+      fault(33, "CHK-UNVERIFIABLE", name + w[i].substr(0, 20) + " is not followed", true);
+      return;
+    }
+    if (!c.q.emplace(parameter, *value).second)
+      fault(33, "CHK-WORD-TWICE", name + "Q" + std::to_string(parameter) + " stands twice");
+  }
+  for (const int q : known->needed) {
+    if (q != 0 && !c.has(q)) return fault(26, "CHK-CYCLE", name + "Q" + std::to_string(q) + " is missing");
+  }
+  if (number == 247) return preset(c);
+  if (!complete(c)) return;
+  cycle_ = std::move(c);
+}
+
+/// What would run otherwise than is followed.
+bool Interpreter::complete(const CycleDefinition& c) {
+  const auto unverifiable = [&](const std::string& why) {
+    fault(33, "CHK-UNVERIFIABLE", "cycle " + std::to_string(c.number) + ": " + why, true);
+    return false;
+  };
+  if (c.of(kDepthReference) != 0.0) return unverifiable("Q395 counts the depth otherwise; state 0");
+  if (c.has(kRetractFactor) && c.of(kRetractFactor) != 1.0)
+    return unverifiable("Q403 brings the tap out at another speed; state 1");
+  if (c.number == 200 && c.of(kPlunge) < -c.of(kDepth) - kClose)
+    return unverifiable("Q202 is less than the depth: how it pecks depends on the control's version");
+  return true;
+}
+
+/// Activates a row of the preset table; shifts, mirrors, turns and scales of the work end with it.
+void Interpreter::preset(const CycleDefinition& c) {
+  const double row = c.of(kPreset);
+  if (row < 1.0 || row > static_cast<double>(kOffsets.size()) || row != std::floor(row))
+    return fault(3, "CHK-WORK-OFFSET",
+                 "cycle 247: Q339 is " + plain(row) + "; rows from 1 to " + std::to_string(kOffsets.size()) +
+                     " of the preset table are followed");
+  const int code = offset_code(kOffsets[static_cast<std::size_t>(row) - 1]);
+  if (offset_ != code && offset_ != 0) known_[0] = known_[1] = known_[2] = false;
+  offset_ = code;
+  stated_ |= kStatedOffset;
+}
+
+std::optional<Interpreter::Heights> Interpreter::heights(const CycleDefinition& c) {
+  const auto wrong = [&](const std::string& why) {
+    fault(26, "CHK-CYCLE", "cycle " + std::to_string(c.number) + ": " + why);
+    return std::nullopt;
+  };
+  const double u = units(), surface = c.of(kSurface) * u;
+  if (c.of(kClearance) < 0.0 || c.of(kSecond) < 0.0)
+    return wrong("Q200 and Q204 are distances; one of them is below zero");
+  if (!(c.of(kDepth) < 0.0)) return wrong("the depth Q201 is " + plain(c.of(kDepth)) + "; it is below zero");
+  Heights h;
+  h.start = surface + c.of(kClearance) * u;
+  h.bottom = surface + c.of(kDepth) * u;
+  h.back = surface + std::max(c.of(kClearance), c.of(kSecond)) * u;
+  return h;
+}
+
+void Interpreter::call_cycle() {
+  if (!cycle_) return fault(26, "CHK-CYCLE", "a cycle is called and none is defined that is followed");
+  const CycleDefinition c = *cycle_;
+  const auto h = heights(c);
+  if (!h) return;
+  if (!known_[0] || !known_[1] || !known_[2])
+    return fault(26, "CHK-CYCLE", "a cycle begins where the position is not known");
+  if (at_.z < h->start - kClose)
+    fault(26, "CHK-CYCLE",
+          "Q203 + Q200, " + mm(h->start) + ", is above the height from which the cycle is called, " +
+              mm(at_.z));
+  const double feed = feed_;
+  to_height(h->start, MoveKind::kRapid);
+  if (c.number == 200) drill(c, *h);
+  if (c.number == 201) ream(c, *h);
+  if (c.number == 207) tap(c, *h);
+  to_height(h->back, MoveKind::kRapid);
+  feed_ = feed;
+}
+
+void Interpreter::drill(const CycleDefinition& c, const Heights& h) {
+  if (!(c.of(kFeed) > 0.0)) fault(18, "CHK-FEED", "cycle 200 has no feed (Q206)");
+  feed_ = c.of(kFeed) * units();
+  stated_ |= kStatedFeed;
+  to_height(h.bottom, MoveKind::kLine);
+  if (c.of(kDwellDepth) > 0.0) dwell(c.of(kDwellDepth));
+}
+
+/// Down at Q206, up at Q208, or as down where that is 0.
+void Interpreter::ream(const CycleDefinition& c, const Heights& h) {
+  if (!(c.of(kFeed) > 0.0) || c.of(kFeedOut) < 0.0)
+    fault(18, "CHK-FEED", "cycle 201 has no feed (Q206, Q208)");
+  feed_ = c.of(kFeed) * units();
+  stated_ |= kStatedFeed;
+  to_height(h.bottom, MoveKind::kLine);
+  if (c.of(kDwellDepth) > 0.0) dwell(c.of(kDwellDepth));
+  if (c.of(kFeedOut) > 0.0) feed_ = c.of(kFeedOut) * units();
+  to_height(h.start, MoveKind::kLine);
+}
+
+/// Spindle and feed in step, down and back to the clearance; the spindle stands then.
+void Interpreter::tap(const CycleDefinition& c, const Heights& h) {
+  const double pitch = c.of(kPitch) * units();
+  if (pitch == 0.0) fault(22, "CHK-TAP-FEED", "cycle 207 has no pitch (Q239)");
+  if (!(speed_ > 0.0)) fault(15, "CHK-SPINDLE", "cycle 207 has no speed (S of TOOL CALL)");
+  const double way = pitch < 0.0 ? -1.0 : 1.0;
+  Block b = block();
+  b.from_cycle = b.synchronised = true;
+  b.move = MoveKind::kLine;
+  b.pitch_mm = std::abs(pitch);
+  b.feed_mm_min = b.pitch_mm * speed_;
+  b.spindle_rpm = way * speed_;
+  b.to.z = h.bottom;
+  for (int i = 0; i < 3; ++i) b.words[i] = b.known_to[i] = true;
+  put(b);
+  std::swap(b.from, b.to);
+  b.spindle_rpm = -b.spindle_rpm;
+  put(b);
+  spindle_ = 0;
+}
+
+}  // namespace capstan::verify::heidenhain

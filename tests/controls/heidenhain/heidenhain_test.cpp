@@ -1,0 +1,161 @@
+#include "planner/controls/heidenhain/heidenhain.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/controls/controls.h"
+#include "tests/controls/control_plans.h"
+#include "tests/support/corpus.h"
+
+namespace capstan::controls::heidenhain {
+namespace {
+
+using model::CutterPath;
+using model::MoveRole;
+using model::Plan;
+using plans::choose;
+using plans::holes_plan;
+using plans::plan_for;
+using plans::pocket_plan;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+
+Result<std::string> written(const Plan& plan) {
+  Job job;
+  return write_program(plan, job);
+}
+std::string program_of(const Plan& plan) {
+  const auto text = written(plan);
+  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
+  return text.value_or("");
+}
+/// Without the numbers of blocks.
+std::string bare(const Plan& plan) {
+  std::string out;
+  const std::string text = program_of(plan);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    std::string line = text.substr(at, end - at + 1);
+    if (line.front() != ' ') line.erase(0, line.find(' ') + 1);
+    out += line;
+    at = end + 1;
+  }
+  return out;
+}
+std::string golden(const char* name) {
+  return capstan::testing::slurp(capstan::testing::source_dir() + "/tests/controls/heidenhain/golden/" +
+                                 name);
+}
+
+/// Down a helix of 5 mm radius in half turns, so many, a millimetre each, and a quarter of one.
+Plan helix_plan(int half_turns) {
+  Plan plan = plan_for("heidenhain");
+  CutterPath p;
+  p.start({5, 0, 10});
+  p.rapid({5, 0, 1});
+  double z = 1.0;
+  for (int i = 0; i < half_turns; ++i)
+    p.arc({i % 2 == 0 ? -5.0 : 5.0, 0, z -= 1.0}, {0, 0}, false, MoveRole::kRamp);
+  const double side = half_turns % 2 == 0 ? 1.0 : -1.0;
+  p.arc({0, 5.0 * side, z - 0.5}, {0, 0}, false, MoveRole::kRamp);
+  p.line({3, 5.0 * side, z - 0.5}, MoveRole::kCut);
+  p.rapid({3, 5.0 * side, 10}, MoveRole::kRetract);
+  capstan::testing::add_step(plan, "bore", "em18", std::move(p), 3000);
+  return plan;
+}
+
+TEST(HeidenhainGolden, APocketIsWrittenAsReviewed) {
+  EXPECT_EQ(program_of(pocket_plan("heidenhain")), golden("pocket.h"));
+}
+
+TEST(HeidenhainGolden, HolesAreWrittenAsReviewedWithCyclesAndWithExplicitMoves) {
+  EXPECT_EQ(program_of(holes_plan("heidenhain")), golden("holes_cycles.h"));
+  Plan plan = holes_plan("heidenhain");
+  choose(plan, "cycles", "explicit");
+  EXPECT_EQ(program_of(plan), golden("holes_explicit.h"));
+}
+
+TEST(HeidenhainProgram, BlocksAreNumberedFromZeroWithoutAGapAndNoneIsBlank) {
+  for (const Plan& plan : {pocket_plan("heidenhain"), holes_plan("heidenhain")}) {
+    const std::string text = program_of(plan);
+    long next = 0;
+    bool goes_on = false;
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = text.find('\n', at);
+      const std::string line = text.substr(at, end - at);
+      at = end + 1;
+      if (goes_on) {
+        EXPECT_EQ(line.substr(0, 3), "  Q") << line;
+      } else {
+        EXPECT_EQ(line.substr(0, line.find(' ')), std::to_string(next++)) << line;
+      }
+      goes_on = line.ends_with('~');
+    }
+  }
+}
+
+TEST(HeidenhainProgram, EachOptionOfTheMachineChangesWhatItSays) {
+  const auto with = [](const char* name, const char* value) {
+    Plan plan = holes_plan("heidenhain");
+    choose(plan, name, value);
+    return bare(plan);
+  };
+  EXPECT_THAT(with("next_tool", "staged"), HasSubstr("\nTOOL CALL 3 Z S1200\nTOOL DEF 4\n"));
+  EXPECT_THAT(with("next_tool", "called"), Not(HasSubstr("TOOL DEF")));
+  EXPECT_THAT(with("prove_out", "none"), Not(HasSubstr("\nM1\n")));
+  EXPECT_THAT(with("plane_reset", "yes"), HasSubstr("\nPLANE RESET STAY\nM129\n"));
+  EXPECT_THAT(with("plane_reset", "no"), Not(HasSubstr("PLANE")));
+}
+
+// IPA turns as DR says; the place behind it is stated whole, for the angle is rounded otherwise.
+TEST(HeidenhainProgram, AHelixIsOneBlockOfItsWholeAngle) {
+  // Five half turns and a quarter: 990 degrees, from Z1 to Z-4.5.
+  EXPECT_THAT(bare(helix_plan(5)), HasSubstr("\nCC X+0 Y+0\nCP IPA+990 IZ-5.5 DR+ F600\nL X+3 Y-5 R0\n"));
+  // A turn and a half in two arcs of half a turn and one of a quarter.
+  EXPECT_THAT(bare(helix_plan(2)), HasSubstr("\nCP IPA+450 IZ-2.5 DR+ F600\n"));
+}
+
+TEST(HeidenhainProgram, AProgramIsNamedByThePartsFile) {
+  Plan plan = pocket_plan("heidenhain");
+  plan.file_name = "/parts/m\xc3\xbcller bracket-2.p21";
+  EXPECT_EQ(program_name(plan), "M__LLER_BRACKET-2");
+  plan.file_name = "a_name_that_no_control_would_take.stp";
+  EXPECT_EQ(program_name(plan), "A_NAME_THAT_NO_CONTR");
+  plan.file_name = "";
+  EXPECT_EQ(program_name(plan), "CAPSTAN");
+}
+
+TEST(HeidenhainProgram, WithoutATolerancePathsHaveNoWord) {
+  Plan plan = pocket_plan("heidenhain");
+  plan.machine.control.path_tolerance_mm = 0.0;
+  EXPECT_EQ(written(plan).error().code, "OUT-CONTROL");
+  EXPECT_THAT(written(plan).error().hint, HasSubstr("path_tolerance_mm"));
+}
+
+TEST(HeidenhainProgram, WorkOffsetsAreRowsOfThePresetTable) {
+  Plan plan = pocket_plan("heidenhain");
+  plan.setups[0].work_offset = "PRESET12";
+  EXPECT_THAT(bare(plan), HasSubstr("\nCYCL DEF 247 DATUM SETTING ~\n  Q339=+12 ;DATUM NUMBER\n"));
+  plan.setups[0].work_offset = "G54";
+  EXPECT_EQ(written(plan).error().code, "OUT-SETUP");
+}
+
+TEST(HeidenhainProgram, AnOptionThatTheControlDoesNotHaveIsRefused) {
+  Plan plan = pocket_plan("heidenhain");
+  choose(plan, "tool_call", "name");
+  EXPECT_EQ(written(plan).error().code, "OUT-OPTION");
+}
+
+TEST(HeidenhainProgram, ALeftHandTapHasItsPitchBelowZero) {
+  Plan plan = holes_plan("heidenhain");
+  auto& tap = plan.steps.back();
+  model::FeedSchedule s = *tap.schedule;
+  for (double& rpm : s.spindle_rpm) rpm = -rpm;
+  tap.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+  EXPECT_THAT(bare(plan), HasSubstr("  Q239=-1 ;THREAD PITCH ~\n"));
+  EXPECT_THAT(bare(plan), HasSubstr("\nM4\n"));
+}
+
+}  // namespace
+}  // namespace capstan::controls::heidenhain
