@@ -15,7 +15,7 @@ import sys
 FLOORS = {
     "ground": "base memo vocabulary geometry",
     "model": "nouns features plan",
-    "files": "p21 exchange recognise json",
+    "files": "p21 exchange recognise from_cad json",
     "physics": "mechanics motion stock engagement",
     "making": "draft sequence piece toolpath workholding optimise step probing propose given",
     "proof": "verify",
@@ -66,6 +66,8 @@ ALLOWED = {
     "brep": GROUND + " p21",
     "exchange": EXCHANGE_COMMON + " iso14649 ap238 brep",
     "recognise": GROUND + " brep",
+    # From faces to the nouns of a plan, held against the planner's own reading of them.
+    "from_cad": MODEL + " brep recognise",
     "json": MODEL + " motion",
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
     "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase",

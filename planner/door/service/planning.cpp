@@ -11,6 +11,7 @@
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/operator_edits.h"
@@ -96,7 +97,10 @@ Outcome<Planned> to_its_end(const std::string& file, Job& job, Body body) {
 Outcome<Planned> plan(const Request& request, Source part, Job& job) {
   const std::string name = part.name;
   return to_its_end(name, job, [&]() -> Outcome<Planned> {
-    auto read_part = read(std::move(part), request.strict, job);
+    auto bytes = part.bytes ? Result<std::string>(*std::move(part.bytes)) : read_file(name);
+    if (!bytes) return failed(bytes.error(), code_of(bytes.error(), Code::kUnreadable));
+    const from_cad::RawPiece raw{request.stock, request.stock_allowance_mm.value_or(0.0)};
+    auto read_part = service::read_part(*std::move(bytes), name, raw, job, request.strict);
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
     auto inputs = gather(request, *read_part, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));

@@ -6,6 +6,7 @@
 
 #include "planner/door/service/foreign/foreign_file.h"
 #include "planner/door/service/formats.h"
+#include "planner/files/exchange/brep/read_brep.h"
 #include "planner/files/exchange/cad/stl.h"
 #include "planner/files/exchange/common/standard.h"
 #include "planner/files/exchange/exchange.h"
@@ -74,6 +75,14 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& j
   exchange::ReadOptions options;
   options.strict = strict;
   return exchange::read_bytes(std::move(bytes), path, options, job);
+}
+
+Result<model::Plan> read_part(std::string bytes, const std::string& name, const from_cad::RawPiece& raw,
+                              Job& job, bool strict) {
+  if (!is_cad_model(bytes)) return read_plan(std::move(bytes), name, job, strict);
+  const auto shape = exchange::read_brep_bytes(std::move(bytes), name, {}, job);
+  if (!shape) return tl::unexpected(shape.error());
+  return from_cad::plan_of_part(*shape, name, raw, job);
 }
 
 Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict) {

@@ -1,0 +1,393 @@
+#include "planner/files/from_cad/areas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "planner/model/nouns/profile.h"
+
+namespace capstan::from_cad {
+namespace {
+
+using geometry::Loop;
+using geometry::Region;
+
+/// Of an area so much may differ by rounding, mm2.
+constexpr double kSpeckMm2 = 1e-2;
+/// How far beyond the raw piece an open side is taken as free, mm. Default, unsourced: more than any mill.
+constexpr double kBeyondMm = 60.0;
+
+Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
+Vec2 right_of(Vec2 d) { return {d.y, -d.x}; }
+
+Region shifted(const Region& r, Vec2 by) {
+  Region out = r;
+  for (Loop& loop : out.loops) {
+    for (Vec2& p : loop) p = p + by;
+  }
+  return out;
+}
+
+/// A room in the frame of its noun: at the middle of its area, at its top.
+struct Drawn {
+  geometry::Placement at;
+  double depth_mm = 0.0;
+  Region raw, area;
+  std::vector<RoundWall> walls;
+  std::vector<Piece> outer;
+  std::vector<std::vector<Piece>> islands;
+  double chord_mm = 0.0;
+};
+
+Drawn drawn(const Part& part, const Room& room) {
+  Drawn out;
+  const geometry::Box2 box = geometry::bounds(room.area);
+  const Vec2 middle = 0.5 * (box.lo + box.hi);
+  out.at = room.frame;
+  out.at.origin = room.frame.to_parent({middle.x, middle.y, room.top_mm});
+  out.depth_mm = room.top_mm - room.level_mm;
+  out.raw = shifted(room.raw, -1.0 * middle);
+  out.area = shifted(room.area, -1.0 * middle);
+  for (const RoundWall& w : part.round_walls(room.frame))
+    out.walls.push_back({w.centre - middle, w.radius_mm});
+  // The mesh keeps its chord; where two meshes of a circle cross, corners lie a little beside it.
+  out.chord_mm = 2.0 * part.brep().chord;
+  for (std::size_t i = 0; i < out.area.loops.size(); ++i) {
+    auto pieces = pieces_of(out.area.loops[i], out.raw, out.walls, out.chord_mm);
+    if (pieces.empty()) continue;
+    if (geometry::signed_area(out.area.loops[i]) > 0.0) {
+      out.outer = std::move(pieces);
+    } else {
+      for (Piece& p : pieces) p.open = false;
+      out.islands.push_back(std::move(pieces));
+    }
+  }
+  return out;
+}
+
+/// Runs of walls, and of open sides, round a boundary: alternately, beginning with walls.
+std::vector<std::vector<Piece>> runs(const std::vector<Piece>& outer) {
+  const std::size_t n = outer.size();
+  std::size_t first = 0;
+  while (first < n && !(outer[first].open == false && outer[(first + n - 1) % n].open)) ++first;
+  if (first == n) return {outer};
+  std::vector<std::vector<Piece>> out;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Piece& p = outer[(first + k) % n];
+    if (out.empty() || out.back().front().open != p.open) out.emplace_back();
+    out.back().push_back(p);
+  }
+  return out;
+}
+
+class Maker {
+ public:
+  Maker(const Room& room, const Drawn& d, model::Model& m, Ref<model::Workpiece> piece, std::string number)
+      : room_(room), d_(d), m_(m), nouns_(m), piece_(piece), number_(std::move(number)) {}
+
+  AnyRef make() {
+    const auto sides = runs(d_.outer);
+    const bool walls = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return !p.open; });
+    const bool open = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return p.open; });
+    if (!open) return closed_pocket();
+    if (!walls) return room_.through ? outside() : face(d_.outer, d_.islands);
+    if (sides.size() == 2) {
+      const auto& wall = sides[0];
+      if (wall.size() == 1 && !wall[0].arc() && room_.raw.loops.size() == 1) return step(wall[0]);
+      const bool bulges = wall.size() == 1 && wall[0].sweep_rad < 0.0;
+      if (!(bulges && room_.through)) return open_pocket(wall, sides[1]);
+      return outside();
+    }
+    if (sides.size() == 4 && d_.islands.empty()) {
+      if (const auto slot = straight_slot(sides)) return *slot;
+    }
+    return room_.through ? outside() : face_between();
+  }
+
+ private:
+  template <class T>
+  T feature(const std::string& name, const geometry::Placement& at) {
+    T f;
+    f.its_id = name + " " + number_;
+    f.its_workpiece = piece_;
+    f.its_operations.given = true;
+    f.feature_placement = nouns_.placement(at);
+    f.depth = nouns_.depth(d_.depth_mm);
+    return f;
+  }
+  template <class T>
+  T feature(const std::string& name) {
+    return feature<T>(name, d_.at);
+  }
+
+  /// As it is drawn, round corners too: a radius beside the profile is a pocket's to state.
+  Ref<model::ClosedProfile> profile(const std::vector<Piece>& pieces) {
+    const bool round = std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.arc(); });
+    double none = 0.0;
+    if (!round || pieces.size() == 1) return nouns_.closed_profile(pieces, none);
+    model::GeneralClosedProfile drawn;
+    drawn.closed_profile_shape = nouns_.curve(pieces, true);
+    return m_.add(drawn);
+  }
+
+  model::RefList<model::Boss> bosses(const std::vector<std::vector<Piece>>& islands) {
+    model::RefList<model::Boss> out;
+    out.given = true;
+    for (const auto& outline : islands) {
+      auto boss = feature<model::Boss>("BOSS");
+      boss.its_id = "BOSS " + number_ + "." + std::to_string(out.size() + 1);
+      std::vector<Piece> round = outline;
+      std::reverse(round.begin(), round.end());
+      for (Piece& p : round) {
+        std::swap(p.from, p.to);
+        p.sweep_rad = -p.sweep_rad;
+      }
+      boss.its_boundary = profile(round);
+      out.push_back(m_.add(boss));
+    }
+    return out;
+  }
+
+  Ref<model::PocketBottomCondition> bottom() {
+    if (room_.through) return m_.add(model::ThroughPocketBottomCondition{});
+    return m_.add(model::PlanarPocketBottomCondition{});
+  }
+
+  void radii(model::Pocket& f, double corner_mm) {
+    if (corner_mm > 0.0) f.orthogonal_radius = nouns_.length(corner_mm);
+    if (room_.blend_radius_mm > 0.0) f.planar_radius = nouns_.length(room_.blend_radius_mm);
+  }
+
+  AnyRef closed_pocket() {
+    auto f = feature<model::ClosedPocket>("POCKET");
+    double corner = 0.0;
+    f.feature_boundary = nouns_.closed_profile(d_.outer, corner);
+    f.its_boss = bosses(d_.islands);
+    f.bottom_condition = bottom();
+    radii(f, corner);
+    return m_.add(f);
+  }
+
+  AnyRef open_pocket(const std::vector<Piece>& wall, const std::vector<Piece>& mouth) {
+    auto f = feature<model::OpenPocket>("OPEN POCKET");
+    f.open_boundary = nouns_.open_profile(wall);
+    f.wall_boundary = nouns_.open_profile(mouth);
+    f.its_boss = bosses(d_.islands);
+    f.bottom_condition = bottom();
+    radii(f, 0.0);
+    return m_.add(f);
+  }
+
+  /// The area lies on the left of its boundary, a step on the right of its path.
+  AnyRef step(const Piece& wall) {
+    auto f = feature<model::Step>("STEP");
+    const Vec2 d = unit(wall.from - wall.to);
+    model::LinearPath path;
+    path.placement = nouns_.placement({.origin = {wall.to.x, wall.to.y, 0.0}});
+    path.distance = nouns_.length(norm(wall.to - wall.from));
+    path.its_direction = nouns_.direction({d.x, d.y, 0.0});
+    f.open_boundary = m_.add(path);
+    if (room_.blend_radius_mm > 0.0) {
+      model::VeeProfile vee;
+      vee.profile_angle = std::numbers::pi / 2.0;
+      vee.profile_radius = nouns_.length(room_.blend_radius_mm);
+      vee.tilt_angle = 0.0;
+      f.wall_boundary = m_.add(vee);
+    }
+    f.its_boss = bosses(d_.islands);
+    return m_.add(f);
+  }
+
+  /// Two straight walls, parallel, open at both ends.
+  std::optional<AnyRef> straight_slot(const std::vector<std::vector<Piece>>& sides) {
+    if (sides[0].size() != 1 || sides[2].size() != 1 || sides[0][0].arc() || sides[2][0].arc())
+      return std::nullopt;
+    const Vec2 d = unit(sides[0][0].to - sides[0][0].from);
+    const Vec2 back = unit(sides[2][0].to - sides[2][0].from);
+    if (std::abs(cross(d, back)) > recognise::kSameAngleRad || dot(d, back) > 0.0) return std::nullopt;
+    const Vec2 left{-d.y, d.x};
+    const double width = dot(sides[2][0].from - sides[0][0].from, left);
+    double lo = 1e300, hi = -1e300;
+    for (const Piece& p : d_.outer) {
+      lo = std::min(lo, dot(p.from, d));
+      hi = std::max(hi, dot(p.from, d));
+    }
+    const double middle = dot(sides[0][0].from, left) + 0.5 * width;
+    const Vec2 from = lo * d + middle * left;
+    auto f = feature<model::Slot>("SLOT");
+    model::LinearPath path;
+    path.placement = nouns_.placement({.origin = {from.x, from.y, 0.0}});
+    path.distance = nouns_.length(hi - lo);
+    path.its_direction = nouns_.direction({d.x, d.y, 0.0});
+    f.course_of_travel = m_.add(path);
+    model::SquareUProfile section;
+    section.width = nouns_.length(width);
+    section.first_radius = section.second_radius = nouns_.length(room_.blend_radius_mm);
+    section.first_angle = section.second_angle = std::numbers::pi / 2.0;
+    f.swept_shape = m_.add(section);
+    for (int i = 0; i < 2; ++i) f.end_conditions.push_back(m_.add(model::OpenSlotEndType{}));
+    return m_.add(f);
+  }
+
+  AnyRef face(const std::vector<Piece>& boundary, const std::vector<std::vector<Piece>>& islands) {
+    auto f = feature<model::PlanarFace>("FACE");
+    geometry::Box2 box;
+    for (const Piece& p : boundary) {
+      box.lo = {std::min(box.lo.x, p.from.x), std::min(box.lo.y, p.from.y)};
+      box.hi = {std::max(box.hi.x, p.from.x), std::max(box.hi.y, p.from.y)};
+    }
+    model::LinearPath path;
+    path.distance = nouns_.length(box.hi.y - box.lo.y);
+    path.its_direction = nouns_.direction({0.0, 1.0, 0.0});
+    f.course_of_travel = m_.add(path);
+    model::NumericParameter size;
+    size.parameter_name = "profile length";
+    size.its_parameter_value = box.hi.x - box.lo.x;
+    size.its_parameter_unit = "mm";
+    model::LinearProfile across;
+    across.profile_length = m_.add(size);
+    f.removal_boundary = m_.add(across);
+    f.face_boundary = profile(boundary);
+    f.its_boss = bosses(islands);
+    return m_.add(f);
+  }
+
+  /// Walls and open sides by turns: a face over the raw piece, around all that stands beside the area.
+  AnyRef face_between() {
+    Region free = d_.area;
+    const std::size_t n = d_.outer.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Piece& p = d_.outer[i];
+      if (!p.open) continue;
+      const Vec2 out = kBeyondMm * right_of(unit(p.to - p.from));
+      free = geometry::unite(free, geometry::clean({{p.from + out, p.to + out, p.to, p.from}}));
+      const Piece& next = d_.outer[(i + 1) % n];
+      if (!next.open) continue;
+      const Vec2 further = kBeyondMm * right_of(unit(next.to - next.from));
+      free =
+          geometry::unite(free, geometry::clean({{p.to, p.to + out, p.to + out + further, p.to + further}}));
+    }
+    const Region around = geometry::offset_sharp(d_.raw, kBeyondMm);
+    std::vector<std::vector<Piece>> islands;
+    for (const Region& piece : geometry::pieces(geometry::subtract(around, free))) {
+      if (geometry::area(geometry::intersect(piece, d_.raw)) < kSpeckMm2) continue;
+      // The outer loop; what is enclosed by it is another room.
+      Loop loop = piece.loops.front();
+      for (const Loop& l : piece.loops) {
+        if (geometry::signed_area(l) > 0.0) loop = l;
+      }
+      std::reverse(loop.begin(), loop.end());
+      islands.push_back(pieces_of(loop, around, d_.walls, d_.chord_mm));
+    }
+    return face(pieces_of(d_.raw.loops.front(), d_.raw, {}, d_.chord_mm), islands);
+  }
+
+  /// The whole contour of what stands down to the underside of the raw piece.
+  AnyRef outside() {
+    auto f = feature<model::GeneralOutsideProfile>("OUTSIDE");
+    const Region stands = geometry::subtract(d_.raw, d_.area);
+    const auto parts = geometry::pieces(stands);
+    Loop loop;
+    for (const Loop& l : parts.empty() ? std::vector<Loop>{} : parts.front().loops) {
+      if (geometry::signed_area(l) > 0.0) loop = l;
+    }
+    model::LinearPath swept;
+    swept.distance = nouns_.length(d_.depth_mm);
+    swept.its_direction = nouns_.direction({0.0, 0.0, -1.0});
+    f.profile_swept_shape = m_.add(swept);
+    f.feature_boundary =
+        Ref<model::Profile>(AnyRef(profile(pieces_of(loop, geometry::Region{}, d_.walls, d_.chord_mm))));
+    return m_.add(f);
+  }
+
+  const Room& room_;
+  const Drawn& d_;
+  model::Model& m_;
+  Nouns nouns_;
+  Ref<model::Workpiece> piece_;
+  std::string number_;
+};
+
+bool same_area(const Region& a, const Region& b) {
+  return geometry::area(geometry::subtract(a, b)) < kSpeckMm2 &&
+         geometry::area(geometry::subtract(b, a)) < kSpeckMm2;
+}
+
+}  // namespace
+
+std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, const Way& way) {
+  std::vector<Room> out;
+  const auto [lowest, highest] = part.raw_span(way.frame);
+  for (const double level : way.levels_mm) {
+    const Cleared& c = part.cleared(way.frame, level, way.blends);
+    std::vector<bool> wanted(c.rooms.size(), false);
+    for (const std::uint32_t f : feature.faces) {
+      if (std::binary_search(way.blends.begin(), way.blends.end(), f)) continue;
+      for (const Part::Spot& s : part.spots(f)) {
+        const bool floor = dot(s.normal, way.frame.z) > 0.5;
+        const Vec3 at = way.frame.to_local(floor ? s.at : s.at + 0.05 * s.normal);
+        if (floor && std::abs(at.z - level) > kLevelMm) continue;
+        const int room = room_at(c, xy(at));
+        if (room >= 0) wanted[static_cast<std::size_t>(room)] = true;
+      }
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!wanted[i]) continue;
+      Room room;
+      room.frame = way.frame;
+      room.level_mm = level;
+      room.top_mm = highest;
+      room.through = level < lowest + kLevelMm;
+      room.raw = c.raw;
+      room.area = c.rooms[i];
+      room.blends = way.blends;
+      room.blend_radius_mm = way.blend_radius_mm;
+      room.faces = feature.faces;
+      out.push_back(std::move(room));
+    }
+  }
+  return out;
+}
+
+void settle(std::vector<Room>& rooms) {
+  std::vector<Room> out;
+  for (Room& room : rooms) {
+    const auto same = std::find_if(out.begin(), out.end(), [&](const Room& r) {
+      return r.frame.z == room.frame.z && std::abs(r.level_mm - room.level_mm) < kLevelMm &&
+             same_area(r.area, room.area);
+    });
+    if (same == out.end()) {
+      out.push_back(std::move(room));
+      continue;
+    }
+    std::vector<std::uint32_t> faces;
+    std::set_union(same->faces.begin(), same->faces.end(), room.faces.begin(), room.faces.end(),
+                   std::back_inserter(faces));
+    same->faces = std::move(faces);
+    same->recognised.insert(same->recognised.end(), room.recognised.begin(), room.recognised.end());
+    same->blend_radius_mm = std::max(same->blend_radius_mm, room.blend_radius_mm);
+  }
+  for (Room& room : out) {
+    for (const Room& above : out) {
+      if (!(above.frame.z == room.frame.z) || above.level_mm < room.level_mm + kLevelMm) continue;
+      if (above.level_mm < room.top_mm &&
+          geometry::area(geometry::subtract(room.area, above.area)) < kSpeckMm2)
+        room.top_mm = above.level_mm;
+    }
+  }
+  rooms = std::move(out);
+}
+
+bool clears(const Room& room, Vec3 at) {
+  const Vec3 p = room.frame.to_local(at);
+  return p.z >= room.level_mm && geometry::contains(room.area, xy(p));
+}
+
+AnyRef noun_of(const Part& part, const Room& room, model::Model& m, Ref<model::Workpiece> piece,
+               const std::string& number) {
+  const Drawn d = drawn(part, room);
+  return Maker(room, d, m, piece, number).make();
+}
+
+}  // namespace capstan::from_cad
