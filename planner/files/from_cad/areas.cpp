@@ -15,8 +15,10 @@ using geometry::Region;
 
 /// Of an area so much may differ by rounding, mm2.
 constexpr double kSpeckMm2 = 1e-2;
-/// How far beyond the raw piece an open side is taken as free, mm. Default, unsourced: more than any mill.
-constexpr double kBeyondMm = 60.0;
+/// How far past an open side a mill goes: half the side, which is the widest that fits between its walls, and
+/// a little more, mm; no mill of the shipped libraries needs more than the most. Default, unsourced.
+constexpr double kLeastPastMm = 1.0;
+constexpr double kMostPastMm = 16.0;
 
 Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
 Vec2 right_of(Vec2 d) { return {d.y, -d.x}; }
@@ -102,7 +104,7 @@ class Maker {
     if (sides.size() == 4 && d_.islands.empty()) {
       if (const auto slot = straight_slot(sides)) return *slot;
     }
-    return room_.through ? outside() : face_between();
+    return sides.size() > 2 ? open_on_more_sides(sides) : outside();
   }
 
  private:
@@ -253,34 +255,38 @@ class Maker {
     return m_.add(f);
   }
 
-  /// Walls and open sides by turns: a face over the raw piece, around all that stands beside the area.
-  AnyRef face_between() {
-    Region free = d_.area;
-    const std::size_t n = d_.outer.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Piece& p = d_.outer[i];
-      if (!p.open) continue;
-      const Vec2 out = kBeyondMm * right_of(unit(p.to - p.from));
-      free = geometry::unite(free, geometry::clean({{p.from + out, p.to + out, p.to, p.from}}));
-      const Piece& next = d_.outer[(i + 1) % n];
-      if (!next.open) continue;
-      const Vec2 further = kBeyondMm * right_of(unit(next.to - next.from));
-      free =
-          geometry::unite(free, geometry::clean({{p.to, p.to + out, p.to + out + further, p.to + further}}));
+  /// Walls and open sides by turns: an open pocket that is entered by the widest of its open sides, and goes
+  /// on past the raw piece at the others.
+  AnyRef open_on_more_sides(const std::vector<std::vector<Piece>>& sides) {
+    const auto width = [](const std::vector<Piece>& run) { return norm(run.back().to - run.front().from); };
+    std::size_t mouth = 1;
+    for (std::size_t i = 3; i < sides.size(); i += 2) {
+      if (width(sides[i]) > width(sides[mouth])) mouth = i;
     }
-    const Region around = geometry::offset_sharp(d_.raw, kBeyondMm);
-    std::vector<std::vector<Piece>> islands;
-    for (const Region& piece : geometry::pieces(geometry::subtract(around, free))) {
-      if (geometry::area(geometry::intersect(piece, d_.raw)) < kSpeckMm2) continue;
-      // The outer loop; what is enclosed by it is another room.
-      Loop loop = piece.loops.front();
-      for (const Loop& l : piece.loops) {
-        if (geometry::signed_area(l) > 0.0) loop = l;
+    std::vector<Piece> wall;
+    const auto go = [&](Vec2 to) {
+      const Vec2 from = wall.back().to;
+      wall.push_back({from, to, {}, 0.0, 0.0, false});
+    };
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+      const auto& run = sides[(mouth + k) % sides.size()];
+      if (!run.front().open) {
+        wall.insert(wall.end(), run.begin(), run.end());
+        continue;
       }
-      std::reverse(loop.begin(), loop.end());
-      islands.push_back(pieces_of(loop, around, d_.walls, d_.chord_mm));
+      const double past = std::min(kMostPastMm, 0.5 * width(run) + kLeastPastMm);
+      for (std::size_t i = 0; i < run.size(); ++i) {
+        const Vec2 out = past * right_of(unit(run[i].to - run[i].from));
+        go(run[i].from + out);
+        if (i > 0) {
+          const Vec2 before = past * right_of(unit(run[i - 1].to - run[i - 1].from));
+          wall.back().to = run[i].from + before + out;  // round a corner of the raw piece
+        }
+        if (i + 1 == run.size()) go(run[i].to + out);
+      }
+      go(run.back().to);
     }
-    return face(pieces_of(d_.raw.loops.front(), d_.raw, {}, d_.chord_mm), islands);
+    return open_pocket(wall, sides[mouth]);
   }
 
   /// The whole contour of what stands down to the underside of the raw piece.
