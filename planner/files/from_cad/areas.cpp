@@ -96,7 +96,7 @@ class Maker {
     if (!walls) return room_.through ? outside() : face(d_.outer, d_.islands);
     if (sides.size() == 2) {
       const auto& wall = sides[0];
-      if (wall.size() == 1 && !wall[0].arc() && room_.raw.loops.size() == 1) return step(wall[0]);
+      if (wall.size() == 1 && lies_beside(wall[0])) return step(wall[0]);
       const bool bulges = wall.size() == 1 && wall[0].sweep_rad < 0.0;
       if (!(bulges && room_.through)) return open_pocket(wall, sides[1]);
       return outside();
@@ -179,6 +179,16 @@ class Maker {
     f.bottom_condition = bottom();
     radii(f, 0.0);
     return m_.add(f);
+  }
+
+  /// Whether all of the area lies square beside a straight wall, as a step does.
+  [[nodiscard]] bool lies_beside(const Piece& wall) const {
+    if (wall.arc()) return false;
+    const Vec2 d = unit(wall.to - wall.from);
+    return std::all_of(d_.outer.begin(), d_.outer.end(), [&](const Piece& p) {
+      const double along = dot(p.from - wall.from, d);
+      return along > -kLevelMm && along < norm(wall.to - wall.from) + kLevelMm;
+    });
   }
 
   /// The area lies on the left of its boundary, a step on the right of its path.
@@ -332,7 +342,7 @@ std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, 
       if (std::binary_search(way.blends.begin(), way.blends.end(), f)) continue;
       for (const Part::Spot& s : part.spots(f)) {
         const bool floor = dot(s.normal, way.frame.z) > 0.5;
-        const Vec3 at = way.frame.to_local(floor ? s.at : s.at + 0.05 * s.normal);
+        const Vec3 at = way.frame.to_local(floor ? s.at : s.at + kInFrontMm * s.normal);
         if (floor && std::abs(at.z - level) > kLevelMm) continue;
         const int room = room_at(c, xy(at));
         if (room >= 0) wanted[static_cast<std::size_t>(room)] = true;

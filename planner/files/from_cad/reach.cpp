@@ -11,8 +11,6 @@ namespace {
 using exchange::Carrier;
 using recognise::kSameAngleRad;
 
-/// So far in front of a wall a tool must have room, mm: beyond the chords of the mesh, well below any mill.
-constexpr double kInFrontMm = 0.05;
 /// Of the area of a feature so much may be out of reach by rounding.
 constexpr double kOutOfReach = 1e-3;
 

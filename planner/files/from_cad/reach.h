@@ -8,6 +8,10 @@
 
 namespace capstan::from_cad {
 
+/// So far in front of a wall a tool must have room, mm: beyond rounding, and less than what fits into a
+/// corner of the smallest parts.
+inline constexpr double kInFrontMm = 0.005;
+
 /// How a feature would be machined along one direction: its floors, one above the other, each a level down to
 /// which a tool clears.
 struct Way {
