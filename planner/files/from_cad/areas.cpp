@@ -15,8 +15,9 @@ using geometry::Region;
 
 /// Of an area so much may differ by rounding, mm2.
 constexpr double kSpeckMm2 = 1e-2;
-/// How far past an open side a mill goes: half the side, which is the widest that fits between its walls, and
-/// a little more, mm; no mill of the shipped libraries needs more than the most. Default, unsourced.
+/// How far past an open side a feature goes, at least; and where it is entered elsewhere: half the side,
+/// which is the widest that fits between its walls, and a little more, mm; no mill of the shipped libraries
+/// needs more than the most. Default, unsourced.
 constexpr double kLeastPastMm = 1.0;
 constexpr double kMostPastMm = 16.0;
 
@@ -171,10 +172,31 @@ class Maker {
     return m_.add(f);
   }
 
+  /// An open side so far outside the raw piece: its corners in order.
+  static std::vector<Vec2> past(const std::vector<Piece>& run, double mm) {
+    std::vector<Vec2> out;
+    Vec2 before;
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const Vec2 way = mm * right_of(unit(run[i].to - run[i].from));
+      out.push_back(run[i].from + way + (i == 0 ? Vec2{} : before));
+      before = way;
+    }
+    out.push_back(run.back().to + before);
+    return out;
+  }
+
   AnyRef open_pocket(const std::vector<Piece>& wall, const std::vector<Piece>& mouth) {
     auto f = feature<model::OpenPocket>("OPEN POCKET");
-    f.open_boundary = nouns_.open_profile(wall);
-    f.wall_boundary = nouns_.open_profile(mouth);
+    // A side that ends on the raw piece's would leave a film by rounding: it goes on past it.
+    const std::vector<Vec2> beyond = past(mouth, kLeastPastMm);
+    const auto line = [](Vec2 from, Vec2 to) { return Piece{from, to, {}, 0.0, 0.0, false}; };
+    std::vector<Piece> walls{line(beyond.back(), wall.front().from)};
+    walls.insert(walls.end(), wall.begin(), wall.end());
+    walls.push_back(line(wall.back().to, beyond.front()));
+    std::vector<Piece> open;
+    for (std::size_t i = 0; i + 1 < beyond.size(); ++i) open.push_back(line(beyond[i], beyond[i + 1]));
+    f.open_boundary = nouns_.open_profile(walls);
+    f.wall_boundary = nouns_.open_profile(open);
     f.its_boss = bosses(d_.islands);
     f.bottom_condition = bottom();
     radii(f, 0.0);
@@ -196,8 +218,9 @@ class Maker {
     auto f = feature<model::Step>("STEP");
     const Vec2 d = unit(wall.from - wall.to);
     model::LinearPath path;
-    path.placement = nouns_.placement({.origin = {wall.to.x, wall.to.y, 0.0}});
-    path.distance = nouns_.length(norm(wall.to - wall.from));
+    const Vec2 begin = wall.to - kLeastPastMm * d;
+    path.placement = nouns_.placement({.origin = {begin.x, begin.y, 0.0}});
+    path.distance = nouns_.length(norm(wall.to - wall.from) + 2.0 * kLeastPastMm);
     path.its_direction = nouns_.direction({d.x, d.y, 0.0});
     f.open_boundary = m_.add(path);
     if (room_.blend_radius_mm > 0.0) {
@@ -225,11 +248,14 @@ class Maker {
       lo = std::min(lo, dot(p.from, d));
       hi = std::max(hi, dot(p.from, d));
     }
+    lo -= kLeastPastMm;
+    hi += kLeastPastMm;
     const double middle = dot(sides[0][0].from, left) + 0.5 * width;
     const Vec2 from = lo * d + middle * left;
-    auto f = feature<model::Slot>("SLOT");
+    geometry::Placement at = d_.at;  // its course begins at its placement
+    at.origin = d_.at.to_parent({from.x, from.y, 0.0});
+    auto f = feature<model::Slot>("SLOT", at);
     model::LinearPath path;
-    path.placement = nouns_.placement({.origin = {from.x, from.y, 0.0}});
     path.distance = nouns_.length(hi - lo);
     path.its_direction = nouns_.direction({d.x, d.y, 0.0});
     f.course_of_travel = m_.add(path);
@@ -284,16 +310,7 @@ class Maker {
         wall.insert(wall.end(), run.begin(), run.end());
         continue;
       }
-      const double past = std::min(kMostPastMm, 0.5 * width(run) + kLeastPastMm);
-      for (std::size_t i = 0; i < run.size(); ++i) {
-        const Vec2 out = past * right_of(unit(run[i].to - run[i].from));
-        go(run[i].from + out);
-        if (i > 0) {
-          const Vec2 before = past * right_of(unit(run[i - 1].to - run[i - 1].from));
-          wall.back().to = run[i].from + before + out;  // round a corner of the raw piece
-        }
-        if (i + 1 == run.size()) go(run[i].to + out);
-      }
+      for (const Vec2 corner : past(run, std::min(kMostPastMm, 0.5 * width(run) + kLeastPastMm))) go(corner);
       go(run.back().to);
     }
     return open_pocket(wall, sides[mouth]);
