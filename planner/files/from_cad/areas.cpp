@@ -41,6 +41,7 @@ struct Drawn {
   std::vector<Piece> outer;
   std::vector<std::vector<Piece>> islands;
   double chord_mm = 0.0;
+  geometry::Box2 around;  ///< the whole raw piece in plan
 };
 
 Drawn drawn(const Part& part, const Room& room) {
@@ -51,6 +52,8 @@ Drawn drawn(const Part& part, const Room& room) {
   out.at.origin = room.frame.to_parent({middle.x, middle.y, room.top_mm});
   out.depth_mm = room.top_mm - room.level_mm;
   out.raw = shifted(room.raw, -1.0 * middle);
+  const geometry::Box3 piece = geometry::transformed(part.raw(), geometry::inverse(out.at));
+  out.around = {xy(piece.lo), xy(piece.hi)};
   out.area = shifted(room.area, -1.0 * middle);
   for (const RoundWall& w : part.round_walls(room.frame))
     out.walls.push_back({w.centre - middle, w.radius_mm});
@@ -94,7 +97,9 @@ class Maker {
     const bool walls = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return !p.open; });
     const bool open = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return p.open; });
     if (!open) return closed_pocket();
-    if (!walls) return room_.through ? outside() : face(d_.outer, d_.islands);
+    if (!walls && !room_.through)
+      return d_.islands.empty() ? face(over_all(), {}) : face(d_.outer, d_.islands);
+    if (!walls) return outside();
     if (sides.size() == 2) {
       const auto& wall = sides[0];
       if (wall.size() == 1 && lies_beside(wall[0])) return step(wall[0]);
@@ -266,6 +271,13 @@ class Maker {
     f.swept_shape = m_.add(section);
     for (int i = 0; i < 2; ++i) f.end_conditions.push_back(m_.add(model::OpenSlotEndType{}));
     return m_.add(f);
+  }
+
+  /// A rectangle over all of the raw piece: what is open all round goes on past it, also where it leans.
+  [[nodiscard]] std::vector<Piece> over_all() const {
+    const Vec2 more{kLeastPastMm, kLeastPastMm};
+    return pieces_of(geometry::rectangle(d_.around.lo - more, d_.around.hi + more).loops.front(), {}, {},
+                     d_.chord_mm);
   }
 
   AnyRef face(const std::vector<Piece>& boundary, const std::vector<std::vector<Piece>>& islands) {
