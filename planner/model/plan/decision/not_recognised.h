@@ -8,8 +8,8 @@
 
 namespace capstan::model {
 
-/// The reason, in the ledger, of faces of a CAD part that no feature makes: nothing is planned for them, and a
-/// plan that holds some is not complete.
+/// The reason, in the ledger, of faces of a CAD part that no feature makes: nothing is planned for them, and
+/// a plan that holds some is not complete.
 inline constexpr std::string_view kNotRecognised = "recognise.none";
 
 /// Records why a feature, or a region that stands for faces, is not planned.
