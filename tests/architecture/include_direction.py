@@ -15,7 +15,7 @@ import sys
 FLOORS = {
     "ground": "base memo vocabulary geometry",
     "model": "nouns features plan",
-    "files": "p21 exchange recognise json",
+    "files": "p21 exchange recognise from_cad json",
     "physics": "mechanics motion stock engagement",
     "making": "draft sequence piece toolpath workholding optimise step probing propose given",
     "proof": "verify",
@@ -32,7 +32,7 @@ READER_ROOMS = {f"{READERS}/{name}": f"{name}_reader" for name in sorted(os.list
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
-    "planner/proof/verify/sweep/grid": "grid", **READER_ROOMS,
+    "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/shape": "finished", **READER_ROOMS,
     "planner/model/features/fit": "fit",
     # What a tool library is made of, whatever file it came from; on it the formats, and on these the reader of any.
     **{f"tooling/library/{name}": "catalogue" for name in "cutters nouns records store words".split()},
@@ -66,6 +66,8 @@ ALLOWED = {
     "brep": GROUND + " p21",
     "exchange": EXCHANGE_COMMON + " iso14649 ap238 brep",
     "recognise": GROUND + " brep",
+    # From faces to the nouns of a plan, held against the planner's own reading of them.
+    "from_cad": MODEL + " brep recognise",
     "json": MODEL + " motion",
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
     "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase",
@@ -91,6 +93,8 @@ ALLOWED = {
     "compared": MODEL + " volumes verify",
     # Heights that moves cut: of the check it knows what a move is.
     "grid": GROUND + " nouns plan verify",
+    # The finished part against a CAD shape: moves as the check reads them, swept over its own points.
+    "finished": PROVEN + " verify grid",
     **{room: GROUND + " plan verify" for room in READER_ROOMS.values()},
     "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared grid", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),

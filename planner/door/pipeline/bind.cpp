@@ -15,6 +15,7 @@
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/not_recognised.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/range/positions.h"
@@ -173,7 +174,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
                          (inputs.stock || inputs.stock_allowance_mm) && !inputs.stock_of_plan);
   const auto wrong = model::unreadable(plan);
   const auto corners = model::corner_rests(plan);
-  const auto not_made = unreadable_of(plan, wrong);
+  auto not_made = unreadable_of(plan, wrong);
+  not_made.merge(model::not_recognised(plan));
 
   auto resolved = resolve_workpiece(plan, inputs, job);
   if (!resolved) return tl::unexpected(resolved.error());

@@ -11,6 +11,7 @@
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/operator_edits.h"
@@ -58,6 +59,9 @@ std::vector<FileFinding> of_programs(const Planned& planned, const std::vector<O
     for (auto& f : verify::check_program({o.path, o.bytes, table}, &plan, plan.machine, plan.cutters, job,
                                          nullptr, planned.part ? &cut : nullptr))
       out.push_back({o.path, std::move(f), true});
+    if (planned.shape == nullptr) continue;
+    for (auto& f : verify::check_shape({o.path, o.bytes, table}, plan, *planned.shape))
+      out.push_back({o.path, std::move(f), true});
   }
   return out;
 }
@@ -104,9 +108,12 @@ Outcome<Planned> to_its_end(const std::string& file, Job& job, Body body) {
 Outcome<Planned> plan(const Request& request, Source part, Job& job) {
   const std::string name = part.name;
   return to_its_end(name, job, [&]() -> Outcome<Planned> {
-    auto read_part = read(std::move(part), request.strict, job);
+    auto bytes = part.bytes ? Result<std::string>(*std::move(part.bytes)) : read_file(name);
+    if (!bytes) return failed(bytes.error(), code_of(bytes.error(), Code::kUnreadable));
+    const from_cad::RawPiece raw{request.stock, request.stock_allowance_mm.value_or(0.0)};
+    auto read_part = service::read_part(*std::move(bytes), name, raw, job, request.strict);
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
-    auto inputs = gather(request, *read_part, job);
+    auto inputs = gather(request, read_part->plan, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
     if (request.may) {
       std::erase_if(inputs->provenance, [](const auto& p) { return p.what == kMay; });
@@ -115,13 +122,20 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     pipeline::Policy policy;
     policy.reopen = request.reopen;
     policy.bind = request.bind;
-    auto bound = pipeline::bind_checked(*read_part, *inputs, policy, job);
+    auto bound = pipeline::bind_checked(read_part->plan, *inputs, policy, job);
     if (!bound) return failed(bound.error(), code_of(bound.error(), Code::kImpossible));
     // What its control is unable to do of the plan as a whole, which concerns no single step.
     for (model::Finding& f : controls::suitability(bound->plan)) {
       if (f.step.empty()) bound->findings.push_back(std::move(f));
     }
-    return Planned{std::move(bound->plan), std::move(bound->findings), policy.bind != pipeline::Bind::kAll};
+    const bool open = policy.bind != pipeline::Bind::kAll;
+    if (read_part->shape != nullptr && !open) {
+      auto of_shape = verify::check_shape({}, bound->plan, *read_part->shape);
+      std::move(of_shape.begin(), of_shape.end(), std::back_inserter(bound->findings));
+    }
+    Planned out{std::move(bound->plan), std::move(bound->findings), open};
+    out.shape = std::move(read_part->shape);
+    return out;
   });
 }
 

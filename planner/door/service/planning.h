@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/plan.h"
+#include "planner/proof/verify/shape/finished.h"
 
 namespace capstan::service {
 
@@ -34,6 +36,8 @@ struct Planned {
   bool late = false;           ///< bind: the deadline was past when the plan was there
   /// bind: what changed against the plan that was brought, for the operator's screen: sentences, one a line.
   std::string changes = {};
+  /// plan: the shape that the CAD file says the part is to have; the programs are held against it.
+  std::shared_ptr<const verify::AskedShape> shape = nullptr;
 };
 
 /// The exit code of a fault: wrong usage for an unknown name, wherever it was given; kImpossible where the

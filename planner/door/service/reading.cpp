@@ -6,10 +6,12 @@
 
 #include "planner/door/service/foreign/foreign_file.h"
 #include "planner/door/service/formats.h"
+#include "planner/files/exchange/brep/read_brep.h"
 #include "planner/files/exchange/cad/stl.h"
 #include "planner/files/exchange/common/standard.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
+#include "planner/files/recognise/recognise.h"
 #include "planner/ground/base/file.h"
 
 namespace capstan::service {
@@ -74,6 +76,41 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& j
   exchange::ReadOptions options;
   options.strict = strict;
   return exchange::read_bytes(std::move(bytes), path, options, job);
+}
+
+namespace {
+
+/// The shape of a CAD model as the check asks for it.
+std::shared_ptr<const verify::AskedShape> asked_shape(const exchange::Brep& shape, const std::string& name) {
+  verify::AskedShape out;
+  out.file = name;
+  out.chord_mm = shape.chord;
+  out.mesh = {shape.points, shape.triangles};
+  for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
+    const exchange::Face& face = shape.faces[f];
+    if (face.carrier != exchange::Carrier::kPlane) continue;
+    verify::AskedShape::Plane plane{recognise::faces_in_words(shape, {f}), {}};
+    for (std::uint32_t t = 0; t < face.triangle_count; ++t)
+      plane.triangles.push_back(face.first_triangle + t);
+    out.planes.push_back(std::move(plane));
+  }
+  return std::make_shared<const verify::AskedShape>(std::move(out));
+}
+
+}  // namespace
+
+Result<PartRead> read_part(std::string bytes, const std::string& name, const from_cad::RawPiece& raw,
+                           Job& job, bool strict) {
+  if (!is_cad_model(bytes)) {
+    auto plan = read_plan(std::move(bytes), name, job, strict);
+    if (!plan) return tl::unexpected(plan.error());
+    return PartRead{*std::move(plan), nullptr};
+  }
+  auto shape = exchange::read_brep_bytes(std::move(bytes), name, {}, job);
+  if (!shape) return tl::unexpected(shape.error());
+  auto plan = from_cad::plan_of_part(*shape, name, raw, job);
+  if (!plan) return tl::unexpected(plan.error());
+  return PartRead{*std::move(plan), asked_shape(from_cad::straightened(*std::move(shape)), name)};
 }
 
 Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict) {

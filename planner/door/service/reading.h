@@ -1,10 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "planner/files/from_cad/from_cad.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
+#include "planner/proof/verify/shape/finished.h"
 
 namespace capstan::service {
 
@@ -23,6 +26,17 @@ enum class Content : std::uint8_t { kPlanJson, kPart, kProgram, kToolTable };
                                             bool strict = false);
 /// The same from a file. Fails  FILE-READ, and as above.
 [[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict = false);
+
+/// A part to be planned, and the shape that a CAD model says it is to have.
+struct PartRead {
+  model::Plan plan;
+  std::shared_ptr<const verify::AskedShape> shape;  ///< null: the file is no CAD model
+};
+/// As read_plan, of a part to be planned, which may be a CAD model, too (ISO 10303-203, -214, -242): its
+/// features are recognised, in the raw piece that the caller names. Fails  as read_plan, exchange::read_brep
+/// and from_cad::plan_of_part.
+[[nodiscard]] Result<PartRead> read_part(std::string bytes, const std::string& name,
+                                         const from_cad::RawPiece& raw, Job& job, bool strict = false);
 
 /// Whether the bytes are a CAD model in STEP (ISO 10303-203, -214, -242): read_brep reads such, read_plan
 /// does not.

@@ -44,10 +44,11 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
       return fail({.code = "EXC-UNSUPPORTED",
                    .message = "the file is a CAD model (" +
                               (schemas.empty() ? std::string("no schema") : schemas.front()) +
-                              "): its features would have to be recognised, which is not done yet",
+                              "), which holds no plan",
                    .file = name,
                    .expected = "a plan (ISO 14649, ISO 10303-238)",
-                   .hint = "capstan inspect " + name + " shows its bodies and faces"});
+                   .hint = "capstan plan " + name + " plans it; capstan inspect " + name +
+                           " shows its bodies, faces and features"});
     return fail(
         {.code = "EXC-UNSUPPORTED",
          .message = "the file's schema " + (schemas.empty() ? std::string("(none)") : schemas.front()) +

@@ -34,13 +34,29 @@ class Descriptor {
   int fd_;
 };
 
+/// Whether a path leads to a pipe in a folder; those of a shell (`/dev/stdin`, `/dev/fd/63`) are in none.
+bool is_named_pipe(const std::string& path) {
+  std::error_code none;
+  const auto at = std::filesystem::canonical(path, none);
+  return !none && std::filesystem::is_fifo(at, none);
+}
+
 }  // namespace
 
 Result<std::string> read_file(const std::string& path, std::size_t cap) {
-  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without O_NONBLOCK a named pipe that nobody writes holds the call before it can be looked at.
+  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (fd.get() < 0) return io_fault("FILE-READ", path, "the file cannot be opened for reading");
   struct stat info {};
   if (::fstat(fd.get(), &info) != 0) return io_fault("FILE-READ", path, "the file cannot be examined");
+  if (S_ISFIFO(info.st_mode) && is_named_pipe(path))
+    return fail({.code = "FILE-READ",
+                 .message = "this is a named pipe, and nobody may ever write to it",
+                 .file = path,
+                 .expected = "a regular file"});
+  const int flags = ::fcntl(fd.get(), F_GETFL);
+  if (flags < 0 || ::fcntl(fd.get(), F_SETFL, flags & ~O_NONBLOCK) != 0)
+    return io_fault("FILE-READ", path, "the file cannot be examined");
   if (S_ISDIR(info.st_mode))
     return fail({.code = "FILE-READ", .message = "this is a folder", .file = path, .expected = "a file"});
   // A pipe or a device may never end; what is piped in is a program, a part or a plan.

@@ -90,6 +90,28 @@ TEST_F(File, IsNotWrittenInPlaceOfAPipeAFolderOrALinkToItself) {
   EXPECT_EQ(count(), 3U);
 }
 
+TEST_F(File, IsNotReadFromANamedPipeThatNobodyWrites) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", at("link"));
+  for (const char* name : {"pipe", "link"}) {
+    const auto bytes = read_file(at(name));
+    ASSERT_FALSE(bytes) << name;
+    EXPECT_EQ(bytes.error().code, "FILE-READ");
+    EXPECT_EQ(bytes.error().expected, "a regular file");
+  }
+}
+
+TEST_F(File, IsReadFromAPipeOfTheShell) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::write(ends[1], "text", 4), 4);
+  ::close(ends[1]);
+  const auto bytes = read_file("/dev/fd/" + std::to_string(ends[0]));
+  ::close(ends[0]);
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  EXPECT_EQ(*bytes, "text");
+}
+
 TEST_F(File, IsWritableOnlyWhereItsFolderIs) {
   EXPECT_TRUE(writable(at("new")));
   EXPECT_FALSE(writable(at("no such folder/new")));

@@ -1,0 +1,209 @@
+#include "planner/files/from_cad/cover.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "planner/model/features/shape.h"
+#include "planner/model/nouns/feature.h"
+
+namespace capstan::from_cad {
+namespace {
+
+/// Points of the lattice, about. Default, unsourced: a hundredth of a second, and a thousandth of the volume.
+constexpr double kPoints = 60'000.0;
+/// A place that lies this far within both counts as cut, mm: twice the chord of the mesh.
+constexpr double kWithinMm = 0.04;
+/// The lattice lies askew to surfaces that stand on round numbers.
+constexpr std::array<double, 3> kAskew = {0.4142, 0.5772, 0.6180};
+
+/// Points in a box, each inside the part or not.
+struct Lattice {
+  Vec3 origin;
+  double step_mm = 0.0;
+  std::array<int, 3> n{};
+  std::vector<bool> inside;
+  [[nodiscard]] std::size_t index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(n[1]) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(n[2]) +
+           static_cast<std::size_t>(k);
+  }
+  [[nodiscard]] Vec3 at(int i, int j, int k) const {
+    return origin + Vec3{i * step_mm, j * step_mm, k * step_mm};
+  }
+};
+
+/// Where an upright line meets a triangle, and whether it looks up.
+bool meets(const std::array<Vec3, 3>& t, Vec2 p, double& z, int& up) {
+  const auto side = [&](const Vec3& a, const Vec3& b) { return cross(xy(b) - xy(a), p - xy(a)); };
+  const double a = side(t[1], t[2]);
+  const double b = side(t[2], t[0]);
+  const double c = side(t[0], t[1]);
+  const bool in = (a >= 0.0 && b >= 0.0 && c >= 0.0) || (a <= 0.0 && b <= 0.0 && c <= 0.0);
+  const double all = a + b + c;
+  if (!in || all == 0.0) return false;
+  z = (a * t[0].z + b * t[1].z + c * t[2].z) / all;
+  up = all > 0.0 ? 1 : -1;
+  return true;
+}
+
+std::array<Vec3, 3> corners(const geometry::Mesh& mesh, std::size_t i) {
+  const auto& [a, b, c] = mesh.triangles[i];
+  return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+}
+
+bool inside(const geometry::Mesh& mesh, Vec3 p) {
+  int above = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    double z = 0.0;
+    int up = 0;
+    if (meets(corners(mesh, i), xy(p), z, up) && z > p.z) above += up;
+  }
+  return above > 0;
+}
+
+Lattice lattice_of(const Part& part) {
+  Lattice out;
+  const Vec3 size = part.raw().size();
+  out.step_mm = std::cbrt(size.x * size.y * size.z / kPoints);
+  const std::array<double, 3> sizes{size.x, size.y, size.z};
+  for (std::size_t k = 0; k < 3; ++k) out.n[k] = std::max(1, static_cast<int>(sizes[k] / out.step_mm));
+  out.origin = part.raw().lo + out.step_mm * Vec3{kAskew[0], kAskew[1], kAskew[2]};
+  out.inside.assign(static_cast<std::size_t>(out.n[0]) * static_cast<std::size_t>(out.n[1]) *
+                        static_cast<std::size_t>(out.n[2]),
+                    false);
+  std::vector<std::vector<std::pair<double, int>>> columns(static_cast<std::size_t>(out.n[0]) *
+                                                           static_cast<std::size_t>(out.n[1]));
+  const auto& mesh = part.mesh();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto c = corners(mesh, t);
+    const auto range = [&](double lo, double hi, double from, int n) {
+      const int a = std::max(0, static_cast<int>(std::floor((lo - from) / out.step_mm)));
+      const int b = std::min(n - 1, static_cast<int>(std::ceil((hi - from) / out.step_mm)));
+      return std::pair(a, b);
+    };
+    const auto [i0, i1] =
+        range(std::min({c[0].x, c[1].x, c[2].x}), std::max({c[0].x, c[1].x, c[2].x}), out.origin.x, out.n[0]);
+    const auto [j0, j1] =
+        range(std::min({c[0].y, c[1].y, c[2].y}), std::max({c[0].y, c[1].y, c[2].y}), out.origin.y, out.n[1]);
+    for (int i = i0; i <= i1; ++i) {
+      for (int j = j0; j <= j1; ++j) {
+        double z = 0.0;
+        int up = 0;
+        if (meets(c, xy(out.at(i, j, 0)), z, up))
+          columns[static_cast<std::size_t>(i * out.n[1] + j)].emplace_back(z, up);
+      }
+    }
+  }
+  for (int i = 0; i < out.n[0]; ++i) {
+    for (int j = 0; j < out.n[1]; ++j) {
+      const auto& column = columns[static_cast<std::size_t>(i * out.n[1] + j)];
+      for (int k = 0; k < out.n[2]; ++k) {
+        int above = 0;
+        for (const auto& [z, up] : column) above += z > out.at(i, j, k).z ? up : 0;
+        out.inside[out.index(i, j, k)] = above > 0;
+      }
+    }
+  }
+  return out;
+}
+
+struct Shape {
+  AnyRef feature;
+  model::FeatureShape shape;
+  geometry::Box2 box;
+};
+
+std::vector<Shape> shapes_in(const model::Model& m) {
+  std::vector<Shape> out;
+  const auto parts = model::parts_of_others(m);
+  for (const AnyRef f : m.all_below(model::TypeId::kTwo5dManufacturingFeature)) {
+    if (parts.count(f) != 0) continue;
+    const auto shapes = model::shapes_of(m, Ref<model::ManufacturingFeature>(f));
+    if (!shapes) continue;
+    for (const model::FeatureShape& s : *shapes) out.push_back({f, s, geometry::bounds(s.area)});
+  }
+  return out;
+}
+
+/// How high above the floor of a shape a place lies; nothing: it is not above it.
+bool above_floor(const Shape& s, Vec3 at, double* below_top = nullptr) {
+  const Vec3 p = s.shape.frame.to_local(at);
+  if (p.x < s.box.lo.x || p.x > s.box.hi.x || p.y < s.box.lo.y || p.y > s.box.hi.y) return false;
+  if (below_top != nullptr) *below_top = -p.z;
+  const auto floor = model::floor_at(s.shape, xy(p));
+  return floor && p.z > *floor;
+}
+
+/// Whether a place and those beside it, across the shape's axis, lie above its floor and in the part.
+bool cuts(const Part& part, const Shape& s, Vec3 at) {
+  for (const Vec3 d : {s.shape.frame.x, -1.0 * s.shape.frame.x, s.shape.frame.y, -1.0 * s.shape.frame.y,
+                       s.shape.frame.z, -1.0 * s.shape.frame.z}) {
+    const Vec3 p = at + kWithinMm * d;
+    if (!above_floor(s, p) || !inside(part.mesh(), p)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
+  const Lattice lattice = lattice_of(part);
+  const std::vector<Shape> shapes = shapes_in(m);
+  const double each = std::pow(lattice.step_mm, 3.0);
+  std::map<AnyRef, double> found;
+  for (int i = 0; i < lattice.n[0]; ++i) {
+    for (int j = 0; j < lattice.n[1]; ++j) {
+      for (int k = 0; k < lattice.n[2]; ++k) {
+        if (!lattice.inside[lattice.index(i, j, k)]) continue;
+        const Vec3 at = lattice.at(i, j, k);
+        for (const Shape& s : shapes) {
+          if (above_floor(s, at) && cuts(part, s, at)) found[s.feature] += each;
+        }
+      }
+    }
+  }
+  std::vector<Cut> out;
+  for (const auto& [feature, volume] : found) out.push_back({feature, volume});
+  return out;
+}
+
+Missing not_covered(const Part& part, const model::Model& m, bool all) {
+  const Lattice lattice = lattice_of(part);
+  const std::vector<Shape> shapes = shapes_in(m);
+  const double each = std::pow(lattice.step_mm, 3.0);
+  std::size_t points = 0;
+  std::size_t outside = 0;
+  Vec3 sum;
+  for (int i = 0; i < lattice.n[0]; ++i) {
+    for (int j = 0; j < lattice.n[1]; ++j) {
+      for (int k = 0; k < lattice.n[2]; ++k) {
+        if (lattice.inside[lattice.index(i, j, k)]) continue;
+        ++outside;
+        const Vec3 at = lattice.at(i, j, k);
+        const bool in_one = std::any_of(shapes.begin(), shapes.end(), [&](const Shape& s) {
+          double depth = 0.0;
+          return above_floor(s, at, &depth) && depth > -kLevelMm;
+        });
+        if (in_one) continue;
+        // Beside a wall the chords of meshes and shapes differ.
+        bool part_near = false;
+        for (const Vec3 d :
+             {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+          part_near = part_near || inside(part.mesh(), at + kWithinMm * d);
+        }
+        if (part_near) continue;
+        ++points;
+        sum = sum + at;
+      }
+    }
+  }
+  // Where faces are left out anyway, only what is more than they could be is said once more.
+  const std::size_t least = all ? 1 : outside;
+  if (points < std::max<std::size_t>(least, 1)) return {};
+  return {each * static_cast<double>(points), (1.0 / static_cast<double>(points)) * sum};
+}
+
+}  // namespace capstan::from_cad

@@ -1,0 +1,295 @@
+#include "planner/files/from_cad/holes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/ground/base/number.h"
+#include "planner/model/nouns/profile.h"
+
+namespace capstan::from_cad {
+namespace {
+
+using exchange::Carrier;
+
+/// Places on the rim of a bore at which what stands above it is looked for. Default, unsourced: a part that
+/// reaches over a rim covers more than an eighth of it.
+constexpr int kRim = 16;
+/// So far within its rim, mm and as a share of the radius: beyond the chords of the mesh.
+constexpr double kWithinMm = 0.03;
+constexpr double kWithin = 0.02;
+
+bool same(double a, double b) { return std::abs(a - b) < kLevelMm; }
+
+std::vector<Vec2> rim(Vec2 centre, double radius_mm) {
+  std::vector<Vec2> out{centre};
+  const double r = std::max(0.0, radius_mm * (1.0 - kWithin) - kWithinMm);
+  for (int i = 0; i < kRim; ++i) {
+    const double a = 2.0 * std::numbers::pi * i / kRim;
+    out.push_back(centre + r * Vec2{std::cos(a), std::sin(a)});
+  }
+  return out;
+}
+
+struct Sections {
+  std::vector<Bore> bores;  ///< from the mouth inwards, heights along the frame's z
+  HoleEnd end = HoleEnd::kThrough;
+  double tip_angle_rad = 0.0, end_radius_mm = 0.0, lowest_mm = 0.0;
+};
+
+std::optional<Sections> sections_of(const Part& part, const recognise::Feature& feature,
+                                    const geometry::Placement& frame, std::string& why) {
+  Sections out;
+  double floor = -1e300;
+  bool flat = false;
+  for (const std::uint32_t f : feature.faces) {
+    const exchange::Face& face = part.brep().faces[f];
+    const auto [lo, hi] = part.span(frame, {f});
+    switch (face.carrier) {
+      case Carrier::kCylinder: {
+        const auto known = std::find_if(out.bores.begin(), out.bores.end(), [&](const Bore& b) {
+          return !b.cone() && same(b.top_radius_mm, face.radius) && lo < b.top_mm + kLevelMm &&
+                 hi > b.bottom_mm - kLevelMm;
+        });
+        if (known == out.bores.end()) {
+          out.bores.push_back({hi, lo, face.radius, face.radius});
+        } else {
+          known->top_mm = std::max(known->top_mm, hi);
+          known->bottom_mm = std::min(known->bottom_mm, lo);
+        }
+        break;
+      }
+      case Carrier::kCone: {
+        const double base = dot(face.point, frame.z);
+        const double slope = std::tan(face.half_angle) * (dot(face.axis, frame.z) > 0.0 ? 1.0 : -1.0);
+        const double at_lo = std::max(0.0, face.radius + (lo - base) * slope);
+        const double at_hi = std::max(0.0, face.radius + (hi - base) * slope);
+        if (at_lo < 0.02 * at_hi) {
+          out.end = HoleEnd::kConical;
+          out.tip_angle_rad = 2.0 * face.half_angle;
+        } else if (std::none_of(out.bores.begin(), out.bores.end(), [&](const Bore& b) {
+                     return b.cone() && same(b.top_mm, hi) && same(b.bottom_mm, lo);
+                   })) {
+          out.bores.push_back({hi, lo, at_hi, at_lo});
+        }
+        break;
+      }
+      case Carrier::kPlane:
+        if (dot(normal_of(face), frame.z) > 0.5) {
+          flat = true;
+          floor = floor < -1e299 ? lo : std::min(floor, lo);
+        }
+        break;
+      case Carrier::kSphere:
+        out.end = HoleEnd::kSpherical;
+        out.end_radius_mm = face.radius;
+        out.lowest_mm = lo;
+        break;
+      case Carrier::kTorus:
+        out.end = HoleEnd::kRounded;
+        out.end_radius_mm = face.minor_radius;
+        break;
+      default:
+        why = "one of its faces is no plane, cylinder, cone, sphere or torus";
+        return std::nullopt;
+    }
+  }
+  if (out.bores.empty()) {
+    why = "it has no cylinder";
+    return std::nullopt;
+  }
+  std::stable_sort(out.bores.begin(), out.bores.end(),
+                   [](const Bore& a, const Bore& b) { return a.top_mm > b.top_mm; });
+  if (out.end == HoleEnd::kThrough && flat && same(floor, out.bores.back().bottom_mm))
+    out.end = HoleEnd::kFlat;
+  if (out.end == HoleEnd::kRounded) out.bores.back().bottom_mm = floor;
+  return out;
+}
+
+/// Whether nothing of the part stands above a disc.
+bool free_above(const Part& part, const geometry::Placement& frame, Vec2 centre, double radius_mm,
+                double z_mm) {
+  const Cleared& c = part.cleared(frame, z_mm, {});
+  const auto points = rim(centre, radius_mm);
+  return std::all_of(points.begin(), points.end(),
+                     [&](Vec2 p) { return room_at(c, p) >= 0 || !geometry::contains(c.raw, p); });
+}
+
+}  // namespace
+
+bool Bore::cone() const { return std::abs(top_radius_mm - bottom_radius_mm) > kLevelMm; }
+
+std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature, std::string& why) {
+  Vec3 on_axis;
+  for (const std::uint32_t f : feature.faces) {
+    if (part.brep().faces[f].carrier == Carrier::kCylinder) on_axis = part.brep().faces[f].point;
+  }
+  std::vector<Vec3> sides{feature.access};
+  if (feature.through) sides.push_back(-1.0 * feature.access);
+  for (const Vec3 side : sides) {
+    const geometry::Placement frame = Part::frame_along(side);
+    std::string fault;
+    const auto s = sections_of(part, feature, frame, fault);
+    if (!s) {
+      why = fault;
+      continue;
+    }
+    const Vec2 centre = xy(frame.to_local(on_axis));
+    bool narrows = true;
+    bool free = true;
+    for (std::size_t i = 0; i < s->bores.size(); ++i) {
+      const Bore& b = s->bores[i];
+      narrows = narrows && b.bottom_radius_mm < b.top_radius_mm + kLevelMm;
+      // What follows a cone takes up its lower radius; cones stand at the mouth alone.
+      if (b.cone()) narrows = narrows && i == 0 && s->bores.size() > 1;
+      if (i > 0) narrows = narrows && b.top_radius_mm < s->bores[i - 1].bottom_radius_mm + kLevelMm;
+      if (i > 0 && s->bores[0].cone() && i == 1)
+        narrows = narrows && same(b.top_radius_mm, s->bores[0].bottom_radius_mm);
+      free = free && free_above(part, frame, centre, b.bottom_radius_mm, b.bottom_mm);
+    }
+    if (!narrows) {
+      why = "it widens below its mouth, or has a cone that is not at its mouth";
+      continue;
+    }
+    if (!free) {
+      why = "the part itself stands above it: no tool comes to it along its axis";
+      continue;
+    }
+    Hole out;
+    out.frame = frame;
+    const double mouth = s->bores.front().top_mm;
+    out.frame.origin = frame.to_parent({centre.x, centre.y, mouth});
+    out.bores = s->bores;
+    for (Bore& b : out.bores) {
+      b.top_mm -= mouth;
+      b.bottom_mm -= mouth;
+    }
+    out.end = s->end;
+    out.tip_angle_rad = s->tip_angle_rad;
+    out.end_radius_mm = s->end_radius_mm;
+    out.lowest_mm = s->lowest_mm - mouth;
+    out.faces = feature.faces;
+    return out;
+  }
+  return std::nullopt;
+}
+
+void raise(const Part& part, const std::vector<Room>& rooms, Hole& hole) {
+  const geometry::Placement frame = Part::frame_along(hole.frame.z);
+  const Vec3 at = frame.to_local(hole.frame.origin);
+  const double top = part.raw_span(frame).second;
+  if (top - at.z < kLevelMm || hole.bores.front().cone()) return;  // a cone ends at its mouth
+  const std::vector<Vec2> points = rim(xy(at), hole.bores.front().top_radius_mm);
+  constexpr int kHeights = 8;
+  const auto cleared = [&](Vec2 p, double z) {
+    const Vec3 place = frame.to_parent({p.x, p.y, z});
+    return std::any_of(rooms.begin(), rooms.end(), [&](const Room& r) { return clears(r, place); });
+  };
+  bool all = true;
+  for (int i = 0; i < kHeights && all; ++i) {
+    const double z = at.z + kLevelMm + (top - at.z - 2.0 * kLevelMm) * i / (kHeights - 1);
+    all = std::all_of(points.begin(), points.end(), [&](Vec2 p) { return cleared(p, z); });
+  }
+  if (all) return;
+  double to = top;
+  for (const Room& r : rooms) {
+    if (!(r.frame.z == frame.z) || r.level_mm < at.z || r.level_mm > to) continue;
+    if (std::all_of(points.begin(), points.end(), [&](Vec2 p) { return geometry::contains(r.area, p); }))
+      to = r.level_mm;
+  }
+  const double by = to - at.z;
+  hole.frame.origin = hole.frame.origin + by * hole.frame.z;
+  for (Bore& b : hole.bores) {
+    b.top_mm -= by;
+    b.bottom_mm -= by;
+  }
+  hole.bores.front().top_mm = 0.0;
+  hole.lowest_mm -= by;
+}
+
+AnyRef noun_of(const Hole& hole, model::Model& m, Ref<model::Workpiece> piece, const std::string& number) {
+  Nouns nouns(m);
+  const auto round = [&](const std::string& name, const geometry::Placement& at, double depth_mm,
+                         double radius_mm) {
+    model::RoundHole f;
+    f.its_id = name;
+    f.its_workpiece = piece;
+    f.its_operations.given = true;
+    f.feature_placement = nouns.placement(at);
+    f.depth = nouns.depth(depth_mm);
+    f.diameter = nouns.length(2.0 * radius_mm);
+    return f;
+  };
+  const auto last = [&](model::RoundHole& f) {
+    switch (hole.end) {
+      case HoleEnd::kThrough:
+        f.bottom_condition = m.add(model::ThroughBottomCondition{});
+        break;
+      case HoleEnd::kFlat:
+        f.bottom_condition = m.add(model::FlatHoleBottom{});
+        break;
+      case HoleEnd::kRounded: {
+        model::FlatWithRadiusHoleBottom b;
+        b.corner_radius = nouns.length(hole.end_radius_mm);
+        f.bottom_condition = m.add(b);
+        break;
+      }
+      case HoleEnd::kConical: {
+        model::ConicalHoleBottom b;
+        b.tip_angle = hole.tip_angle_rad;
+        f.bottom_condition = m.add(b);
+        break;
+      }
+      case HoleEnd::kSpherical: {
+        model::SphericalHoleBottom b;
+        b.radius = nouns.length(hole.end_radius_mm);
+        f.bottom_condition = m.add(b);
+        break;
+      }
+    }
+  };
+  const double deepest = hole.end == HoleEnd::kSpherical ? -hole.lowest_mm : -hole.bores.back().bottom_mm;
+  const bool sunk = hole.bores.front().cone();
+  const std::string name = "HOLE " + number;
+  if (hole.bores.size() == 1) {
+    auto f = round(name, hole.frame, deepest, hole.bores.front().top_radius_mm);
+    last(f);
+    return m.add(f);
+  }
+  // Elements are placed relative to their compound.
+  model::RefList<model::Noun> elements;
+  for (std::size_t i = sunk ? 1 : 0; i < hole.bores.size(); ++i) {
+    const Bore& b = hole.bores[i];
+    const bool end = i + 1 == hole.bores.size();
+    // Below a countersink the bore is drawn from the mouth.
+    const double top = sunk && i == 1 ? 0.0 : b.top_mm;
+    auto f = round(name + "." + std::to_string(elements.size() + 1), {.origin = {0.0, 0.0, top}},
+                   top + (end ? deepest : -b.bottom_mm), b.top_radius_mm);
+    if (end) {
+      last(f);
+    } else {
+      f.bottom_condition = m.add(model::FlatHoleBottom{});
+    }
+    elements.push_back(Ref<model::Noun>(AnyRef(m.add(f))));
+  }
+  if (sunk) {
+    const Bore& b = hole.bores.front();
+    auto f = round(name + "." + std::to_string(elements.size() + 1), {}, -b.bottom_mm, b.top_radius_mm);
+    model::AngleTaper taper;
+    taper.angle = std::atan2(b.top_radius_mm - b.bottom_radius_mm, -b.bottom_mm);
+    f.change_in_diameter = m.add(taper);
+    f.bottom_condition = m.add(model::ThroughBottomCondition{});
+    elements.push_back(Ref<model::Noun>(AnyRef(m.add(f))));
+  }
+  const auto compound = [&](auto f) -> AnyRef {
+    f.its_id = name;
+    f.its_workpiece = piece;
+    f.its_operations.given = true;
+    f.feature_placement = nouns.placement(hole.frame);
+    f.elements = elements;
+    return m.add(f);
+  };
+  return sunk ? compound(model::CountersunkHole{}) : compound(model::CounterboreHole{});
+}
+
+}  // namespace capstan::from_cad

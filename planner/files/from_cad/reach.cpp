@@ -1,0 +1,140 @@
+#include "planner/files/from_cad/reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/ground/base/number.h"
+
+namespace capstan::from_cad {
+namespace {
+
+using exchange::Carrier;
+using recognise::kSameAngleRad;
+
+/// Of the area of a feature so much may be out of reach by rounding.
+constexpr double kOutOfReach = 1e-3;
+
+bool along(Vec3 a, Vec3 b) { return norm(a - b) < kSameAngleRad; }
+bool across(Vec3 a, Vec3 b) { return std::abs(dot(a, b)) < kSameAngleRad; }
+
+std::vector<Vec3> directions(const Part& part, const recognise::Feature& feature) {
+  std::vector<Vec3> out;
+  const auto add = [&](Vec3 d) {
+    if (norm(d) > 0.5 && std::none_of(out.begin(), out.end(), [&](Vec3 k) { return along(k, d); }))
+      out.push_back(d);
+  };
+  add(feature.access);
+  for (const recognise::Alternative& a : feature.alternatives) add(a.access);
+  if (feature.through) add(-1.0 * feature.access);
+  for (const std::uint32_t f : feature.faces) {
+    const exchange::Face& face = part.brep().faces[f];
+    if (face.carrier == Carrier::kPlane) add(normal_of(face));
+    if (face.carrier == Carrier::kCylinder) {
+      add(face.axis);
+      add(-1.0 * face.axis);
+    }
+  }
+  return out;
+}
+
+/// The way along a direction, if all faces are floors, walls, or fillets between them.
+std::optional<Way> seen_along(const Part& part, const recognise::Feature& feature, Vec3 access) {
+  Way way;
+  way.frame = Part::frame_along(access);
+  std::vector<std::uint32_t> walls;
+  for (const std::uint32_t f : feature.faces) {
+    const exchange::Face& face = part.brep().faces[f];
+    switch (face.carrier) {
+      case Carrier::kPlane:
+        if (along(normal_of(face), access)) {
+          const double z = part.span(way.frame, {f}).first;
+          const bool known = std::any_of(way.levels_mm.begin(), way.levels_mm.end(),
+                                         [&](double k) { return std::abs(k - z) < kLevelMm; });
+          if (!known) way.levels_mm.push_back(z);
+        } else if (across(normal_of(face), access)) {
+          walls.push_back(f);
+        } else {
+          return std::nullopt;
+        }
+        break;
+      case Carrier::kCylinder:
+      case Carrier::kTorus:
+      case Carrier::kSphere: {
+        if (face.carrier == Carrier::kCylinder && norm(cross(face.axis, access)) < kSameAngleRad) {
+          walls.push_back(f);
+          break;
+        }
+        const double r = face.carrier == Carrier::kTorus ? face.minor_radius : face.radius;
+        const bool other = !way.blends.empty() && std::abs(r - way.blend_radius_mm) > kLevelMm;
+        if (face.outward || other) return std::nullopt;
+        way.blends.push_back(f);
+        way.blend_radius_mm = r;
+        break;
+      }
+      default:
+        return std::nullopt;
+    }
+  }
+  if (way.levels_mm.empty()) {
+    if (!way.blends.empty() || walls.empty()) return std::nullopt;
+    way.levels_mm.push_back(part.span(way.frame, walls).first);
+  }
+  std::sort(way.levels_mm.begin(), way.levels_mm.end());
+  return way;
+}
+
+/// How much of a feature no tool along the way comes to, mm2, and of how much.
+std::pair<double, double> out_of_reach(const Part& part, const recognise::Feature& feature, const Way& way) {
+  double missed = 0.0;
+  double all = 0.0;
+  for (const std::uint32_t f : feature.faces) {
+    if (std::binary_search(way.blends.begin(), way.blends.end(), f)) continue;
+    for (const Part::Spot& s : part.spots(f)) {
+      const bool floor = dot(s.normal, way.frame.z) > 0.5;
+      const Vec3 at = way.frame.to_local(floor ? s.at : s.at + kInFrontMm * s.normal);
+      // The floor that it belongs to: the highest that is not above it.
+      double level = way.levels_mm.front();
+      for (const double z : way.levels_mm) {
+        if (z < at.z + kLevelMm) level = z;
+      }
+      if (at.z < level - kLevelMm) continue;  // a wall that goes on below, into what is deeper
+      all += s.area_mm2;
+      // In front of a wall there is room down to its floor, or to a higher one, or the outside of the raw
+      // piece.
+      const auto reached = [&](const Cleared& c) {
+        return room_at(c, xy(at)) >= 0 || (!floor && !geometry::contains(c.raw, xy(at)));
+      };
+      if (reached(part.cleared(way.frame, level, way.blends))) continue;
+      if (floor || !reached(part.cleared(way.frame, at.z, way.blends))) missed += s.area_mm2;
+    }
+  }
+  return {missed, all};
+}
+
+std::string words(Vec3 d) {
+  return "(" + trimmed(d.x, 3) + ", " + trimmed(d.y, 3) + ", " + trimmed(d.z, 3) + ")";
+}
+
+}  // namespace
+
+std::vector<Way> ways_of(const Part& part, const recognise::Feature& feature, std::string& why) {
+  std::vector<Way> out;
+  for (const Vec3 d : directions(part, feature)) {
+    auto way = seen_along(part, feature, d);
+    if (!way) continue;
+    const auto [missed, all] = out_of_reach(part, feature, *way);
+    if (missed <= kOutOfReach * all) {
+      out.push_back(*std::move(way));
+    } else if (why.empty()) {
+      why = "a tool along " + words(way->frame.z) + " does not reach " + trimmed(missed, 2) + " of its " +
+            trimmed(all, 2) + " mm2: the part itself stands above";
+    }
+  }
+  if (out.empty() && why.empty())
+    why =
+        "along no direction are all of its faces floors, upright walls, or fillets of one radius between "
+        "them";
+  return out;
+}
+
+}  // namespace capstan::from_cad
