@@ -11,7 +11,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/order/step_ids.h"
-#include "planner/model/plan/speeds_agree.h"
+#include "planner/model/plan/decision/speeds_agree.h"
 
 namespace capstan::controls {
 namespace {

@@ -32,7 +32,8 @@ READER_ROOMS = {f"{READERS}/{name}": f"{name}_reader" for name in sorted(os.list
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
-    "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/shape": "finished", **READER_ROOMS,
+    "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/copies": "copies",
+    "planner/proof/verify/shape": "finished", **READER_ROOMS,
     "planner/model/features/fit": "fit",
     # What a tool library is made of, whatever file it came from; on it the formats, and on these the reader of any.
     **{f"tooling/library/{name}": "catalogue" for name in "cutters nouns records store words".split()},
@@ -89,14 +90,16 @@ ALLOWED = {
     # A conformance profile is a data file, read as those of the shop are.
     "controls": MODEL + " gcode shop",
     "volumes": PROVEN,
+    # What the check says of kinds of things by itself.
+    "copies": GROUND + " nouns plan",
     # The one place that looks at the planner's shapes: to hold them against the own reading.
     "compared": MODEL + " volumes verify",
     # Heights that moves cut: of the check it knows what a move is.
-    "grid": GROUND + " nouns plan verify",
+    "grid": GROUND + " nouns plan copies verify",
     # The finished part against a CAD shape: moves as the check reads them, swept over its own points.
-    "finished": PROVEN + " verify grid",
-    **{room: GROUND + " plan verify" for room in READER_ROOMS.values()},
-    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared grid", *READER_ROOMS.values()]),
+    "finished": PROVEN + " copies verify grid",
+    **{room: GROUND + " plan copies verify" for room in READER_ROOMS.values()},
+    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "report": MODEL + " mechanics motion optimise step",

@@ -7,6 +7,9 @@
 
 namespace capstan {
 
+/// 2^53: whole numbers up to it are exact as doubles; beyond, doubles are more than 1 apart (IEEE 754).
+inline constexpr double kExactWhole = 9007199254740992.0;
+
 /// The one printer of numbers. Locale-free, no `-0`, same value same bytes.
 
 /// Shortest text that reads back to the same double, e.g. "0.1", "1e+30". Needs a finite value.

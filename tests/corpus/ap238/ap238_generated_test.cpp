@@ -6,7 +6,7 @@
 
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
-#include "tests/support/model_difference.h"
+#include "tests/support/differences/model_difference.h"
 
 // Plans made by chance, there and back: structure from a short list, every number, text, truth value and
 // enumerator of every object by the descriptor table.

@@ -9,7 +9,7 @@
 #include "planner/files/p21/read/parse.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
-#include "tests/support/model_difference.h"
+#include "tests/support/differences/model_difference.h"
 
 // ISO 14649 to AP238 and back, and AP238 to AP238: the model stays what it was.
 

@@ -6,7 +6,7 @@
 
 #include "planner/files/exchange/common/text.h"
 #include "planner/files/exchange/iso14649/units.h"
-#include "planner/ground/base/exact_whole.h"
+#include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/stand_in.h"
 #include "planner/model/nouns/arena/walk.h"

@@ -8,7 +8,7 @@
 #include "planner/files/exchange/iso14649/deviations_internal.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan/speeds_agree.h"
+#include "planner/model/plan/decision/speeds_agree.h"
 
 namespace capstan::exchange::deviations {
 

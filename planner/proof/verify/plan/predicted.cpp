@@ -7,7 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"

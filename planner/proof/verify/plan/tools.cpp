@@ -4,7 +4,7 @@
 
 #include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/cutter/table_offsets.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/program/readers.h"
 

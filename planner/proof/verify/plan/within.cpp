@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "planner/model/nouns/all.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/volumes/form/in_raw.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "planner/model/nouns/all.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 // How a mill goes down into solid material: straight, on a slope, along a helix.

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "planner/model/plan/borne_feed.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 

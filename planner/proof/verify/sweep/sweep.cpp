@@ -7,7 +7,7 @@
 #include <set>
 
 #include "planner/model/nouns/all.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/sweep/fixtures.h"
 #include "planner/proof/verify/sweep/grid/carry.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/findings.h"
 
 namespace capstan::verify {

@@ -6,7 +6,7 @@
 
 #include "planner/files/json/fields.h"
 #include "tests/support/corpus.h"
-#include "tests/support/plan_difference.h"
+#include "tests/support/differences/plan_difference.h"
 #include "tests/support/shop.h"
 
 // A plan whose every field has a value of its own comes back from each form.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/support/corpus.h"
-#include "tests/support/plan_difference.h"
+#include "tests/support/differences/plan_difference.h"
 #include "tests/support/shop.h"
 
 // A plan in each form that it is written in, read again, is the plan that was written.

@@ -8,7 +8,7 @@
 
 #include "planner/files/exchange/exchange.h"
 #include "planner/model/nouns/all.h"
-#include "tests/support/model_difference.h"
+#include "tests/support/differences/model_difference.h"
 
 namespace capstan::exchange::ap238 {
 

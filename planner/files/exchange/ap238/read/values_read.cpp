@@ -4,7 +4,6 @@
 #include "planner/files/exchange/ap238/codecs/codecs.h"
 #include "planner/files/exchange/ap238/read/reader.h"
 #include "planner/files/exchange/common/text.h"
-#include "planner/ground/base/exact_whole.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"

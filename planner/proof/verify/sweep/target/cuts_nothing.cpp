@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "planner/model/nouns/all.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 // Whether a step cuts at all. What it takes off the cells is added up. Where that is nothing, points up to

@@ -6,7 +6,7 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/order/step_ids.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/sweep/target/corners.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/verify.h"

@@ -10,7 +10,7 @@
 #include "planner/ground/memo/packed.h"
 #include "planner/ground/memo/remembered.h"
 #include "planner/model/nouns/all.h"
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/findings.h"
 
 namespace capstan::verify {

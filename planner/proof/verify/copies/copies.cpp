@@ -1,4 +1,4 @@
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "planner/proof/verify/copies.h"
+#include "planner/proof/verify/copies/copies.h"
 
 // What the check says of each class of cutter by itself, whatever the vocabulary says: one row of copy_of a
 // class, with its traits and the outline that its edges sweep. A class without a row does not compile

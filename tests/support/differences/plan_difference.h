@@ -7,7 +7,7 @@
 
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/plan.h"
-#include "tests/support/model_difference.h"
+#include "tests/support/differences/model_difference.h"
 
 namespace capstan::testing {
 
