@@ -142,8 +142,8 @@ TEST(ShopFile, TemplateIsRefusedWhereNoPlanTakesWhatItNames) {
                           "material=steeel", "workholding=no_such_vice", "edges=77", "cases=nowhere.db"}) {
     Job job;
     const auto text = shop_template({bad}, shop, job);
-    EXPECT_FALSE(text) << bad;
-    if (!text) EXPECT_NE(text.error().message.size(), 0U) << bad;
+    ASSERT_FALSE(text) << bad;
+    EXPECT_NE(text.error().message.size(), 0U) << bad;
   }
   Job job;
   const auto text = shop_template({"tools=tool.tbl", "cache=kept"}, shop, job);
