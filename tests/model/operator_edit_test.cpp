@@ -5,6 +5,7 @@
 
 #include "planner/model/plan/edit/edit.h"
 #include "planner/model/plan/edit/provenance.h"
+#include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/edit/restrictions.h"
 
 namespace capstan::model {
@@ -63,6 +64,62 @@ TEST(OperatorEdit, NamesWhatAnUnknownAttributeMayMean) {
   EXPECT_NE(e.error().message.find("'feed'"), std::string::npos) << e.error().message;
   // A diameter is bounded and not set: the tool is what is set.
   EXPECT_EQ(refused(EditKind::kSet, "tool.diameter=8"), "NAME-UNKNOWN");
+}
+
+TEST(OperatorEdit, HasNamesWithItsOwnSignsInDoubleQuotes) {
+  const Edit set = parsed(EditKind::kSet, R"( "A=1 <B> \"x\" \\"/ tool = "T = 5" )");
+  EXPECT_EQ(set.where, R"(A=1 <B> "x" \)");
+  EXPECT_EQ(set.value, "T = 5");
+  EXPECT_EQ(parsed(EditKind::kSet, R"("A/B"/feed=5)").where, "A/B");
+  const Edit order = parsed(EditKind::kOrder, R"("A<B" < C)");
+  EXPECT_EQ(order.where, "A<B");
+  EXPECT_EQ(order.before, "C");
+  for (const char* bad : {R"("A=B/feed=5)", R"(""/feed=5)", R"("A"feed=5)", R"("A"/B/feed=5)"})
+    EXPECT_EQ(refused(EditKind::kSet, bad), "EDIT-SYNTAX") << bad;
+  EXPECT_EQ(refused(EditKind::kForbid, R"(tool="A"B)"), "EDIT-SYNTAX");
+  // Whoever leaves them out is told of them.
+  const auto bare = parse_edit(EditKind::kSet, "A=B/feed=5", "");
+  ASSERT_FALSE(bare);
+  EXPECT_NE(bare.error().message.find("double quotes"), std::string::npos) << bare.error().message;
+}
+
+TEST(OperatorEditProperty, ReadsBackWithAnyName) {
+  std::mt19937 random(3);
+  const auto name = [&] {
+    static constexpr std::string_view kLetters = "AB=<>\"\\/ *?#'";
+    std::string out;
+    for (auto n = 1 + random() % 6; n > 0; --n) out += kLetters[random() % kLetters.size()];
+    return out;
+  };
+  int quoted = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Edit e;
+    e.kind = kEditKinds[random() % 5];
+    e.where = name();
+    switch (e.kind) {
+      case EditKind::kSet:
+      case EditKind::kForbid:
+        e.of = EditOf::kTool;
+        e.value = name();
+        break;
+      case EditKind::kPin:
+        e.of = EditOf::kDepth;
+        break;
+      case EditKind::kLimit:
+        e.of = EditOf::kFeed;
+        e.value = "900";
+        e.number = 900.0;
+        break;
+      case EditKind::kOrder:
+        e.before = name();
+        break;
+    }
+    const auto again = parse_edit(e.kind, text_of(e), "");
+    ASSERT_TRUE(again) << text_of(e) << ": " << to_text(again.error());
+    EXPECT_EQ(*again, e) << text_of(e);
+    quoted += text_of(e).find('"') != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(quoted, 5000);  // names with signs are met
 }
 
 TEST(OperatorEditProperty, ReadsBackFromItsTextAndFromProvenance) {
@@ -169,8 +226,26 @@ TEST(Restrictions, TheLeastOfSeveralLimitsHolds) {
   EXPECT_EQ(slot.feed_mm_min, 900.0);
   EXPECT_EQ(other.feed_mm_min, 1500.0);
   EXPECT_EQ(other.speed_rpm, 2000.0);
-  EXPECT_FALSE(other.depth_mm);
   EXPECT_EQ(slot.words(), "--limit: limit SLOT*/feed<=900; --limit: limit speed<=2000");
+}
+
+TEST(Restrictions, TheEditThatNamesAStepMostCloselyDecides) {
+  const StepNames rough{"SLOT", "SLOT rough", "id-7"};
+  const auto decided = [&](const std::vector<const char*>& texts) {
+    std::vector<Edit> edits = {parsed(EditKind::kSet, "speed=1"), parsed(EditKind::kLimit, "feed<=1")};
+    for (const char* text : texts) edits.push_back(parsed(EditKind::kSet, text));
+    const Edit* e = deciding(edits, EditOf::kFeed, rough);
+    return e == nullptr ? 0.0 : e->number;
+  };
+  // In any order.
+  EXPECT_EQ(decided({"feed=1", "SLOT*/feed=2", "SLOT/feed=3", "SLOT rough/feed=4"}), 4.0);
+  EXPECT_EQ(decided({"SLOT rough/feed=4", "SLOT/feed=3", "SLOT*/feed=2", "feed=1"}), 4.0);
+  EXPECT_EQ(decided({"id-7/feed=5", "SLOT/feed=3"}), 5.0);
+  EXPECT_EQ(decided({"SLOT/feed=3", "SLOT r*/feed=2"}), 3.0) << "a feature's name before a pattern";
+  EXPECT_EQ(decided({"SLOT r*/feed=2", "S*/feed=6"}), 2.0) << "the pattern with more letters";
+  EXPECT_EQ(decided({"SLOT*/feed=2", "SLOT?*/feed=6"}), 6.0) << "of equals the last";
+  EXPECT_EQ(decided({"S*/feed=2", "feed=1"}), 2.0);
+  EXPECT_EQ(decided({"POCKET/feed=2"}), 0.0);
 }
 
 TEST(Restrictions, BarOperationsAndStrategiesByTheirKeyword) {

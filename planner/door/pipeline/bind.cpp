@@ -9,12 +9,13 @@
 #include "planner/door/pipeline/stages.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/making/given/edits/operator_edits.h"
 #include "planner/making/given/ends.h"
-#include "planner/making/given/operator_edits.h"
 #include "planner/making/piece/corner_rests.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
+#include "planner/model/plan/decision/fresh_edits.h"
 #include "planner/model/plan/decision/not_recognised.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/edit/provenance.h"
@@ -235,6 +236,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   tries.made = made_steps(*closed, now.drafts, *required, asked);
   // A value chosen in place of an unreadable one does not make that readable.
   for (const auto& u : wrong) model::set_unreadable(*closed, u.key.object, u.key.attribute, u.why);
+  model::settle_edits(closed->model, closed->ledger);
   return std::optional<model::Plan>(*std::move(closed));
 }
 

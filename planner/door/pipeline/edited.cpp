@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "planner/door/pipeline/checked.h"
-#include "planner/making/given/operator_edits.h"
+#include "planner/making/given/edits/operator_edits.h"
 #include "planner/model/plan/edit/held.h"
 #include "planner/model/plan/edit/provenance.h"
 
@@ -25,7 +25,7 @@ void name_edits(Checked& c) {
       if (model::AnyRef(ws->its_feature) != u.feature || !words.empty()) continue;
       words = model::edits_of_step(c.plan, r);
     }
-    if (!words.empty()) u.reason += "; held is " + words;
+    if (!words.empty()) u.reason += "; held by " + words;
   }
 }
 
@@ -57,8 +57,8 @@ Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const
   if (!out) return out;
   if (!policy.window) {
     model::Plan edited = out->plan;
-    auto taken = given::take_edits(edited, inputs.edits, inputs.library,
-                                   model::edits_are_all(inputs.provenance));
+    auto taken = given::take_edits(edited, inputs.edits, inputs.library, inputs.machine,
+                                   model::edits_are_all(inputs.provenance), job);
     if (!taken) return tl::unexpected(taken.error());
     if (taken->opened && policy.bind == Bind::kAll) {
       const std::vector<Diagnostic> first = job.take_diagnostics();

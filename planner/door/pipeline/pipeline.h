@@ -150,7 +150,7 @@ struct Anew {
 /// open decisions is not checked.
 ///
 /// With Inputs::edits the values that they set are set into that plan, and what depends on them is planned
-/// anew (given/operator_edits.h); findings name the edits of their step, and a broken edit is one
+/// anew (given/edits/operator_edits.h); findings name the edits of their step, and a broken edit is one
 /// (EDIT-BROKEN). `bind` alone knows only what edits restrict.
 ///
 /// Determinism  as `bind`, unless `Anew::until` is past: then nothing more is made anew, and what is there so

@@ -214,7 +214,12 @@ class Check {
   /// Completes a file that states its steps but not all their values: open decisions are bound as `plan`
   /// would, stated values are executed as given, because the ledger prevents computing them again.
   Result<model::Plan> executed(model::Plan plan) {
-    const auto inputs = gather(request_, plan, job_);
+    Request own = request_;
+    if (has_data(plan.machine)) {
+      own.machine = of_call("machine", own.machine);
+      own.control = of_call("control", own.control);
+    }
+    const auto inputs = gather(own, plan, job_);
     if (!inputs) return tl::unexpected(inputs.error());
     const auto unreadable = model::unreadable(plan);
     const auto contradictions = model::contradictions(plan);
@@ -302,7 +307,7 @@ class Check {
       out_.left_out += unplanned_features(*plan);
       out_.features += features_of(*plan);
       // A plan made for one machine may be checked for another.
-      if (const auto& named = request_.machine) {
+      if (const auto named = of_call("machine", request_.machine)) {
         auto machine = tooling::load_machine(*named, job_);
         if (!machine) return machine.error();
         plan->machine = *std::move(machine);
@@ -364,27 +369,40 @@ class Check {
     return out;
   }
 
+  /// A value that the call itself gives, and not the shop's settings.
+  [[nodiscard]] std::optional<std::string> of_call(const std::string& name,
+                                                   const std::optional<std::string>& value) const {
+    return request_.from_shop.contains(name) ? std::nullopt : value;
+  }
+  /// The same beside a plan, whose own machine, control and tools hold before those of the shop's settings.
+  [[nodiscard]] std::optional<std::string> asked(const std::string& name,
+                                                 const std::optional<std::string>& value) const {
+    return plans_.empty() ? value : of_call(name, value);
+  }
+
   std::optional<Diagnostic> shop() {
-    const auto& o = request_;
     const bool has_plan = !plans_.empty();
+    const auto named = asked("machine", request_.machine), tools = asked("tools", request_.tools);
+    const auto control = asked("control", request_.control);
     if (has_plan) {
       shop_.machine = plans_.front().machine;
       shop_.cutters = plans_.front().cutters;
     }
-    if (o.machine || !has_data(shop_.machine)) {
-      std::string wanted = o.machine.value_or(std::string(tooling::kDefaultMachine));
+    if (named || !has_data(shop_.machine)) {
+      const std::string wanted =
+          named ? *named : request_.machine.value_or(std::string(tooling::kDefaultMachine));
       auto machine = tooling::load_machine(wanted, job_);
       if (!machine) return machine.error();
       shop_.machine = *std::move(machine);
-      if (!o.machine && programs())
+      if (!named && !request_.machine && programs())
         job_.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
-    if (o.control) shop_.machine = controls::with_control(std::move(shop_.machine), *o.control);
+    if (control) shop_.machine = controls::with_control(std::move(shop_.machine), *control);
     if (const auto d = take_control_of_programs(has_plan)) return d;
     const tooling::LibraryOptions counts{
         .mm_per_unit = {}, .offsets_against_reference = shop_.machine.control.offsets_against_reference};
-    if (o.tools) {
-      auto library = tooling::load_library(*o.tools, job_, counts);
+    if (tools) {
+      auto library = tooling::load_library(*tools, job_, counts);
       if (!library) return library.error();
       shop_.cutters = *std::move(library);
       if (has_plan) loaded_ = shop_.cutters;
@@ -404,7 +422,7 @@ class Check {
   /// Where no control is named, a program that only another control reads is checked for that one; beside a
   /// plan or a named machine, which say otherwise, it is refused.
   std::optional<Diagnostic> take_control_of_programs(bool has_plan) {
-    if (request_.control) return std::nullopt;
+    if (asked("control", request_.control)) return std::nullopt;
     const bool free = !has_plan && !request_.machine;
     std::string told_by;
     for (const Input& in : inputs_) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,8 +15,9 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/stopping.h"
-#include "planner/making/given/operator_edits.h"
+#include "planner/making/given/edits/operator_edits.h"
 #include "planner/model/nouns/executable.h"
+#include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/edit/held.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/proof/verify/program/program_checks.h"
@@ -157,20 +159,42 @@ Status decisions_of(const Request& request, const model::Plan& plan, late::Decis
   return {};
 }
 
+/// Why single workingsteps cannot be bound with these edits: values are set into a whole plan. Those that the
+/// plan was made with stand in it.
+std::optional<Diagnostic> sets_more(const model::Plan& plan, const std::vector<model::Edit>& edits,
+                                    bool all) {
+  const std::vector<model::Edit> before = model::edits_of(plan);
+  const auto without = [](const std::vector<model::Edit>& of, const std::vector<model::Edit>& in) {
+    return std::find_if(of.begin(), of.end(), [&](const model::Edit& e) {
+      const bool sets = e.kind == model::EditKind::kSet || e.kind == model::EditKind::kPin;
+      return sets &&
+             std::none_of(in.begin(), in.end(), [&](const auto& x) { return model::says_the_same(x, e); });
+    });
+  };
+  const auto fault = [&](const std::string& what) {
+    return Diagnostic{
+        .code = "EDIT-NEXT",
+        .message = what + "; values change in a whole plan, not while single workingsteps are bound",
+        .file = plan.file_name,
+        .hint = "bind all of the plan with these edits first, then its workingsteps one by one"};
+  };
+  if (const auto more = without(edits, before); more != edits.end())
+    return fault(model::words_of(*more) + " is not in the plan");
+  if (!all) return std::nullopt;
+  if (const auto less = without(before, edits); less != before.end())
+    return fault(model::words_of(*less) + " is in the plan, and the file of edits takes it back");
+  return std::nullopt;
+}
+
 /// Sets the operator's edits into a plan before it is bound, and opens what they do not allow.
 Status edit(const Request& request, model::Plan& plan, pipeline::Inputs& inputs, Job& job) {
   const bool all = model::edits_are_all(inputs.provenance);
   if (inputs.edits.empty() && !all) return {};
-  const bool some = request.next || request.from;
-  const bool sets = std::any_of(request.edits.begin(), request.edits.end(), [](const model::Edit& e) {
-    return e.kind == model::EditKind::kSet || e.kind == model::EditKind::kPin;
-  });
-  if (some && sets)
-    return fail({.code = "EDIT-NEXT",
-                 .message = "values are set into a whole plan, not while single workingsteps are bound",
-                 .hint = "bind it with the edits first, then its workingsteps"});
-  if (some) return {};  // limits hold for those that are bound
-  auto taken = given::take_edits(plan, inputs.edits, inputs.library, all);
+  if (request.next || request.from) {
+    if (auto wrong = sets_more(plan, inputs.edits, all)) return fail(*std::move(wrong));
+    return {};  // limits and prohibitions hold for those that are bound
+  }
+  auto taken = given::take_edits(plan, inputs.edits, inputs.library, inputs.machine, all, job);
   if (!taken) return tl::unexpected(taken.error());
   inputs.edits = std::move(taken->edits);
   std::erase_if(plan.provenance, model::is_edit);

@@ -11,6 +11,7 @@
 #include "planner/door/service/options.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/door/service/shop_file/shop_file.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/listed_steps.h"
 
@@ -52,7 +53,10 @@ Code Session::set(std::string_view name, const std::string& text) {
     if (auto ok = service::set(request_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
     if (std::find(kOfOneCall.begin(), kOfOneCall.end(), name) == kOfOneCall.end()) {
       shop_.reset();
+      in_shop_.reset();
       failed_ = false;
+    } else if (in_shop_) {
+      if (auto ok = service::set(*in_shop_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
     }
     return end(Code::kDone);
   });
@@ -60,7 +64,14 @@ Code Session::set(std::string_view name, const std::string& text) {
 
 Code Session::opened(Job& job) {
   if (shop_) return Code::kDone;
-  auto shop = open_shop(request_, model::Plan{}, job);
+  if (!in_shop_) {
+    auto with = with_shop(request_, job);
+    for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
+    failed_ = !with;
+    if (!with) return end(code_of(with.error(), Code::kUsage), to_text(with.error()));
+    in_shop_ = *std::move(with);
+  }
+  auto shop = open_shop(*in_shop_, model::Plan{}, job);
   for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
   failed_ = !shop;
   if (!shop) return end(Code::kUnreadable, to_text(shop.error()));
@@ -166,6 +177,11 @@ Code Session::bind_as(std::string plan, Request request) {
       }
     } const running(*this, job);
     if (const Code code = opened(job); code != Code::kDone) return code;
+    // What the shop's settings say beside the options of this call.
+    Request asked = *in_shop_;
+    asked.deadline = request.deadline;
+    asked.next = request.next;
+    asked.from = request.from;
     std::size_t heard = 0;
     const auto at_hand = [&]() -> Outcome<const model::Plan*> {
       if (plan.empty()) {
@@ -181,7 +197,7 @@ Code Session::bind_as(std::string plan, Request request) {
           [&]() -> Outcome<const model::Plan*> { return failed(stopped_call("plan"), Code::kImpossible); });
     }();
     if (at_hand && request.next) goes_on_ = true;
-    auto bound = at_hand ? bind_in(*shop_, request, **at_hand, began, job)
+    auto bound = at_hand ? bind_in(*shop_, asked, **at_hand, began, job)
                          : Outcome<Planned>(tl::unexpected(at_hand.error()));
     const auto said = job.take_diagnostics();
     for (std::size_t i = heard; i < said.size(); ++i) message_ += to_text(said[i]) + "\n";

@@ -26,7 +26,8 @@ class Session {
  public:
   explicit Session(std::string sign = {}) { request_.sign = std::move(sign); }
 
-  /// Sets an option by its name (options.h). One that the shop depends on opens it anew at the next call.
+  /// Sets an option by its name (options.h). One that the shop depends on opens it anew at the next call, and
+  /// reads the shop's settings (the option `shop`) anew.
   Code set(std::string_view name, const std::string& text);
   /// Opens the shop, so that the first `bind` need not.
   Code open();
@@ -84,7 +85,8 @@ class Session {
   };
   [[nodiscard]] Outcome<const model::Plan*> read(std::string plan, Job& job);
 
-  Request request_;
+  Request request_;                 ///< as the caller set it
+  std::optional<Request> in_shop_;  ///< with what its shop file says beside it; nothing: not read yet
   Job::Progress progress_;
   std::optional<pipeline::Inputs> shop_;
   std::shared_ptr<memo::Memo> memo_ = std::make_shared<memo::Memo>();    ///< of all shops that name no folder

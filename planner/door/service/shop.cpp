@@ -10,12 +10,15 @@
 
 #include "planner/controls/controls.h"
 #include "planner/door/service/edits/edits_file.h"
+#include "planner/door/service/edits/known_names.h"
 #include "planner/door/service/options.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/making/given/edits/value_limits.h"
 #include "planner/making/given/tool_material.h"
+#include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "rules/engine/check.h"
 #include "rules/rules.h"
@@ -258,22 +261,31 @@ std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
   return file.error();
 }
 
-/// What the operator wants: a file says all of it, but for what the caller adds; without a file what the plan
-/// was made with holds, too.
-Result<std::vector<model::Edit>> edits_of(const Request& o, const model::Plan& plan, Job& job) {
+/// The edits of this call: those of its file, then the others.
+Result<std::vector<model::Edit>> edits_of_call(const Request& o, Job& job) {
   std::vector<model::Edit> out;
   if (o.edits_file) {
     auto of_file = load_edits(*o.edits_file, job);
     if (!of_file) return of_file;
     out = *std::move(of_file);
-  } else {
-    out = model::edits_of(plan);
   }
-  const auto same = [](const model::Edit& a, const model::Edit& b) {
-    return a.kind == b.kind && model::text_of(a) == model::text_of(b);
-  };
-  for (const model::Edit& e : o.edits) {
-    if (std::none_of(out.begin(), out.end(), [&](const auto& x) { return same(x, e); })) out.push_back(e);
+  out.insert(out.end(), o.edits.begin(), o.edits.end());
+  return out;
+}
+
+/// What the operator wants: a file says all of it, but for what the caller adds; without a file what the plan
+/// was made with holds, too. Only what this call names must be known here: what a plan was made without need
+/// not be at the machine that it comes to.
+Result<std::vector<model::Edit>> edits_of(const Request& o, const model::Plan& plan,
+                                          const std::vector<model::Cutter>& library, Job& job) {
+  auto of_call = edits_of_call(o, job);
+  if (!of_call) return of_call;
+  if (auto ok = known_names(*of_call, library, plan); !ok) return tl::unexpected(ok.error());
+  std::vector<model::Edit> out;
+  if (!o.edits_file) out = model::edits_of(plan);
+  for (model::Edit& e : with_tool_names(*std::move(of_call), library, plan)) {
+    if (std::none_of(out.begin(), out.end(), [&](const auto& x) { return model::says_the_same(x, e); }))
+      out.push_back(std::move(e));
   }
   return out;
 }
@@ -354,13 +366,14 @@ Status take_choices(const Request& o, const model::Plan& plan, pipeline::Inputs&
   choices(o, plan, in);
   if (auto wrong = edges_wrong(o, in)) return fail(*std::move(wrong));
   if (o.cases) in.provenance.push_back({"cases", casebase::name_of(*o.cases), "named by the caller"});
-  auto edits = edits_of(o, plan, job);
+  auto edits = edits_of(o, plan, in.library, job);
   if (!edits) return tl::unexpected(edits.error());
   in.edits = *std::move(edits);
+  if (auto ok = given::within_machine(in.edits, in.machine, plan.file_name); !ok) return ok;
   if (o.edits_file)
     in.provenance.push_back(
         {std::string(model::kEditsFile), *o.edits_file, option(o, "edits " + *o.edits_file)});
-  return known_names(in.edits, in.library, plan);
+  return {};
 }
 
 Result<pipeline::Inputs> gather(const Request& o, const model::Plan& plan, Job& job) {

@@ -12,6 +12,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/decision/fresh_edits.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/physics/motion/time.h"
 
@@ -361,7 +362,7 @@ class Writer {
       if (!model::is_written(plan_.ledger, known)) continue;
       // What the value is as it is written, so that a reader sees whether somebody changed it since.
       model::Decision decision = known;
-      decision.value_hash = model::hash_attribute(plan_.model, key.object, key.attribute);
+      decision.value_hash = model::written_hash(plan_.model, plan_.ledger, key, known);
       out_.open('{', false);
       FieldWriter each{*this};
       fields(each, key);

@@ -72,7 +72,7 @@ struct StepDraft {
   std::optional<bool> inwards = {};
   std::vector<std::size_t> after;            ///< indices of the steps that must come before; chain order
   std::string unreadable = {};               ///< what its file states wrongly of it or its feature: not made
-  model::EditLimits limits = {};             ///< of the operator, on its feed, speed and depth
+  model::EditLimits limits = {};             ///< of the operator, on its feed and speed
   std::optional<ProbingDraft> probing = {};  ///< measured right before this step, if it can be
 };
 

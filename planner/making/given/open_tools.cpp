@@ -170,6 +170,13 @@ bool select_one(model::Plan& plan, StepDraft& step, std::vector<std::string>& us
                               : model::allowed(*choice.edits, draft::edit_names(plan.model, step),
                                                choice.usable, requirement->classes, kept, barred);
   auto s = tooling::select(*requirement, usable, plan.material, plan.machine, wanted);
+  // Nouns say less of a tool than the rules that planning chose it by: what they leave out may bar all.
+  if (s.ranked.empty() && model::by_planning(plan.ledger.find(step.operation, "its_tool"))) {
+    if (const auto asked = asked_by_rules(choice, step)) {
+      auto by_rules = tooling::select(*asked, usable, plan.material, plan.machine, wanted);
+      if (!by_rules.ranked.empty()) s = std::move(by_rules);
+    }
+  }
   s.rejected.insert(s.rejected.end(), barred.begin(), barred.end());
   if (!step.shapes.empty())
     step::weigh_by_cases(choice.cases, plan, step::of_step(plan.model, step), step.shapes.front(), s);

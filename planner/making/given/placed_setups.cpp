@@ -64,6 +64,31 @@ void tell_offset(const model::Plan& plan, AnyRef setup, const model::WorkpieceSe
   job.report(std::move(d));
 }
 
+/// Other workpieces of a set-up are not made by this plan: neither planned nor cleared by its moves.
+void tell_other_pieces(const model::Plan& plan, AnyRef setup, const model::Workpiece* made, Job& job) {
+  const model::Model& m = plan.model;
+  const model::WorkpieceSetup* taken = model::piece_in_setup(m, setup, made);
+  const auto name_of_piece = [&](const model::WorkpieceSetup& piece) {
+    const auto* w = m.get<model::Workpiece>(piece.its_workpiece);
+    return "'" + (w == nullptr ? std::string() : w->its_id.value_or("")) + "'";
+  };
+  std::string others;
+  std::size_t n = 0;
+  for (const auto& item : m.get<model::Setup>(setup)->its_workpiece_setup.items) {
+    const auto* piece = m.get<model::WorkpieceSetup>(item);
+    if (piece == nullptr || piece == taken) continue;
+    others += (others.empty() ? "" : ", ") + name_of_piece(*piece);
+    ++n;
+  }
+  if (n == 0) return;
+  Diagnostic d = about(plan, setup, "PIP-WORKPIECES", Severity::kWarning,
+                       name_of(plan, setup) + " holds " + std::to_string(n + 1) + " workpieces; only " +
+                           name_of_piece(*taken) + " is planned and checked, and nothing is known of where " +
+                           others + (n == 1 ? " stands" : " stand"));
+  d.hint = "plan each workpiece as a project of its own, or keep the rapid moves clear of the others by hand";
+  job.report(std::move(d));
+}
+
 /// A security plane as a height of the program; nothing where it is not level there.
 std::optional<double> security_height(const Placement& turn, const Placement& plane) {
   const Placement there = compose(turn, plane);
@@ -169,7 +194,10 @@ Status place_setup(const model::Plan& plan, SetupDraft& s, Job& job) {
   const auto turn = model::turn_of_setup(m, s.setup);
   if (!turn) return tl::unexpected(turn.error());
   tell_turn(plan, *setup, *turn, job);
-  if (const auto* piece = model::piece_in_setup(m, s.setup, made)) tell_offset(plan, s.setup, *piece, job);
+  if (const auto* piece = model::piece_in_setup(m, s.setup, made)) {
+    tell_offset(plan, s.setup, *piece, job);
+    tell_other_pieces(plan, s.setup, made, job);
+  }
   if (const auto* plane = m.get<model::ElementarySurface>(setup->its_secplane)) {
     const auto at = model::placement(m, plane->position);
     if (!at) return tl::unexpected(at.error());

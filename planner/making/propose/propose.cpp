@@ -21,6 +21,7 @@
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/resources/changed_by_hand.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"
@@ -253,6 +254,35 @@ class Proposer {
     return {};
   }
 
+  /// Where only the operator's edits leave no chain: which these are, and what to do; empty: they do not.
+  std::string ruled_out_by_edits(const model::Proposal& p, const FeatureShape& s, const Member& member,
+                                 const rules::Context& context) const {
+    if (choice_.edits == nullptr) return {};
+    Choice free = choice_;
+    free.edits = nullptr;
+    Job silent;
+    const InCorners without = choose_in_corners(free, sources_.rules, context, p, s, member,
+                                                out_.drafts.steps, out_.drafts.used, silent);
+    if (without.chosen.chain == nullptr) return {};
+    std::string words;
+    std::size_t n = 0;
+    for (const model::Edit& e : *choice_.edits) {
+      const bool chooses = e.kind == model::EditKind::kForbid || model::is_tool_limit(e);
+      const auto feature = draft::feature_name(plan_.model, member.feature);
+      const bool meant = std::any_of(p.chains.begin(), p.chains.end(), [&](const auto& chain) {
+        return std::any_of(chain.begin(), chain.end(), [&](const model::ProposedStep& step) {
+          return model::names(e.where, model::StepNames{feature, step.name});
+        });
+      });
+      if (!chooses || !meant) continue;
+      words += (words.empty() ? "" : "; ") + model::words_of(e);
+      ++n;
+    }
+    if (n == 0) return {};
+    return words + (n == 1 ? " leaves" : " leave") + " no way to make it that works; take " +
+           (n == 1 ? "it" : "one of them") + " back, or rule out less";
+  }
+
   std::vector<std::size_t> shape(AnyRef f, const FeatureShape& given, const model::Proposal& proposed,
                                  const rules::Context& context) {
     std::string why = swallowed(given);
@@ -283,6 +313,12 @@ class Proposer {
                                 out_.drafts.used, job_);
     const Chosen& chosen = found.chosen;
     const std::vector<model::Rejected>& rejected = found.rejected;
+    if (chosen.chain == nullptr) {
+      if (const std::string edits = ruled_out_by_edits(p, s, member, context); !edits.empty()) {
+        fail_member(f, given, edits);
+        return {};
+      }
+    }
     if (chosen.chain == nullptr || found.rest) {
       for (model::NeededTool& n : needed_tools(choice_, p, s, member, out_.drafts.used)) {
         if (found.drawn_square.empty()) out_.drafts.needed.push_back(std::move(n));

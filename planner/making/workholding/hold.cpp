@@ -7,6 +7,8 @@
 #include "planner/ground/base/nearest_names.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/making/workholding/place.h"
+#include "planner/model/features/raw_piece.h"
+#include "planner/model/features/setup_place.h"
 #include "planner/model/plan/resources/setup_position.h"
 #include "tooling/shop/data/tree.h"
 #include "tooling/shop/fixtures/fixtures.h"
@@ -379,10 +381,14 @@ void write_nouns(model::Plan& plan, const std::vector<SetupDraft>& setups, std::
   usage.workpiece_reference = frame(s.holding.pickup);
   const auto usage_ref = m.add(usage);
   m.at<model::Setup>(s.setup).its_fixture_usage = usage_ref;
-  model::Ref<model::WorkpieceSetup> piece;
-  if (!m.at<model::Setup>(s.setup).its_workpiece_setup.items.empty())
-    piece = model::Ref<model::WorkpieceSetup>(m.at<model::Setup>(s.setup).its_workpiece_setup.items.front());
-  if (m.get<model::WorkpieceSetup>(piece) == nullptr) return;
+  // Of several workpieces in the set-up it holds the one that the project makes.
+  const auto* held = model::piece_in_setup(m, s.setup, model::workpiece_of(m, plan.project));
+  const auto& pieces = m.at<model::Setup>(s.setup).its_workpiece_setup.items;
+  const auto at_piece = std::find_if(pieces.begin(), pieces.end(), [&](const auto& r) {
+    return held != nullptr && m.get<model::WorkpieceSetup>(r) == held;
+  });
+  if (at_piece == pieces.end()) return;
+  const model::Ref<model::WorkpieceSetup> piece(*at_piece);
   auto kept = m.at<model::WorkpieceSetup>(piece).its_instructions;
   std::erase_if(kept.items, [&](const auto& r) {
     const auto* old = m.get<model::SetupInstruction>(r);

@@ -175,7 +175,7 @@ TEST(PartlyBound, TheEditedStepItselfMayBeBoundAgainAndThenNothingIsEdited) {
   ASSERT_TRUE(then) << to_text(then.error());
 }
 
-TEST(PartlyBound, AnEditOfAWrittenPlanIsFreshWhenItIsReadAndNotWhenItIsReadAgain) {
+TEST(PartlyBound, AnEditOfAWrittenPlanIsFreshUntilThePlanIsBound) {
   std::string text = json_of(bound().three);
   const auto* ws = bound().three.model.get<model::MachiningWorkingstep>(bound().three.steps[1].step);
   const auto* op = bound().three.model.get<model::MachiningOperation>(ws->its_operation);
@@ -197,9 +197,22 @@ TEST(PartlyBound, AnEditOfAWrittenPlanIsFreshWhenItIsReadAndNotWhenItIsReadAgain
   auto edit = pipeline::read_plan(text, "plan.json", job);
   ASSERT_TRUE(edit);
   EXPECT_EQ(model::fresh_edits(edit->ledger).size(), 1U);
-  auto later = pipeline::read_plan(json_of(*edit), "plan.json", job);
-  ASSERT_TRUE(later);
-  EXPECT_TRUE(model::fresh_edits(later->ledger).empty());
+  // Whoever writes the plan anew, as JSON or as another form, has not bound it with the edit.
+  for (const auto format : {pipeline::Format::kJson, pipeline::Format::kIso14649, pipeline::Format::kAp238}) {
+    auto written = pipeline::write_plan(*edit, format, job);
+    ASSERT_TRUE(written) << to_text(written.error());
+    auto later = pipeline::read_plan(*std::move(written), "plan", job);
+    ASSERT_TRUE(later) << to_text(later.error());
+    EXPECT_EQ(model::fresh_edits(later->ledger).size(), 1U) << static_cast<int>(format);
+    if (format == pipeline::Format::kJson) {
+      const auto refused = bind(*later, shop_of(bound().table), next(1, 4), job);
+      ASSERT_FALSE(refused);
+      EXPECT_EQ(refused.error().code, "LATE-EDITED");
+    }
+    const auto planned = pipeline::bind(*later, shop_of(bound().table), {}, job);
+    ASSERT_TRUE(planned) << to_text(planned.error());
+    EXPECT_TRUE(model::fresh_edits(planned->ledger).empty());
+  }
 }
 
 }  // namespace

@@ -278,5 +278,44 @@ TEST(PlacedSetups, CoordinatesThatNoMachineHasAreOneErrorWithNameAndLimit) {
   }
 }
 
+/// The block beside a second workpiece, which its set-up names first.
+model::Plan beside_another() {
+  std::string text = block::part_text(kFeatures +
+                                      "#94=WORKPIECE_SETUP(#95,#28,$,$,());\n"
+                                      "#95=WORKPIECE('SECOND',#6,0.1,#5,$,$,());\n");
+  const std::string from = "#31,(#9))";
+  const auto where = text.find(from);
+  EXPECT_NE(where, std::string::npos);
+  Job job;
+  auto plan = read_plan(text.replace(where, from.size(), "#31,(#94,#9))"), "part.p21", job);
+  EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  return plan ? *std::move(plan) : model::Plan{};
+}
+
+TEST(PlacedSetups, ASecondWorkpieceInASetUpIsTold) {
+  const auto made = block::bound(beside_another());
+  EXPECT_TRUE(told(made.said, "PIP-WORKPIECES")) << made.said;
+  EXPECT_TRUE(told(made.said, "holds 2 workpieces; only 'PART' is planned")) << made.said;
+  EXPECT_TRUE(told(made.said, "'SECOND'")) << made.said;
+  EXPECT_FALSE(told(block::bound(block::read(kFeatures)).said, "PIP-WORKPIECES"));
+}
+
+TEST(PlacedSetups, WhatHoldsThePieceIsSaidOfItAndNotOfTheFirst) {
+  Inputs in = block::shop();
+  in.workholding = "auto";
+  const auto made = block::bound(beside_another(), in);
+  const model::Model& m = made.plan.model;
+  std::size_t said = 0;
+  for (const auto r : m.all(model::TypeId::kWorkpieceSetup)) {
+    const auto* piece = m.get<model::WorkpieceSetup>(r);
+    const auto* of = m.get<model::Workpiece>(piece->its_workpiece);
+    ASSERT_NE(of, nullptr);
+    const bool instructed = !piece->its_instructions.items.empty();
+    EXPECT_EQ(instructed, of->its_id == "PART") << of->its_id.value_or("");
+    said += instructed ? 1 : 0;
+  }
+  EXPECT_EQ(said, 1U);
+}
+
 }  // namespace
 }  // namespace capstan::pipeline

@@ -69,6 +69,32 @@ TEST(Session, ATransportOfLinesIsOneFunctionOverIt) {
   EXPECT_EQ(text.substr(text.size() - size, 17), "(CAPSTAN PROGRAM ");
 }
 
+TEST(Session, TakesTheShopsSettingsWhereAnOptionIsNotSet) {
+  const capstan::testing::ScratchFolder scratch;
+  const std::string shop = scratch.file("shop.yaml");
+  const auto settings = [&](const std::string& text) {
+    std::ofstream(shop, std::ios::trunc) << "capstan_shop: 1\n" << text;
+  };
+  settings("machine: small_router\nmargin: careful\n");
+  const std::string plan = testing::slurp(kSource + "/examples/plate_bound.p21");
+  Session s;
+  ASSERT_EQ(s.set("shop", shop), Code::kDone);
+  ASSERT_EQ(s.set("tools", kSource + "/tests/door/late/magazine.tbl"), Code::kDone);
+  ASSERT_EQ(s.open(), Code::kDone) << s.message();
+  ASSERT_EQ(s.set("threads", "1"), Code::kDone) << "an option of one call keeps the settings";
+  // Its spindle turns too fast for the plan's drills.
+  EXPECT_NE(s.bind(plan, std::nullopt), Code::kDone);
+  EXPECT_NE(s.message().find("machine 'small_router'"), std::string::npos) << s.message();
+  // An option that is set wins; settings that are wrong are named.
+  ASSERT_EQ(s.set("machine", "generic_vmc"), Code::kDone);
+  ASSERT_EQ(s.bind(plan, std::nullopt), Code::kDone) << s.message();
+  EXPECT_EQ(s.output("json")->find("small_router"), std::string::npos);
+  settings("machin: small_router\n");
+  ASSERT_EQ(s.set("shop", shop), Code::kDone);
+  EXPECT_EQ(s.open(), Code::kUsage);
+  EXPECT_NE(s.message().find("shop.yaml:2"), std::string::npos) << s.message();
+}
+
 TEST(Session, OpensItsShopOnceAndAnewAfterAnOption) {
   Session s;
   ASSERT_EQ(s.set("machine", "no such machine"), Code::kDone);

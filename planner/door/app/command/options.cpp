@@ -8,13 +8,13 @@
 #include <sstream>
 #include <tuple>
 
+#include "planner/door/app/command/raw_options.h"
 #include "planner/door/app/command/reference.h"
 #include "planner/door/app/command/run.h"
 #include "planner/door/app/command/usage/examples.h"
 #include "planner/door/app/command/usage/mistyped.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
-#include "planner/making/optimise/solver/solvers.h"
 
 // The one file that knows CLI11.
 
@@ -31,14 +31,6 @@ constexpr const char* kQueries = R"(PATH walks the application objects, the same
   //round_hole[diameter.theoretical_size > 10]/its_id
   //machining_workingstep[its_feature is pocket and its_operation.its_tool]/its_id
 Numbers are in mm, rad, mm/min, 1/min and s. The whole grammar: docs/inspect.md)";
-
-/// Texts as CLI11 gives them, before they mean anything.
-struct Raw {
-  std::string file, diagnostics = "text", progress = "auto";
-  std::map<std::string_view, std::string> of;  ///< by the name of the service's option
-  std::map<std::string_view, bool> flags;
-  std::map<std::string_view, std::vector<std::string>> lists;  ///< of options that may be repeated
-};
 
 constexpr std::string_view kCases = "cases";  // the option that names a case base
 
@@ -125,7 +117,8 @@ class CommandLine {
       if (code == 0) return {std::nullopt, {kDone, text.str(), {}}};
       return wrong_usage(text.str(), e.what(), argc, argv);
     }
-    const std::string wrong = understand();
+    std::string wrong = empty_value(app_);
+    if (wrong.empty()) wrong = understand(raw_, out_);
     if (!wrong.empty())
       return {
           std::nullopt,
@@ -471,37 +464,8 @@ class CommandLine {
     }
     return {};
   }
-  /// The fault of the command line; empty: none.
-  std::string understand() {
-    if (!raw_.file.empty()) out_.files = {raw_.file};
-    if (std::string wrong = empty_value(app_); !wrong.empty()) return wrong;
-    service::Request& request = out_.inputs;
-    for (const service::Option& o : service::options()) {
-      if (const auto list = raw_.lists.find(o.name); list != raw_.lists.end()) {
-        for (const std::string& text : list->second) {
-          if (auto ok = service::set(request, o.name, text); !ok) return ok.error().message;
-          if (out_.command == Command::kServe) out_.serve.session.emplace_back(o.name, text);
-        }
-        continue;
-      }
-      std::string text;
-      if (const auto flag = raw_.flags.find(o.name); flag != raw_.flags.end() && flag->second) text = "yes";
-      if (const auto at = raw_.of.find(o.name); at != raw_.of.end()) text = at->second;
-      if (text.empty()) continue;
-      if (auto ok = service::set(request, o.name, text); !ok) return ok.error().message;
-      if (out_.command == Command::kServe) out_.serve.session.emplace_back(o.name, text);
-    }
-    if (std::string wrong = service::contradiction(request); !wrong.empty()) return wrong;
-    request.backends = optimise::all_backends();
-    out_.json_diagnostics = raw_.diagnostics == "json";
-    out_.progress = raw_.progress == "json"   ? ProgressTold::kJson
-                    : raw_.progress == "none" ? ProgressTold::kNone
-                                              : ProgressTold::kAuto;
-    return {};
-  }
-
   CLI::App app_;
-  Raw raw_;
+  RawOptions raw_;
   Options out_;
 };
 

@@ -5,7 +5,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include "planner/door/app/command/finish.h"
@@ -90,14 +92,28 @@ int dispatch(Session& s) {
   return kUsage;
 }
 
-/// Files that a call reads: an output of the same name would overwrite them.
+/// A file, or of a folder the files in it and below.
+void add_files(const std::string& path, std::vector<std::string>& out) {
+  out.push_back(path);
+  constexpr std::size_t kMost = 10'000;  // of a folder; default, unsourced: more are no rules and no tools
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return;
+  std::size_t n = 0;
+  for (auto at = std::filesystem::recursive_directory_iterator(path, error);
+       !error && at != std::filesystem::recursive_directory_iterator() && n < kMost; at.increment(error), ++n)
+    out.push_back(at->path().string());
+}
+
+/// Files that a call reads, those among them that the shop's settings name: an output of the same name would
+/// overwrite them.
 std::vector<std::string> read_by(const Options& o) {
   std::vector<std::string> out = o.files;
   const service::Request& in = o.inputs;
-  for (const auto& path :
-       {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding, in.edits_file, in.shop}) {
-    if (path) out.push_back(*path);
+  for (const auto& path : {in.machine, in.tools, in.material, in.rules, in.cases, in.workholding,
+                           in.edits_file, in.shop, in.profile}) {
+    if (path) add_files(*path, out);
   }
+  for (const std::string& path : in.materials) add_files(path, out);
   for (const std::string& path : {o.tools.column_map, o.log.plan, o.log.program, o.log.inspection}) {
     if (!path.empty()) out.push_back(path);
   }
@@ -116,18 +132,27 @@ int in_shop(Session& s) {
     case Command::kToolsShow:
     case Command::kToolsExport:
     case Command::kShopShow:
+    case Command::kServe:
       break;
     default:
       return kDone;
   }
-  if (!in.shop) in.shop = service::found_shop();
+  if (!in.shop) {
+    auto found = service::found_shop();
+    if (!found) return s.end(found.error(), kUsage);
+    in.shop = *std::move(found);
+    // Each session of a server reads it for itself.
+    if (in.shop && s.options.command == Command::kServe)
+      s.options.serve.session.emplace_back("shop", *in.shop);
+  }
   if (s.options.command == Command::kShopShow) return kDone;  // says all of it
   auto with = service::with_shop(in, s.job);
   if (!with) return s.end(with.error(), kUsage);
   in = *std::move(with);
-  if (in.from_shop.empty()) return kDone;
+  if (in.from_shop.empty() && in.materials.empty()) return kDone;
   std::string entries;
   for (const auto& [name, file] : in.from_shop) entries += (entries.empty() ? "" : ", ") + name;
+  if (!in.materials.empty()) entries += (entries.empty() ? "" : ", ") + std::string("materials");
   s.job.note("SHOP", "settings of " + *in.shop + ": " + entries + "; --shop none leaves them out");
   return kDone;
 }

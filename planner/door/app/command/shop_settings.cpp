@@ -115,7 +115,7 @@ int run_shop_init(Session& s) {
                   .file = path,
                   .hint = "edit it, or name another with -o"},
                  kUsage);
-  const auto text = service::shop_template(s.options.words);
+  const auto text = service::shop_template(s.options.words, path, s.job);
   if (!text) return s.end(text.error(), kUsage);
   if (auto ok = write_file(path, *text); !ok) return s.end(ok.error(), kUsage);
   s.summary = "wrote " + path + "; take the # off what else is to hold";

@@ -1,15 +1,11 @@
 #include "planner/door/service/edits/edits_file.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "planner/door/service/edits/yaml_text.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
-#include "planner/ground/base/text.h"
-#include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/edit/restrictions.h"
 #include "tooling/shop/data/tree.h"
 
 namespace capstan::service {
@@ -17,7 +13,6 @@ namespace {
 
 using model::Edit;
 using model::EditKind;
-using model::EditOf;
 using tooling::Node;
 
 constexpr const char* kShape =
@@ -38,7 +33,8 @@ Result<Edit> edit_of(const Node& n, const std::string& file, std::size_t number)
     known.emplace_back(to_text(kind));
     if (known.back() != word) continue;
     if (value.kind != Node::Kind::kScalar)
-      return fail(fault(file, value.line, "edit " + std::to_string(number) + ": its text is no text"));
+      return fail(
+          fault(file, value.line, "edit " + std::to_string(number) + ": its text is a list or a map"));
     auto e = model::parse_edit(
         kind, value.text,
         "edit " + std::to_string(number) + " of " + std::filesystem::path(file).filename().string());
@@ -54,68 +50,6 @@ Result<Edit> edit_of(const Node& n, const std::string& file, std::size_t number)
   return fail(std::move(d));
 }
 
-std::vector<std::string> operation_words() {
-  std::vector<std::string> out;
-  for (std::size_t i = 0; i < model::kTypeCount; ++i) {
-    const auto type = static_cast<model::TypeId>(i);
-    if (!model::is_a(type, model::TypeId::kMachiningOperation)) continue;
-    if (!model::noun_type(type).keyword.empty()) out.push_back(lower_text(model::noun_type(type).keyword));
-  }
-  return out;
-}
-
-std::vector<std::string> strategy_words() {
-  std::vector<std::string> out;
-  for (int k = 1; k <= static_cast<int>(model::StrategyKind::kCenterMilling); ++k)
-    out.emplace_back(model::word_of(static_cast<model::StrategyKind>(k)));
-  out.emplace_back(model::kConstantEngagementWord);
-  return out;
-}
-
-bool is_number(std::string_view value) {
-  return value.size() > 1 && value.front() == 'T' &&
-         std::all_of(value.begin() + 1, value.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-Status known_word(const Edit& e, std::string_view what, const std::vector<std::string>& words) {
-  const std::string value = lower_text(e.value);
-  if (std::any_of(words.begin(), words.end(), [&](const std::string& w) { return model::names(value, w); }))
-    return {};
-  Diagnostic d = unknown_name(what, e.value, words, "capstan plan --help");
-  d.message = words_of(e) + ": " + d.message;
-  for (const std::string& w : words) d.expected += (d.expected.empty() ? "" : ", ") + w;
-  return fail(std::move(d));
-}
-
-Status known_tool(const Edit& e, const std::vector<model::Cutter>& library, const model::Plan& plan) {
-  if (e.value.empty()) return {};
-  std::vector<std::string> known;
-  bool numbers = false;
-  for (const auto* cutters : {&library, &plan.cutters}) {
-    for (const model::Cutter& c : *cutters) {
-      known.push_back(c.id);
-      if (c.pocket <= 0) continue;
-      numbers = true;
-      known.push_back("T" + std::to_string(c.pocket));
-    }
-  }
-  const auto means = [&](const std::string& k) {
-    return k == e.value || (e.kind == EditKind::kForbid && model::names(e.value, k));
-  };
-  if (std::any_of(known.begin(), known.end(), means)) return {};
-  if (is_number(e.value) && !numbers) {
-    // The numbers of a plan are known when it is planned without what is set.
-    if (e.kind != EditKind::kForbid) return {};
-    return fail(
-        {.code = "EDIT-NUMBER",
-         .message = words_of(e) + ": the library gives its tools no numbers",
-         .hint = "forbid the tool by its name (capstan tools list), or name a list with tool numbers"});
-  }
-  Diagnostic d = unknown_name("tool", e.value, known, "capstan tools list");
-  d.message = words_of(e) + ": " + d.message;
-  return fail(std::move(d));
-}
-
 }  // namespace
 
 Result<std::vector<Edit>> read_edits(std::string_view text, const std::string& file, Job& job) {
@@ -125,15 +59,19 @@ Result<std::vector<Edit>> read_edits(std::string_view text, const std::string& f
   const Node* list = root->find("edits");
   const Node* version = root->find("capstan_edits");
   if (root->kind != Node::Kind::kMap || list == nullptr || version == nullptr)
-    return fail(fault(file, root->line, "no edits: capstan_edits and edits are wanted"));
+    return fail(
+        fault(file, root->line,
+              "it does not say that it holds edits: the entries capstan_edits and edits are missing"));
   if (version->text != std::to_string(kEditsVersion))
-    return fail(fault(file, version->line, "version '" + version->text + "' is not known"));
+    return fail(fault(file, version->line,
+                      "version '" + version->text + "' of a file of edits is not known; this program reads " +
+                          std::to_string(kEditsVersion)));
   for (const auto& [key, node] : root->entries) {
     if (key != "edits" && key != "capstan_edits")
-      faults.push_back(fault(file, node.line, "'" + key + "' is not known"));
+      faults.push_back(fault(file, node.line, "the entry '" + key + "' is not known"));
   }
   if (list->kind != Node::Kind::kList && list->kind != Node::Kind::kNull)
-    faults.push_back(fault(file, list->line, "edits is no list"));
+    faults.push_back(fault(file, list->line, "edits is not a list"));
   if (list->items.size() > kMostEdits)
     return fail(fault(file, list->line, "more than " + std::to_string(kMostEdits) + " edits"));
   std::vector<Edit> out;
@@ -161,19 +99,6 @@ std::string edits_text(const std::vector<Edit>& edits) {
   for (const Edit& e : edits)
     out += "  - " + std::string(to_text(e.kind)) + ": " + yaml_text(model::text_of(e)) + "\n";
   return out;
-}
-
-Status known_names(const std::vector<Edit>& edits, const std::vector<model::Cutter>& library,
-                   const model::Plan& plan) {
-  for (const Edit& e : edits) {
-    if (e.kind == EditKind::kLimit || e.kind == EditKind::kOrder) continue;
-    Status ok;
-    if (e.of == EditOf::kTool) ok = known_tool(e, library, plan);
-    if (e.of == EditOf::kOperation) ok = known_word(e, "kind of operation", operation_words());
-    if (e.of == EditOf::kStrategy) ok = known_word(e, "strategy", strategy_words());
-    if (!ok) return ok;
-  }
-  return {};
 }
 
 }  // namespace capstan::service

@@ -7,7 +7,6 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/edit/edit.h"
-#include "planner/model/plan/plan.h"
 
 // Edits as a file beside the plan (docs/edits.schema.json): what a person decides outlives each planning.
 //
@@ -33,11 +32,5 @@ inline constexpr std::size_t kMostEdits = 10000;
 
 /// What `read_edits` reads as the same edits, but for where they are from.
 [[nodiscard]] std::string edits_text(const std::vector<model::Edit>& edits);
-
-/// Whether names that edits use are known before anything is planned: tools (a number only where the library
-/// or the plan has numbers), kinds of operations, strategies.
-/// Fails  NAME-UNKNOWN with those that may be meant; EDIT-NUMBER for a tool number that nothing gives yet.
-[[nodiscard]] Status known_names(const std::vector<model::Edit>& edits,
-                                 const std::vector<model::Cutter>& library, const model::Plan& plan);
 
 }  // namespace capstan::service

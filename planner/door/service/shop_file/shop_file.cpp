@@ -6,14 +6,17 @@
 #include <filesystem>
 #include <map>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "planner/door/service/edits/yaml_text.h"
 #include "planner/door/service/options.h"
+#include "planner/door/service/shop.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "tooling/shop/data/tree.h"
+#include "tooling/shop/material/material.h"
 
 namespace capstan::service {
 namespace {
@@ -63,17 +66,22 @@ Result<Node> root_of(std::string_view text, const std::string& file) {
   auto root = tooling::parse_tree(text, file);
   if (!root) return tl::unexpected(root.error());
   const Node* version = root->kind == Node::Kind::kMap ? root->find(kVersionKey) : nullptr;
-  if (version == nullptr) return fail(fault(file, root->line, "no shop's settings: capstan_shop is wanted"));
+  if (version == nullptr)
+    return fail(fault(file, root->line,
+                      "it does not say that it holds a shop's settings: the entry capstan_shop is missing"));
   if (version->text != "1")
-    return fail(fault(file, version->line, "version '" + version->text + "' is not known"));
+    return fail(
+        fault(file, version->line,
+              "version '" + version->text + "' of a shop's settings is not known; this program reads 1"));
   return root;
 }
 
 Status take_materials(Request& r, const std::string& file, const Node& value) {
-  if (value.kind != Node::Kind::kList) return fail(fault(file, value.line, "materials is no list of files"));
+  if (value.kind != Node::Kind::kList)
+    return fail(fault(file, value.line, "materials is not a list of files, e.g. [bronze.yaml]"));
   for (const Node& n : value.items) {
     if (n.kind != Node::Kind::kScalar || n.text.empty())
-      return fail(fault(file, n.line, "an entry of materials is no file"));
+      return fail(fault(file, n.line, "an entry of materials is not the name of a file"));
     r.materials.push_back(placed(file, "material", n.text));
   }
   return {};
@@ -88,7 +96,8 @@ Status take_entry(Request& r, const std::string& file, const std::string& key, c
     d.line = value.line;
     return fail(std::move(d));
   }
-  if (value.kind != Node::Kind::kScalar) return fail(fault(file, value.line, key + " is no text"));
+  if (value.kind != Node::Kind::kScalar)
+    return fail(fault(file, value.line, key + " takes one value, not a list or a map"));
   if (r.given.contains(key)) return {};
   if (key == "control" && r.given.contains("machine")) {
     job.note("SHOP-CONTROL",
@@ -115,17 +124,42 @@ Status take_entry(Request& r, const std::string& file, const std::string& key, c
 
 namespace {
 
-/// Whether a file says that it is a shop's settings: a line begins with the key of their version.
-bool says_it_is_a_shop(const fs::path& path) {
+/// Whether a file is there that says that it is a shop's settings.
+Result<bool> is_shop(const fs::path& path) {
+  Diagnostic wrong = {.code = "SHOP-FILE",
+                      .message = "the shop's settings cannot be looked at",
+                      .file = path.string(),
+                      .hint = "mend or rename the file, or leave the shop's settings out: --shop none"};
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(path, error);
+  if (there.type() == fs::file_type::not_found || there.type() == fs::file_type::directory) return false;
+  if (there.type() == fs::file_type::none) {
+    // A folder that this user may not look into is another's: a service keeps the HOME of whom it was begun
+    // by.
+    if (error == std::errc::permission_denied) return false;
+    wrong.message += ": " + error.message();
+    return fail(std::move(wrong));
+  }
+  // A pipe or a device is no file of settings, nor is what a link leads to, but for a file.
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return false;
   const auto text = read_file(path.string(), tooling::kDataFileCap);
-  if (!text) return true;  // why it cannot be read is to be told
-  const std::string key(kVersionKey);
-  return text->starts_with(key) || text->find("\n" + key) != std::string::npos;
+  if (!text) {
+    Diagnostic d = text.error();
+    d.hint = wrong.hint;
+    return fail(std::move(d));
+  }
+  const auto root = tooling::parse_tree(*text, path.string());
+  if (!root) {
+    Diagnostic d = root.error();
+    d.hint = wrong.hint;
+    return fail(std::move(d));
+  }
+  return root->kind == Node::Kind::kMap && root->find(kVersionKey) != nullptr;
 }
 
 }  // namespace
 
-std::optional<std::string> found_shop() {
+Result<std::optional<std::string>> found_shop() {
   std::vector<fs::path> places = {kShopFile};
   const char* config = std::getenv("XDG_CONFIG_HOME");
   const char* home = std::getenv("HOME");
@@ -134,9 +168,10 @@ std::optional<std::string> found_shop() {
   } else if (home != nullptr && *home != '\0') {
     places.push_back(fs::path(home) / ".config" / "capstan" / kShopFile);
   }
-  std::error_code error;
   for (const fs::path& p : places) {
-    if (fs::is_regular_file(p, error) && says_it_is_a_shop(p)) return p.string();
+    const auto shop = is_shop(p);
+    if (!shop) return tl::unexpected(shop.error());
+    if (*shop) return p.string();
   }
   return std::nullopt;
 }
@@ -163,7 +198,28 @@ Result<Request> with_shop_text(Request request, std::string_view text, Job& job)
   return request;
 }
 
-Result<std::string> shop_template(const std::vector<std::string>& given) {
+namespace {
+
+/// What no plan would take of a shop's settings; nothing: all of it can be read.
+std::optional<Diagnostic> not_taken(Request request, Job& job) {
+  request.cache.reset();  // a plan makes it where it is not
+  Job reading;            // what is noted or warned of is told when it is used
+  const auto shop = gather(request, model::Plan{}, reading);
+  if (!shop) {
+    for (Diagnostic& d : reading.take_diagnostics()) {
+      if (d.severity == Severity::kError && !(d == shop.error())) job.report(std::move(d));
+    }
+    return shop.error();
+  }
+  if (!shop->material_name) return std::nullopt;
+  const auto material =
+      tooling::find_material({*shop->material_name}, shop->materials, reading, tooling::Families::kRefused);
+  return material ? std::nullopt : std::optional(material.error());
+}
+
+}  // namespace
+
+Result<std::string> shop_template(const std::vector<std::string>& given, const std::string& path, Job& job) {
   std::map<std::string, std::string> values;
   for (const std::string& one : given) {
     const auto sign = one.find('=');
@@ -212,13 +268,18 @@ Result<std::string> shop_template(const std::vector<std::string>& given) {
   entry(kMaterials, "files of materials of the shop's own, which parts may name", "[bronze.yaml]");
   if (!values.empty())
     return fail(unknown_name("entry", values.begin()->first, known_entries(), "capstan shop init"));
-  Job job;
-  if (auto taken = with_shop_text({}, out, job); !taken) {
-    Diagnostic d = taken.error();
-    d.line = 0;
-    return fail(std::move(d));
-  }
-  return out;
+  Request asked;
+  asked.shop = path;
+  Job trial;
+  const auto taken = with_shop_text(asked, out, trial);
+  auto wrong = taken ? not_taken(*taken, trial) : std::optional(taken.error());
+  if (!wrong) return out;
+  const auto unwritten = [&](Diagnostic d) {
+    if (d.file == path) d.line = 0;  // there is no such file
+    return d;
+  };
+  for (Diagnostic& d : trial.take_diagnostics()) job.report(unwritten(std::move(d)));
+  return fail(unwritten(*std::move(wrong)));
 }
 
 Result<std::string> shop_text(const Request& request, Job& job) {

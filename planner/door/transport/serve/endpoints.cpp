@@ -20,14 +20,14 @@ namespace {
 constexpr std::string_view kText = "text/plain; charset=utf-8";
 
 /// Options of a session whose value may be a file.
-constexpr std::array<std::string_view, 7> kFileOptions = {"machine", "tools", "material", "workholding",
-                                                          "rules",   "cases", "cache"};
+constexpr std::array<std::string_view, 9> kFileOptions = {
+    "machine", "tools", "material", "workholding", "rules", "cases", "cache", "shop", "edits"};
 
 /// Another user's process must not have the server read or write files that are not its own.
 bool names_file(const std::string& option, const std::string& value) {
   if (std::find(kFileOptions.begin(), kFileOptions.end(), option) == kFileOptions.end()) return false;
   std::error_code ignored;
-  return option == "rules" || option == "cases" || option == "cache" ||
+  return option == "rules" || option == "cases" || option == "cache" || option == "edits" ||
          value.find('/') != std::string::npos || std::filesystem::exists(value, ignored);
 }
 

@@ -13,6 +13,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/edited.h"
+#include "planner/model/plan/decision/fresh_edits.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/order/workplan_order.h"
 #include "planner/model/plan/resources/workholding_fields.h"
@@ -243,7 +244,7 @@ class Writing {
     for (const auto& [place, entry] : in_order) {
       const auto& [key, decision] = *entry;
       Binding b{key.object, key.attribute, decision, plan_.ledger.reason(decision.reason),
-                hex64(model::hash_attribute(written_, key.object, key.attribute))};
+                hex64(model::written_hash(written_, plan_.ledger, key, decision))};
       std::erase_if(b.decision.depends_on, [&](const auto& k) { return !here(k.object); });
       record("BINDING", key.object, std::move(b));
     }
@@ -347,7 +348,9 @@ class Restoring {
       return true;
     const auto hash = model::hash_from_text(b.hash);
     if (!hash) throw MalformedRecord{};
-    b.decision.value_hash = sealed_ ? model::hash_attribute(plan_.model, b.at, b.attribute) : *hash;
+    // That of an edit that no binding has taken (0) stays.
+    b.decision.value_hash =
+        sealed_ && *hash != 0 ? model::hash_attribute(plan_.model, b.at, b.attribute) : *hash;
     b.decision.reason = plan_.ledger.reason(b.reason);
     std::erase_if(b.decision.depends_on, [](const auto& k) { return !k.object.set(); });
     plan_.ledger.set({b.at, b.attribute}, std::move(b.decision));

@@ -243,7 +243,7 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
     q.deflection_limit_mm = std::max(q.deflection_limit_mm, kWallOfZone * toolpath::kLastSide);
 }
 
-/// The operator's limits: on feed and speed as if the machine did no more, on depth as if a level did not.
+/// The operator's limits on feed and speed, as if the machine did no more.
 void hold_to_edits(const StepDraft& step, optimise::CutQuestion& q) {
   if (const auto most = step.limits.feed_mm_min) {
     for (auto& axis : q.machine.axes)
@@ -252,9 +252,6 @@ void hold_to_edits(const StepDraft& step, optimise::CutQuestion& q) {
   if (const auto most = step.limits.speed_rpm) {
     double& rpm = q.machine.spindle.rpm_max;
     rpm = rpm > 0.0 ? std::min(rpm, *most) : *most;
-  }
-  if (const auto most = step.limits.depth_mm; most && mills(q)) {
-    q.ap_most_mm = q.ap_most_mm > 0.0 ? std::min(q.ap_most_mm, *most) : *most;
   }
 }
 

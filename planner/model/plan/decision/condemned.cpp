@@ -133,7 +133,7 @@ std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>
     const std::string held = edits_of_step(plan, plan.steps[i].step);
     for (const ExceededLimit& l : plan.steps[i].exceeded)
       reasons.add_at(i + 1, "PIP-EXCESS",
-                     text_of(l) + (held.empty() ? "; use a smaller tool or depth" : "; held is " + held));
+                     text_of(l) + (held.empty() ? "; use a smaller tool or depth" : "; held by " + held));
   }
   const auto name_of = [&](AnyRef f) {
     const auto* feature = plan.model.get<ManufacturingFeature>(f);

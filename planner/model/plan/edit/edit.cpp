@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
@@ -59,8 +60,44 @@ auto no_edit(EditKind kind, std::string_view text, std::string what) {
                .expected = kForms.at(static_cast<std::size_t>(kind))});
 }
 
-/// The pattern and the attribute of the part before the sign.
-Result<const Row*> take_attribute(EditKind kind, std::string_view left, Edit& into) {
+constexpr const char* kNotClosed = "its quoted name is empty, or more stands behind it, or it has no end";
+constexpr char kQuote = '"', kEscape = '\\';
+constexpr const char* kQuoting =
+    "a name that holds = or <, or begins with a quote, stands in double quotes: \"A=B\"/feed=900";
+
+/// Takes the double-quoted name that a text begins with off it; a backslash stands before a quote and before
+/// a backslash within. Nothing: the quote is not closed, or holds nothing.
+std::optional<std::string> take_quoted(std::string_view& text) {
+  std::string out;
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] == kQuote) {
+      text = trimmed_text(text.substr(i + 1));
+      return out.empty() ? std::nullopt : std::optional(out);
+    }
+    if (text[i] == kEscape && i + 1 < text.size() && (text[i + 1] == kQuote || text[i + 1] == kEscape)) ++i;
+    out += text[i];
+  }
+  return std::nullopt;
+}
+
+bool is_quoted(std::string_view text) { return !text.empty() && text.front() == kQuote; }
+
+/// A name as an edit's text has it: in quotes where one of `signs` in it, or a blank at an end, would be
+/// taken for something else.
+std::string as_name(std::string_view name, std::string_view signs) {
+  const bool plain = !is_quoted(name) && trimmed_text(name).size() == name.size() &&
+                     name.find_first_of(signs) == std::string_view::npos;
+  if (plain) return std::string(name);
+  std::string out(1, kQuote);
+  for (const char c : name) {
+    if (c == kQuote || c == kEscape) out += kEscape;
+    out += c;
+  }
+  return out + kQuote;
+}
+
+/// The attribute of the part between pattern and sign. `rest`: what stands behind the sign.
+Result<const Row*> take_attribute(EditKind kind, std::string_view left, std::string_view rest, Edit& into) {
   const auto slash = left.rfind('/');
   std::string_view name = left;
   if (slash != std::string_view::npos) {
@@ -75,6 +112,10 @@ Result<const Row*> take_attribute(EditKind kind, std::string_view left, Edit& in
     known.emplace_back(r.name);
   }
   Diagnostic d = unknown_name(std::string(to_text(kind)) + " of", name, known, "capstan plan --help");
+  const std::string_view behind = rest.substr(std::min(rest.size(), rest.rfind('/') + 1));
+  if (slash == std::string_view::npos && rest.find('/') != std::string_view::npos &&
+      std::any_of(known.begin(), known.end(), [&](const std::string& k) { return behind.starts_with(k); }))
+    d.message += std::string(". If '") + std::string(name) + "' is the beginning of a name: " + kQuoting;
   d.expected.clear();
   for (const std::string& k : known) d.expected += (d.expected.empty() ? "" : ", ") + k;
   return fail(std::move(d));
@@ -84,7 +125,13 @@ Status take_value(const Row& row, std::string_view text, Edit& into) {
   if (text.empty()) return no_edit(into.kind, text, "it has no value");
   into.of = row.of;
   into.value = text;
-  if (!row.number) return {};
+  if (!row.number) {
+    if (!is_quoted(text)) return {};
+    auto name = take_quoted(text);
+    if (!name || !text.empty()) return no_edit(into.kind, into.value, kNotClosed);
+    into.value = *std::move(name);
+    return {};
+  }
   const auto v = parse_double(text);
   if (!v || !(*v > 0.0) || *v > kMostNumber)
     return no_edit(into.kind, text,
@@ -94,13 +141,28 @@ Status take_value(const Row& row, std::string_view text, Edit& into) {
   return {};
 }
 
+/// The name up to a sign, or up to the end without one; quoted or not.
+std::optional<std::string> take_name(std::string_view& text, std::string_view sign) {
+  if (is_quoted(text)) return take_quoted(text);
+  const auto end = std::min(text.size(), text.find(sign));
+  std::string out(trimmed_text(text.substr(0, end)));
+  text = text.substr(end);
+  return out;
+}
+
 Result<Edit> parse_order(std::string_view text, Edit out) {
-  const auto sign = text.find('<');
-  if (sign == std::string_view::npos) return no_edit(out.kind, text, "it has no '<'");
-  out.where = trimmed_text(text.substr(0, sign));
-  out.before = trimmed_text(text.substr(sign + 1));
-  if (out.where.empty() || out.before.empty()) return no_edit(out.kind, text, "one side of the '<' is empty");
-  if (out.before.find('<') != std::string::npos) return no_edit(out.kind, text, "it has more than one '<'");
+  constexpr std::string_view kSign = "<";
+  const std::string_view all = text;
+  const auto first = take_name(text, kSign);
+  if (!first) return no_edit(out.kind, all, kNotClosed);
+  if (!text.starts_with(kSign)) return no_edit(out.kind, all, "it has no '<'");
+  text = trimmed_text(text.substr(kSign.size()));
+  const auto second = take_name(text, kSign);
+  if (!second) return no_edit(out.kind, all, kNotClosed);
+  if (first->empty() || second->empty()) return no_edit(out.kind, all, "one side of the '<' is empty");
+  if (!text.empty()) return no_edit(out.kind, all, std::string("it has more than one '<'; ") + kQuoting);
+  out.where = *first;
+  out.before = *second;
   return out;
 }
 
@@ -125,6 +187,16 @@ Result<Edit> parse_edit(EditKind kind, std::string_view text, std::string from) 
   if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
     return no_edit(kind, "", "it holds a control character");
   if (kind == EditKind::kOrder) return parse_order(text, std::move(out));
+  const std::string_view all = text;
+  if (is_quoted(text)) {
+    auto name = take_quoted(text);
+    if (!name) return no_edit(kind, all, kNotClosed);
+    if (!text.starts_with('/')) return no_edit(kind, all, "no '/' stands behind its quoted name");
+    text = trimmed_text(text.substr(1));
+    if (text.find('/') < text.find_first_of("=<>"))
+      return no_edit(kind, all, "its name is quoted in part; quote all of it");
+    out.where = *std::move(name);
+  }
   const bool limit = kind == EditKind::kLimit;
   std::size_t sign = text.find(limit ? "<=" : "="), end = sign + (limit ? 2 : 1);
   if (limit && sign == std::string_view::npos) {
@@ -134,26 +206,26 @@ Result<Edit> parse_edit(EditKind kind, std::string_view text, std::string from) 
   }
   if (sign == std::string_view::npos) {
     if (kind != EditKind::kPin)
-      return no_edit(kind, text, limit ? "it has neither '<=' nor '>='" : "it has no '='");
-    const auto row = take_attribute(kind, text, out);
+      return no_edit(kind, all, limit ? "it has neither '<=' nor '>='" : "it has no '='");
+    const auto row = take_attribute(kind, text, {}, out);
     if (!row) return tl::unexpected(row.error());
     out.of = (*row)->of;
     return out;
   }
-  const auto row = take_attribute(kind, trimmed_text(text.substr(0, sign)), out);
+  const std::string_view value = trimmed_text(text.substr(end));
+  const auto row = take_attribute(kind, trimmed_text(text.substr(0, sign)), value, out);
   if (!row) return tl::unexpected(row.error());
   if (out.at_least && !(*row)->at_least)
-    return no_edit(kind, text, std::string((*row)->name) + " is bounded from above only, by '<='");
-  if (auto ok = take_value(**row, trimmed_text(text.substr(end)), out); !ok)
-    return tl::unexpected(ok.error());
+    return no_edit(kind, all, std::string((*row)->name) + " is bounded from above only, by '<='");
+  if (auto ok = take_value(**row, value, out); !ok) return tl::unexpected(ok.error());
   return out;
 }
 
 std::string text_of(const Edit& e) {
-  if (e.kind == EditKind::kOrder) return e.where + "<" + e.before;
-  std::string out = (e.where == "*" ? "" : e.where + "/") + std::string(word_of(e.of));
+  if (e.kind == EditKind::kOrder) return as_name(e.where, "<") + "<" + as_name(e.before, "<");
+  std::string out = (e.where == "*" ? "" : as_name(e.where, "=<>") + "/") + std::string(word_of(e.of));
   if (e.value.empty()) return out;
-  return out + (e.kind == EditKind::kLimit ? e.at_least ? ">=" : "<=" : "=") + e.value;
+  return out + (e.kind == EditKind::kLimit ? e.at_least ? ">=" : "<=" : "=") + as_name(e.value, "");
 }
 
 std::string words_of(const Edit& e) {

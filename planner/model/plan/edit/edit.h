@@ -39,7 +39,8 @@ enum class EditOf : std::uint8_t {
 ///     order  PATTERN<PATTERN
 ///
 /// PATTERN names features or workingsteps, with * for any text and ? for any character; without one the edit
-/// is about all steps. Numbers are in mm, mm/min and 1/min.
+/// is about all steps. A name that holds = or <, or begins with a quote, stands in double quotes, with a
+/// backslash before a quote or backslash in it: "A=B"/feed=900. Numbers are in mm, mm/min and 1/min.
 struct Edit {
   EditKind kind = EditKind::kSet;
   EditOf of = EditOf::kTool;
@@ -60,7 +61,7 @@ inline constexpr std::size_t kLongestEdit = 1000;
 ///        that it may mean.
 [[nodiscard]] Result<Edit> parse_edit(EditKind kind, std::string_view text, std::string from);
 
-/// What `parse_edit` reads as the same edit: "POCKET*/tool=T5".
+/// What `parse_edit` reads as the same edit: "POCKET*/tool=T5". Needs names without control characters.
 [[nodiscard]] std::string text_of(const Edit& e);
 /// "edit 2 of shop.edits.yaml: set POCKET*/tool=T5".
 [[nodiscard]] std::string words_of(const Edit& e);

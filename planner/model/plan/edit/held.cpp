@@ -40,7 +40,7 @@ std::map<std::string, std::string> held_steps(const Plan& plan) {
 
 void name_edits(const std::map<std::string, std::string>& held, Finding& f) {
   const auto at = held.find(f.step);
-  if (f.severity != Severity::kNote && at != held.end()) f.message += "; held is " + at->second;
+  if (f.severity != Severity::kNote && at != held.end()) f.message += "; held by " + at->second;
 }
 
 }  // namespace capstan::model

@@ -5,6 +5,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/edit/deciding.h"
 
 namespace capstan::model {
 namespace {
@@ -18,10 +19,6 @@ double size_of(const Cutter& c, EditOf of) {
   return of == EditOf::kToolDiameter   ? c.cutting_diameter_mm
          : of == EditOf::kToolStickOut ? c.stick_out_mm
                                        : static_cast<double>(c.teeth);
-}
-
-bool is_size(EditOf of) {
-  return of == EditOf::kToolDiameter || of == EditOf::kToolStickOut || of == EditOf::kToolTeeth;
 }
 
 /// Whether a tool is one that a value means: its name with * and ?, or T and its number.
@@ -51,7 +48,7 @@ Reason reason_of(const Edit& e) { return {std::string(kByEdit), words_of(e), "th
 
 std::optional<Barred> barred(const std::vector<Edit>& edits, const StepNames& step, const Cutter& cutter) {
   for (const Edit& e : edits) {
-    if (e.kind != EditKind::kLimit || !is_size(e.of) || !names(e.where, step)) continue;
+    if (!is_tool_limit(e) || !names(e.where, step)) continue;
     constexpr double kSame = 1e-6;  // mm
     const double size = size_of(cutter, e.of);
     if (e.at_least ? size >= e.number - kSame : size <= e.number + kSame) continue;
@@ -65,8 +62,8 @@ const std::vector<Cutter>& allowed(const std::vector<Edit>& edits, const StepNam
                                    const std::vector<Cutter>& all, const std::vector<CutterClass>& classes,
                                    std::vector<Cutter>& kept, std::vector<Rejected>& why) {
   const bool any = std::any_of(edits.begin(), edits.end(), [&](const Edit& e) {
-    const bool size = e.kind == EditKind::kLimit && is_size(e.of);
-    return (size || (e.kind == EditKind::kForbid && e.of == EditOf::kTool)) && names(e.where, step);
+    return (is_tool_limit(e) || (e.kind == EditKind::kForbid && e.of == EditOf::kTool)) &&
+           names(e.where, step);
   });
   if (!any) return all;
   kept.clear();
@@ -118,7 +115,7 @@ std::string_view word_of(StrategyKind kind) {
 
 std::string EditLimits::words() const {
   std::string out;
-  for (const std::string* s : {&feed_by, &speed_by, &depth_by}) {
+  for (const std::string* s : {&feed_by, &speed_by}) {
     if (!s->empty()) out += (out.empty() ? "" : "; ") + *s;
   }
   return out;
@@ -135,7 +132,6 @@ EditLimits limits_of(const std::vector<Edit>& edits, const StepNames& step) {
     if (e.kind != EditKind::kLimit || !names(e.where, step)) continue;
     if (e.of == EditOf::kFeed) take(e, out.feed_mm_min, out.feed_by);
     if (e.of == EditOf::kSpeed) take(e, out.speed_rpm, out.speed_by);
-    if (e.of == EditOf::kDepth) take(e, out.depth_mm, out.depth_by);
   }
   return out;
 }

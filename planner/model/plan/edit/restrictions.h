@@ -51,9 +51,9 @@ inline constexpr std::string_view kConstantEngagementWord = "constant_engagement
 
 /// Bounds on the numbers of one step, by edits; unset: none.
 struct EditLimits {
-  std::optional<double> feed_mm_min, speed_rpm, depth_mm;
-  std::string feed_by, speed_by, depth_by;  ///< who says so, for reasons
-  [[nodiscard]] bool any() const { return feed_mm_min || speed_rpm || depth_mm; }
+  std::optional<double> feed_mm_min, speed_rpm;
+  std::string feed_by, speed_by;  ///< who says so, for reasons
+  [[nodiscard]] bool any() const { return feed_mm_min || speed_rpm; }
   /// "edit 1 of x.edits.yaml: limit feed<=2000; ...".
   [[nodiscard]] std::string words() const;
 };

@@ -36,6 +36,22 @@ TEST_F(Outputs, ThatAreInputsAreRefusedBeforeAnyWork) {
   EXPECT_THAT(run("tools convert shop.yaml -o shop.yaml").err, HasSubstr("OUT-INPUT"));
 }
 
+// What the shop's settings name, and the files of a folder that is read, are inputs as well.
+TEST_F(Outputs, ThatTheShopsSettingsNameAreRefusedToo) {
+  fs::create_directory(folder_ / "rules");
+  const std::string rules = "table: hole\nrows: []\n", material = "capstan_materials: 1\nmaterials: []\n";
+  put("rules/ours.yaml", rules);
+  put("ours.yaml", material);
+  put("shop.yaml", "capstan_shop: 1\nmaterials: [ours.yaml]\nrules: rules\n");
+  for (const char* name : {"ours.yaml", "shop.yaml", "rules/ours.yaml"}) {
+    const Ran r = run(std::string("plan plate.p21 -o a.json -o ") + name);
+    EXPECT_EQ(r.code, 2) << name;
+    EXPECT_THAT(r.err, HasSubstr("OUT-INPUT")) << r.err;
+  }
+  EXPECT_EQ(slurp(folder_ / "ours.yaml"), material);
+  EXPECT_EQ(slurp(folder_ / "rules/ours.yaml"), rules);
+}
+
 TEST_F(Outputs, ThatAreInputsAreReplacedWhenForced) {
   const Ran r = run("plan plate.p21 -o plate.p21 --force");
   EXPECT_LE(r.code, 1) << r.err;

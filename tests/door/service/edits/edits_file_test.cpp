@@ -77,40 +77,5 @@ TEST(EditsFile, OfAnotherShapeOrVersionIsRefused) {
   }
 }
 
-model::Edit edit(model::EditKind kind, const char* text) { return *model::parse_edit(kind, text, "--x"); }
-
-TEST(KnownNames, AreLookedUpBeforeAnythingIsPlanned) {
-  model::Cutter em;
-  em.id = "em8";
-  const std::vector<model::Cutter> library = {em};
-  const model::Plan plan;
-  using model::EditKind;
-  EXPECT_TRUE(known_names({edit(EditKind::kSet, "tool=em8"), edit(EditKind::kForbid, "tool=em*"),
-                           edit(EditKind::kForbid, "operation=*_rough_milling"),
-                           edit(EditKind::kForbid, "strategy=constant_engagement")},
-                          library, plan));
-  const auto tool = known_names({edit(EditKind::kSet, "tool=em9")}, library, plan);
-  ASSERT_FALSE(tool);
-  EXPECT_EQ(tool.error().code, "NAME-UNKNOWN");
-  EXPECT_NE(tool.error().message.find("Did you mean 'em8'?"), std::string::npos) << tool.error().message;
-  const auto operation = known_names({edit(EditKind::kForbid, "operation=reeming")}, library, plan);
-  ASSERT_FALSE(operation);
-  EXPECT_NE(operation.error().message.find("'reaming'"), std::string::npos) << operation.error().message;
-  EXPECT_EQ(known_names({edit(EditKind::kForbid, "strategy=zigzag")}, library, plan).error().code,
-            "NAME-UNKNOWN");
-}
-
-// The numbers of tools that no list numbers are known once the plan is made.
-TEST(KnownNames, ATNumberIsSetWhereThePlanWillHaveItAndNotForbidden) {
-  model::Cutter em;
-  em.id = "em8";
-  using model::EditKind;
-  EXPECT_TRUE(known_names({edit(EditKind::kSet, "tool=T5")}, {em}, {}));
-  EXPECT_EQ(known_names({edit(EditKind::kForbid, "tool=T5")}, {em}, {}).error().code, "EDIT-NUMBER");
-  em.pocket = 5;
-  EXPECT_TRUE(known_names({edit(EditKind::kForbid, "tool=T5")}, {em}, {}));
-  EXPECT_EQ(known_names({edit(EditKind::kSet, "tool=T6")}, {em}, {}).error().code, "NAME-UNKNOWN");
-}
-
 }  // namespace
 }  // namespace capstan::service

@@ -45,7 +45,8 @@ TEST_F(EditsSchema, HoldsForWhatIsRead) {
   for (const char* edit :
        {"", R"({"set": "tool=em8"})", R"({"set": "A/B/feed = 900.5"})", R"({"pin": "SLOT/tool"})",
         R"({"pin": "SLOT/depth=2"})", R"({"limit": "feed<=2000"})", R"({"limit": "P*/tool.diameter >= 3"})",
-        R"({"forbid": "H?/operation=reaming"}, {"order": "A<B"})"}) {
+        R"({"forbid": "H?/operation=reaming"}, {"order": "A<B"})", R"({"set": "\"A=B\"/feed=900"})",
+        R"({"order": "\"A<B\" < \"C\"" })"}) {
     EXPECT_TRUE(is_read(with(edit))) << edit;
     EXPECT_TRUE(holds(with(edit))) << edit;
   }
@@ -53,9 +54,9 @@ TEST_F(EditsSchema, HoldsForWhatIsRead) {
 
 TEST_F(EditsSchema, RefusesWhatIsRefused) {
   for (const char* edit : {R"({"sett": "tool=em8"})", R"({"set": "tool"})", R"({"set": "tool.diameter=8"})",
-                           R"({"pin": "feeds"})", R"({"limit": "feed>=20"})", R"({"limit": "operation<=2"})",
-                           R"({"forbid": "feed=3"})", R"({"order": "A"})", R"({"order": "A<B<C"})", "7",
-                           R"({"set": "tool=a", "pin": "tool"})", "{}"}) {
+                           R"({"pin": "feeds"})", R"({"limit": "feed>=20"})", R"({"limit": "depth<=2"})",
+                           R"({"limit": "operation<=2"})", R"({"forbid": "feed=3"})", R"({"order": "A"})",
+                           R"({"order": "A<B<C"})", "7", R"({"set": "tool=a", "pin": "tool"})", "{}"}) {
     EXPECT_FALSE(is_read(with(edit))) << edit;
     EXPECT_FALSE(holds(with(edit))) << edit;
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -101,7 +102,7 @@ TEST(ShopFile, OfAnotherShapeOrVersionIsRefused) {
 // As it is written it changes nothing; with the # of each entry off, each is one that is taken.
 TEST(ShopFile, TemplateHoldsNothingUntilItsCommentsAreTakenOff) {
   Job job;
-  const auto written = shop_template();
+  const auto written = shop_template({}, kShopFile, job);
   ASSERT_TRUE(written);
   const std::string& text = *written;
   const auto as_written = with_shop_text(asking("shop.yaml"), text, job);
@@ -120,16 +121,79 @@ TEST(ShopFile, TemplateHoldsNothingUntilItsCommentsAreTakenOff) {
 
 TEST(ShopFile, TemplateHoldsTheEntriesThatAreGiven) {
   Job job;
-  const auto text = shop_template({"machine=small_router", "general-tolerance=ISO 2768-m"});
+  const auto text = shop_template({"machine=small_router", "general-tolerance=ISO 2768-m"}, kShopFile, job);
   ASSERT_TRUE(text) << to_text(text.error());
   const auto r = with_shop_text(asking("shop.yaml"), *text, job);
   ASSERT_TRUE(r) << to_text(r.error());
   EXPECT_EQ(r->machine, "small_router");
   EXPECT_EQ(r->general_tolerance, "ISO 2768-m");
   EXPECT_EQ(r->from_shop.size(), 2U);
-  EXPECT_EQ(shop_template({"machin=x"}).error().code, "NAME-UNKNOWN");
-  EXPECT_EQ(shop_template({"margin=brave"}).error().code, "OPTION-VALUE");
-  EXPECT_EQ(shop_template({"machine"}).error().code, "OPTION-VALUE");
+  EXPECT_EQ(shop_template({"machin=x"}, kShopFile, job).error().code, "NAME-UNKNOWN");
+  EXPECT_EQ(shop_template({"margin=brave"}, kShopFile, job).error().code, "OPTION-VALUE");
+  EXPECT_EQ(shop_template({"machine"}, kShopFile, job).error().code, "OPTION-VALUE");
+}
+
+TEST(ShopFile, TemplateIsRefusedWhereNoPlanTakesWhatItNames) {
+  const capstan::testing::ScratchFolder scratch;
+  const std::string shop = scratch.file("shop.yaml");
+  std::ofstream(scratch.file("broken.yaml")) << "machine: [\n";
+  std::ofstream(scratch.file("tool.tbl")) << "T1 P1 D10 Z50 ;carbide end mill\n";
+  for (const char* bad : {"machine=small_rooter", "machine=broken.yaml", "tools=nowhere.tbl",
+                          "material=steeel", "workholding=no_such_vice", "edges=77", "cases=nowhere.db"}) {
+    Job job;
+    const auto text = shop_template({bad}, shop, job);
+    ASSERT_FALSE(text) << bad;
+    EXPECT_NE(text.error().message.size(), 0U) << bad;
+  }
+  Job job;
+  const auto text = shop_template({"tools=tool.tbl", "cache=kept"}, shop, job);
+  ASSERT_TRUE(text) << to_text(text.error()) << ": paths count from the folder of the file";
+  EXPECT_FALSE(std::filesystem::exists(scratch.file("kept"))) << "trying them out makes nothing";
+}
+
+/// The folder that the process works in, for as long as it lives.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(folder);
+  }
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+  ~WorkingFolder() { std::filesystem::current_path(before_); }
+
+ private:
+  std::filesystem::path before_;
+};
+
+TEST(ShopFile, ThatIsThereAndCannotBeReadIsAnErrorThatNamesIt) {
+  const capstan::testing::ScratchFolder scratch;
+  const WorkingFolder here(scratch.path());
+  const auto found = [&](const std::string& text) {
+    std::ofstream(scratch.file("shop.yaml"), std::ios::trunc) << text;
+    return found_shop();
+  };
+  for (const char* form : {"capstan_shop: 1\nmachine: small_router\n", "{\"capstan_shop\": 1}",
+                           "# ours\n\"capstan_shop\": 1\n"}) {
+    const auto shop = found(form);
+    ASSERT_TRUE(shop) << form;
+    EXPECT_EQ(shop->value_or(""), "shop.yaml") << form;
+  }
+  for (const char* broken : {"capstan_shop: 1\nmachine: [\n", "machine: {a\n"}) {
+    const auto shop = found(broken);
+    ASSERT_FALSE(shop) << broken;
+    EXPECT_EQ(shop.error().file, "shop.yaml");
+    EXPECT_NE(shop.error().hint.find("--shop none"), std::string::npos) << shop.error().hint;
+  }
+  std::filesystem::remove(scratch.file("shop.yaml"));
+  std::filesystem::create_symlink("nowhere.yaml", scratch.file("shop.yaml"));
+  EXPECT_FALSE(found_shop()) << "a link that leads nowhere is no absence";
+  std::filesystem::remove(scratch.file("shop.yaml"));
+  std::filesystem::create_symlink("shop.yaml", scratch.file("shop.yaml"));
+  EXPECT_FALSE(found_shop());
+  std::filesystem::remove(scratch.file("shop.yaml"));
+  const auto other = found("table: hole\nrows: []\n");
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->value_or(""), "shop.yaml") << "rules may have that name";
 }
 
 }  // namespace

@@ -14,7 +14,9 @@
 namespace capstan::given {
 
 /// Opens what the steps of a plan state and the operator's limits and prohibitions do not allow, with what
-/// depends on it, so that it is chosen anew; the first `cut` steps are cut and stay. Warns EDIT-OPENED.
+/// depends on it, so that it is chosen anew; the first `cut` that the plan executes are cut and stay. Warns
+/// EDIT-OPENED.
+///
 /// Fails  EDIT-CONFLICT where a pinned value breaks one, EDIT-KEPT where the file brings what stays: an
 ///        operation, a strategy, a tool whose path comes with it.
 [[nodiscard]] Status open_beyond_edits(model::Plan& plan, const std::vector<model::Edit>& edits,
@@ -27,17 +29,20 @@ struct Taken {
 };
 
 /// Sets the values of the edits (set, pin) into the steps of a plan: bound by the operator, pinned, with the
-/// edit as the reason. Opens what depends on a value that changed: by the ledger, and of a tool also the cuts
-/// of the later steps of its feature, which meet what it leaves. `all`: a value that an edit held and none
-/// holds now is open again.
+/// edit as the reason; of several that mean a step the one that names it most closely (model::deciding), so
+/// that none is set twice. Opens what depends on a value that changed: by the ledger, and of a tool also the
+/// cuts of the later steps of its feature, which meet what it leaves. `all`: a value that an edit held and
+/// none holds now is open again. `machine`: that the plan is made for. Notes EDIT-YIELDS, EDIT-TAPS.
 ///
 /// Fails  EDIT-NOTHING for a pattern that names no feature and no step, with those that there are;
 ///        NAME-UNKNOWN for a tool that neither library nor plan has; EDIT-VALUE for a value that a step has
-///        not; EDIT-CONFLICT for a value that another edit rules out.
+///        not, or that machine, control or cutter cannot have (value_limits.h); EDIT-CONFLICT for a value
+///        that another edit rules out.
 [[nodiscard]] Result<Taken> take_edits(model::Plan& plan, const std::vector<model::Edit>& edits,
-                                       const std::vector<model::Cutter>& library, bool all);
+                                       const std::vector<model::Cutter>& library,
+                                       const model::Machine& machine, bool all, Job& job);
 
-/// What of a whole plan breaks an edit: an error for each step, which names both.
+/// What of a plan breaks an edit, an error for each step; notes a depth beyond what is cut (EDIT-DEPTH).
 [[nodiscard]] std::vector<model::Finding> broken_edits(const model::Plan& plan,
                                                        const std::vector<model::Edit>& edits);
 
