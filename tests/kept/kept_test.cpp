@@ -54,6 +54,12 @@ TEST(KeptTable, InstructionsDecideWhereBothHaveThem) {
   EXPECT_FALSE(fault({"json", std::nullopt, 10.0}, table)) << "no time taken";
 }
 
+TEST(KeptTable, NamesTheRowsThatNothingJudges) {
+  const std::vector<Cost> table = {{"timed", 2.0, std::nullopt}, {"both", 2.0, 10.0}};
+  EXPECT_THAT(not_judged({{"timed", std::nullopt, 4.0}, {"both", std::nullopt, 9.0}}, table),
+              ::testing::ElementsAre("timed"));
+}
+
 /// A shell that counts to n, so that its work grows with n.
 Row counting(int n) {
   return {"counting",

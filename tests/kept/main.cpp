@@ -52,6 +52,8 @@ int checked(bool smoke, const std::string& file, const std::vector<kept::Row>& r
   const std::vector<std::string> wrong =
       kept::check(rows, table->costs, {timed ? kRepeats : 0, counted}, own.costs);
   std::fputs(kept::write(own).c_str(), stdout);
+  for (const std::string& row : kept::not_judged(own.costs, table->costs))
+    std::printf("kept: %s: not judged, for the table has nothing that was measured here\n", row.c_str());
   for (const std::string& w : wrong) std::fprintf(stderr, "kept: %s\n", w.c_str());
   return wrong.empty() ? 0 : 1;
 }

@@ -89,6 +89,22 @@ std::optional<double> refs_of(const std::string& said) {
   return parse_double(digits);
 }
 
+/// What compiled this, and how far it optimised: another build has other instructions.
+std::string build() {
+#if defined(__clang__)
+  const std::string compiler = "clang";
+#else
+  const std::string compiler = "gcc";
+#endif
+#if defined(__OPTIMIZE__)
+  const char* optimised = "-O";
+#else
+  const char* optimised = "-O0";
+#endif
+  return compiler + " " + std::string(__VERSION__).substr(0, std::string(__VERSION__).find(' ')) + " " +
+         optimised;
+}
+
 /// The instruction sets that change which code is run here, of those that Valgrind knows.
 std::string instruction_sets() {
   utsname machine = {};
@@ -113,7 +129,7 @@ std::string counter() {
   }
   std::string version = read_file(said).value_or("");
   while (!version.empty() && version.back() == '\n') version.pop_back();
-  return version + " " + instruction_sets();
+  return version + " " + instruction_sets() + " " + build();
 }
 
 double instructions_1e6(const std::vector<std::string>& command, int most_status) {

@@ -31,8 +31,8 @@ struct Row {
 [[nodiscard]] Taken taken_by(const std::vector<std::string>& command, int most_status = 1);
 
 /// What counts instructions here, with the instruction sets that it offers to programs, for example
-/// "valgrind-3.19.0 x86_64 avx2". Counts of two machines compare where these texts are equal. Empty where
-/// Valgrind is not installed.
+/// "valgrind-3.19.0 x86_64 avx2 gcc 12.2.0 -O", and what compiled it. Counts of two machines compare where
+/// these texts are equal. Empty where Valgrind is not installed.
 [[nodiscard]] std::string counter();
 /// The program's instructions in user mode, all threads, in millions, counted by Valgrind (cachegrind without
 /// its caches): the same whatever else the machine does. Throws std::runtime_error as taken_by does.

@@ -19,6 +19,10 @@ std::string behind(std::string_view text, std::string_view key) {
   return std::string(text.substr(from, text.find('\n', from) - from));
 }
 
+bool comparable(const Cost& a, const Cost& b) {
+  return (a.instructions_1e6 && b.instructions_1e6) || (a.time && b.time);
+}
+
 std::string cell(const std::optional<double>& value) { return value ? trimmed(*value, 4) : "-"; }
 
 /// A cell's value: a number above 0, or "-" for nothing. False: neither.
@@ -85,8 +89,8 @@ std::optional<std::string> fault(const Cost& measured, const std::vector<Cost>& 
       std::find_if(table.begin(), table.end(), [&](const Cost& c) { return c.row == measured.row; });
   const std::string renew = "`./dev bench --take` writes the table anew";
   if (at == table.end()) return measured.row + ": the table has no such row; " + renew;
+  if (!comparable(measured, *at)) return std::nullopt;
   const bool counted = measured.instructions_1e6 && at->instructions_1e6;
-  if (!counted && (!measured.time || !at->time)) return std::nullopt;  // nothing to compare
   const double now = counted ? *measured.instructions_1e6 : *measured.time;
   const double then = counted ? *at->instructions_1e6 : *at->time;
   const double limit = counted ? kInstructionLimit : kTimeLimit;
@@ -95,6 +99,15 @@ std::optional<std::string> fault(const Cost& measured, const std::vector<Cost>& 
          (counted ? " million instructions" : " times the reference kernel's time") + ", the table has " +
          trimmed(then, 4) + " (" + trimmed(100.0 * (now / then - 1.0), 0) + " % more; the limit is " +
          trimmed(100.0 * limit, 0) + " %). Find what made it slower; if it is meant to be, " + renew;
+}
+
+std::vector<std::string> not_judged(const std::vector<Cost>& measured, const std::vector<Cost>& table) {
+  std::vector<std::string> out;
+  for (const Cost& m : measured) {
+    const auto same = [&](const Cost& t) { return t.row == m.row && !comparable(m, t); };
+    if (std::any_of(table.begin(), table.end(), same)) out.push_back(m.row);
+  }
+  return out;
 }
 
 }  // namespace capstan::kept

@@ -47,4 +47,8 @@ struct Table {
 /// limit, or the table has no such row. Instructions decide where both have them, else times.
 [[nodiscard]] std::optional<std::string> fault(const Cost& measured, const std::vector<Cost>& table);
 
+/// The rows that were measured and have nothing in the table to be held against.
+[[nodiscard]] std::vector<std::string> not_judged(const std::vector<Cost>& measured,
+                                                  const std::vector<Cost>& table);
+
 }  // namespace capstan::kept

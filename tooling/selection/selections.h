@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ class Selections {
   const model::WorkMaterial& material_;
   const model::Machine& machine_;
   std::map<std::string, model::Selection> known_;  ///< by the whole question
+  std::size_t held_ = 0;                           ///< cutters in all of them
 };
 
 }  // namespace capstan::tooling

@@ -34,8 +34,10 @@ class Descriptor {
   int fd_;
 };
 
-/// Whether a path leads to a pipe in a folder; those of a shell (`/dev/stdin`, `/dev/fd/63`) are in none.
+/// Whether a path leads to a pipe in a folder. What the shell opened (`/dev/stdin`, `/dev/fd/63`) is none,
+/// even where it is such a pipe: somebody asked for it.
 bool is_named_pipe(const std::string& path) {
+  if (path.starts_with("/dev/") || path.starts_with("/proc/")) return false;
   std::error_code none;
   const auto at = std::filesystem::canonical(path, none);
   return !none && std::filesystem::is_fifo(at, none);

@@ -1,5 +1,6 @@
 #include "planner/ground/base/file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -108,6 +109,18 @@ TEST_F(File, IsReadFromAPipeOfTheShell) {
   ::close(ends[1]);
   const auto bytes = read_file("/dev/fd/" + std::to_string(ends[0]));
   ::close(ends[0]);
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  EXPECT_EQ(*bytes, "text");
+}
+
+TEST_F(File, IsReadFromANamedPipeThatTheShellOpened) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  const int both = ::open(at("pipe").c_str(), O_RDWR);  // neither end waits for the other
+  const int read_end = ::open(at("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_EQ(::write(both, "text", 4), 4);
+  ::close(both);
+  const auto bytes = read_file("/dev/fd/" + std::to_string(read_end));
+  ::close(read_end);
   ASSERT_TRUE(bytes) << bytes.error().message;
   EXPECT_EQ(*bytes, "text");
 }

@@ -178,6 +178,7 @@ TEST(RestMachining, CutsAllLevelsOfACornerBeforeTheNextCorner) {
   ASSERT_TRUE(wide);
   map.run(*wide, first.cutter);
   EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+  EXPECT_NEAR(map.highest(geometry::offset(t.shape.area, -0.3)), -4.0, 1e-4) << "something stays in a corner";
 }
 
 TEST(RestMachining, LeavesNoFeatherEdgesOnFinishedWalls) {
