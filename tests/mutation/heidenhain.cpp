@@ -96,6 +96,16 @@ std::vector<Class> dangerous() {
        [](const Emitted& e, Random& r) {
          return line_changed(e, r, cuts, [](const std::string& l) { return "M5\n" + l; });
        }},
+      {"M0 before a cut, which stops the spindle", Kind::kDangerous, true,
+       [](const Emitted& e, Random& r) {
+         return line_changed(e, r, cuts, [](const std::string& l) { return "M0\n" + l; });
+       }},
+      {"retract by increment", Kind::kDangerous, true,
+       [](const Emitted& e, Random& r) {
+         return line_changed(e, r, retracts, [&](const std::string&) {
+           return "L IZ" + signed_text(moved(0.0, r, 0.02, 390.0)) + " R0 FMAX M91";
+         });
+       }},
       {"speed beyond the machine", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
          return number_changed(e, r, speeds, "S", [](double v) { return v * 1000.0; });

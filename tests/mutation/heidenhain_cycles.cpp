@@ -60,7 +60,7 @@ std::vector<Class> dangerous_cycles() {
        [](const Emitted& e, Random& r) {
          return parameter_changed(e, r, "207", "Q239", [](double v) { return -v; });
        }},
-      {"tap brought out at another speed", Kind::kDangerous, true,
+      {"tapping cycle with a parameter of another one", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
          return line_changed(
              e, r, [](const std::string& l) { return starts(l, "  Q239="); },

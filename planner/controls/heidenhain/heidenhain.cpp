@@ -1,11 +1,14 @@
 #include "planner/controls/heidenhain/heidenhain.h"
 
 #include <array>
+#include <cmath>
+#include <string>
 #include <string_view>
 
 #include "planner/controls/gcode/options.h"
 #include "planner/controls/gcode/writer.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::controls::heidenhain {
 namespace {
@@ -39,19 +42,46 @@ constexpr std::array<std::string_view, kPresets> kOffsets = [] {
   return out;
 }();
 
-Status rounds_by_a_tolerance(const model::Plan& plan) {
-  const double tolerance = plan.machine.control.path_tolerance_mm;
-  if (rounded(tolerance, plan.machine.control.decimals) > 0.0) return {};
+Status takes_the_decimals(const model::Plan& plan) {
+  const int decimals = plan.machine.control.decimals;
+  if (decimals >= 0 && decimals <= kMostDecimals) return {};
   return fail({.code = "OUT-CONTROL",
-               .message = "machine '" + plan.machine.id + "' states path_tolerance_mm " +
-                          shortest(tolerance) + "; programs of this control have no word for the exact path",
-               .expected = "a path tolerance above 0 mm",
-               .hint = "state path_tolerance_mm under the machine's control, 0.01 mm for example"});
+               .message = "machine '" + plan.machine.id + "' states " + std::to_string(decimals) +
+                          " decimals; this control takes 0 to " + std::to_string(kMostDecimals),
+               .expected = "0 to " + std::to_string(kMostDecimals) + " decimals",
+               .hint = "state decimals of that range under the machine's control, 3 for example"});
+}
+
+/// That of the machine, and of each step that has its own, as they are written.
+Status rounds_by_a_tolerance(const model::Plan& plan) {
+  const int decimals = plan.machine.control.decimals;
+  const double tolerance = plan.machine.control.path_tolerance_mm;
+  const std::string exact = "; programs of this control have no word for the exact path";
+  if (!(rounded(tolerance, decimals) > 0.0))
+    return fail({.code = "OUT-CONTROL",
+                 .message = "machine '" + plan.machine.id + "' states path_tolerance_mm " +
+                            shortest(tolerance) + exact,
+                 .expected = "a path tolerance above 0 mm",
+                 .hint = "state path_tolerance_mm under the machine's control, 0.01 mm for example"});
+  for (const model::StepResult& step : plan.steps) {
+    const double own = step.contour_tolerance_mm;
+    if (!(own > 0.0) || rounded(own, decimals) > 0.0) continue;
+    return fail(
+        {.code = "OUT-CONTROL",
+         .message = "the contour tolerance of " + shortest(own) + " mm is 0 with the machine's " +
+                    std::to_string(decimals) + " decimals" + exact,
+         .path = model::step_id(plan, step),
+         .expected = "a contour tolerance of " + trimmed(std::pow(10.0, -decimals), decimals) + " mm or more",
+         .hint = "state a larger contour tolerance for the step, or more decimals, " +
+                 std::to_string(kMostDecimals) + " at most, under the machine's control"});
+  }
+  return {};
 }
 
 Result<std::string> write_program(const model::Plan& plan, Job& job,
                                   const std::vector<model::Condemnation>& condemned) {
   if (auto ok = gcode::options_right(plan); !ok) return tl::unexpected(ok.error());
+  if (auto ok = takes_the_decimals(plan); !ok) return tl::unexpected(ok.error());
   if (auto ok = rounds_by_a_tolerance(plan); !ok) return tl::unexpected(ok.error());
   gcode::Words words = words_of(plan);
   words.work_offsets = kOffsets;

@@ -33,7 +33,8 @@ namespace capstan::controls::heidenhain {
 ///          came from, Q203 + Q200 where it is fed from, Q203 + Q201 the bottom. Q202 is the depth: one
 ///          plunge. Pecks are explicit moves.
 ///
-/// Stops    the message as a comment, then `M0`.
+/// Stops    the message as a comment, then `M0`, which stops the spindle and the coolant, too: both are off
+///          before it, and stated again before the next cut.
 ///
 /// Not written: 202 (it turns the spindle to an angle that is the machine's), 203, 205, 208, 251 to 253,
 /// PATTERN DEF, PLANE, RL and RR.
@@ -46,6 +47,9 @@ extern const Dialect kDialect;
 
 /// The program's name: of the part's file, else CAPSTAN; capitals, digits, - and _.
 [[nodiscard]] std::string program_name(const model::Plan& plan);
+
+/// Decimals that the control takes, of places, pitches and angles (TNC 640 ISO programming, 19.3).
+inline constexpr int kMostDecimals = 4;
 
 /// The first work offset's name without its number: PRESET1, of CYCL DEF 247.
 inline constexpr std::string_view kPreset = "PRESET";

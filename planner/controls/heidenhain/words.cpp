@@ -20,9 +20,6 @@ using geometry::Vec2;
 
 /// The surface of a cycle lies so far below where the tool is fed from: Q200 is a distance above 0.
 constexpr double kClearanceMm = 1.0;
-constexpr int kPitchDecimals = 4;
-/// Of CC beyond those of ends, and of IPA: the control takes four (TNC 640 ISO programming, 19.3).
-constexpr int kMoreCentreDecimals = 1, kAngleDecimals = 4;
 /// Of BEGIN PGM: default, unsourced.
 constexpr std::size_t kLongestName = 20;
 
@@ -55,7 +52,7 @@ std::string arc_text(const ArcBlock& a) {
     return centre + "C X" + with_sign(a.to.x, a.decimals) + " Y" + with_sign(a.to.y, a.decimals) + way +
            a.feed;
   const double degrees = (a.clockwise ? -180.0 : 180.0) / std::numbers::pi * turned(a);
-  return centre + "CP IPA" + with_sign(degrees, kAngleDecimals) + " IZ" +
+  return centre + "CP IPA" + with_sign(degrees, kMostDecimals) + " IZ" +
          with_sign(a.to.z - a.from.z, a.decimals) + way + a.feed;
 }
 
@@ -118,7 +115,7 @@ std::string tap_text(const HoleCycle& h) {
   return Cycle("207 RIGID TAPPING NEW")
       .q(200, at.clearance, "SET-UP CLEARANCE")
       .q(201, at.depth, "DEPTH OF THREAD")
-      .q(239, with_sign(h.rpm < 0.0 ? -h.pitch_mm : h.pitch_mm, kPitchDecimals), "THREAD PITCH")
+      .q(239, with_sign(h.rpm < 0.0 ? -h.pitch_mm : h.pitch_mm, kMostDecimals), "THREAD PITCH")
       .q(203, at.surface, "SURFACE COORDINATE")
       .q(204, at.second, "2ND SET-UP CLEARANCE")
       .called();
@@ -207,7 +204,7 @@ gcode::Words words_of(const model::Plan& plan) {
   w.new_speed = [](const std::string& speed) { return "TOOL CALL Z S" + speed; };
   w.path_mode = &path_mode;
   w.retract = [](const std::string& z) {
-    return "L Z" + with_sign(parse_double(z).value_or(0.0), gcode::kMostDecimals) + " R0 FMAX M91";
+    return "L Z" + with_sign(parse_double(z).value_or(0.0), kMostDecimals) + " R0 FMAX M91";
   };
   w.message = [](const std::string& text) { return "; " + comment(text); };
   w.dwell = [](const std::string& seconds) {
@@ -216,7 +213,7 @@ gcode::Words words_of(const model::Plan& plan) {
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
   if (is("cycles", "feature")) w.cycle = [](const HoleCycle& h) { return std::optional(hole_text(h)); };
-  w.more_centre_decimals = kMoreCentreDecimals;
+  w.more_centre_decimals = std::max(0, kMostDecimals - machine.control.decimals);
   w.turns = true;
   return w;
 }

@@ -15,7 +15,7 @@ namespace capstan::verify {
 [[nodiscard]] std::string_view reader_default(std::string_view control, std::string_view name);
 
 /// The machine's value of that option, else the default of its control; empty where nothing is stated.
-/// Throws std::logic_error for a name that is that the reader has not: our own mistake.
+/// Throws std::logic_error for a name that the control's reader does not have: our own mistake.
 [[nodiscard]] std::string_view option(const model::Machine& machine, std::string_view name);
 /// The same as a number; 0 where there is none.
 [[nodiscard]] double option_number(const model::Machine& machine, std::string_view name);

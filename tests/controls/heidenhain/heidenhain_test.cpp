@@ -133,6 +133,77 @@ TEST(HeidenhainProgram, WithoutATolerancePathsHaveNoWord) {
   EXPECT_THAT(written(plan).error().hint, HasSubstr("path_tolerance_mm"));
 }
 
+// Cycle 32.1 without a number would leave the tolerance to machine data.
+TEST(HeidenhainProgram, AToleranceOfAStepThatRoundsToNothingIsRefused) {
+  Plan plan = pocket_plan("heidenhain");
+  plan.steps[0].contour_tolerance_mm = 0.0004;
+  const auto refused = written(plan);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "OUT-CONTROL");
+  EXPECT_EQ(refused.error().path, "rough pocket");
+  EXPECT_THAT(refused.error().message, HasSubstr(" mm is 0 with the machine's 3 decimals"));
+  EXPECT_THAT(refused.error().expected, HasSubstr("0.001 mm"));
+  plan.steps[0].contour_tolerance_mm = 0.0006;
+  EXPECT_THAT(bare(plan), HasSubstr("\nCYCL DEF 32.1 T0.001\n"));
+  plan.steps[0].contour_tolerance_mm = 0.0;  // the machine's own
+  EXPECT_THAT(bare(plan), Not(HasSubstr("32.1 T\n")));
+  plan.steps[0].contour_tolerance_mm = 0.0004;
+  plan.machine.control.decimals = 4;
+  EXPECT_THAT(bare(plan), HasSubstr("\nCYCL DEF 32.1 T0.0004\n"));
+}
+
+// Four decimals, of places and of circles' centres: CC has what is left of them.
+TEST(HeidenhainProgram, NoNumberHasMoreDecimalsThanTheControlTakes) {
+  for (const int decimals : {1, 2, 3, 4}) {
+    Plan plan = plan_for("heidenhain");
+    CutterPath p;
+    p.start({5, 0, 10});
+    p.rapid({5, 0, 1});
+    p.arc({0, 5, 1}, {1.0 / 3.0, 1.0 / 3.0}, false, MoveRole::kCut);
+    p.rapid({0, 5, 10}, MoveRole::kRetract);
+    capstan::testing::add_step(plan, "arc", "em18", std::move(p), 3000);
+    plan.machine.control.decimals = decimals;
+    plan.machine.control.path_tolerance_mm = 0.1;
+    const std::string text = bare(plan);
+    EXPECT_THAT(text, HasSubstr("\nCC X")) << decimals;
+    for (std::size_t at = text.find('.'); at != std::string::npos; at = text.find('.', at + 1)) {
+      const std::size_t end = text.find_first_not_of("0123456789", at + 1);
+      EXPECT_LE(end - at - 1, 4U) << decimals << ": " << text.substr(at < 20 ? 0 : at - 20, 40);
+    }
+  }
+  Plan plan = pocket_plan("heidenhain");
+  plan.machine.control.decimals = 5;
+  EXPECT_EQ(written(plan).error().code, "OUT-CONTROL");
+  EXPECT_THAT(written(plan).error().message, HasSubstr("5 decimals"));
+}
+
+// M0 stops the spindle and the coolant: both are off before it, and stated again before the next cut.
+TEST(HeidenhainProgram, BehindAStopTheSpindleAndTheCoolantAreStatedAgain) {
+  Plan plan = holes_plan("heidenhain");
+  Job job;
+  const auto text = write_program(plan, job, {{"H2 drill", "PIP-EXCESS", "too much"}});
+  ASSERT_TRUE(text) << to_text(text.error());
+  bool turns = false, cools = false;
+  int stops = 0;
+  for (std::size_t at = 0; at < text->size();) {
+    const std::size_t end = text->find('\n', at);
+    std::string line = text->substr(at, end - at);
+    at = end + 1;
+    if (line.front() != ' ') line.erase(0, line.find(' ') + 1);
+    if (line == "M3" || line == "M5") turns = line == "M3";
+    if (line == "M8" || line == "M9") cools = line == "M8";
+    if (line == "M0") {
+      ++stops;
+      EXPECT_FALSE(turns || cools);
+    }
+    if (line == "CYCL CALL") {
+      EXPECT_TRUE(turns && cools) << stops;
+    }
+    if (line.starts_with("CYCL DEF 207")) break;  // the spindle stands behind it
+  }
+  EXPECT_EQ(stops, 1);
+}
+
 TEST(HeidenhainProgram, WorkOffsetsAreRowsOfThePresetTable) {
   Plan plan = pocket_plan("heidenhain");
   plan.setups[0].work_offset = "PRESET12";

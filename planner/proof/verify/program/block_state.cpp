@@ -176,7 +176,7 @@ void BlockState::half_turns(const Block& whole, double total) {
   const geometry::Vec2 spoke = xy(whole.from) - whole.centre;
   const double halves = std::min(total / kPi, 1.0 * kMostHalfTurns);
   const int pieces = std::max(1, static_cast<int>(std::ceil(halves - kLeastOfHalfTurn)));
-  turned_ += pieces;
+  turned_ = std::min(turned_ + pieces, kMostHalfTurns);
   if (turned_ >= kMostHalfTurns) {
     put(whole);
     return fault(33, "CHK-TOO-LARGE",

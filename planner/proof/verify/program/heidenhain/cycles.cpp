@@ -30,23 +30,24 @@ enum Q : int {
   kDwellDepth = 211,
   kPitch = 239,
   kPreset = 339,
-  kDepthReference = 395,
-  kRetractFactor = 403
+  kDepthReference = 395
 };
 
 struct Known {
   int cycle;
   std::array<int, 9> needed;    ///< 0: none
-  std::array<int, 2> may_have;  ///< with one value that changes nothing
+  std::array<int, 1> may_have;  ///< with one value that changes nothing
 };
 constexpr std::array<Known, 4> kKnown = {{
     {200, {kClearance, kDepth, kFeed, kPlunge, kDwellTop, kSurface, kSecond, kDwellDepth}, {kDepthReference}},
     {201, {kClearance, kDepth, kFeed, kDwellDepth, kFeedOut, kSurface, kSecond}, {}},
-    {207, {kClearance, kDepth, kPitch, kSurface, kSecond}, {kRetractFactor}},
+    {207, {kClearance, kDepth, kPitch, kSurface, kSecond}, {}},
     {247, {kPreset}, {}},
 }};
 
-bool in(std::span<const int> all, int one) { return std::find(all.begin(), all.end(), one) != all.end(); }
+bool in(std::span<const int> all, int one) {
+  return one != 0 && std::find(all.begin(), all.end(), one) != all.end();
+}
 
 }  // namespace
 
@@ -99,7 +100,7 @@ void Interpreter::old_cycle(const std::string& number, const std::vector<std::st
 }
 
 void Interpreter::q_cycle(int number, const std::vector<std::string>& w) {
-  cycle_.reset();
+  if (number != 247) cycle_.reset();  // that one acts where it stands, and leaves the one that is defined
   const auto* known =
       std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& k) { return k.cycle == number; });
   if (known == kKnown.end()) return unfollowed("CYCL DEF " + std::to_string(number));
@@ -141,8 +142,6 @@ bool Interpreter::complete(const CycleDefinition& c) {
     return false;
   };
   if (c.of(kDepthReference) != 0.0) return unverifiable("Q395 counts the depth otherwise; state 0");
-  if (c.has(kRetractFactor) && c.of(kRetractFactor) != 1.0)
-    return unverifiable("Q403 brings the tap out at another speed; state 1");
   if (c.number == 200 && c.of(kPlunge) < -c.of(kDepth) - kClose)
     return unverifiable("Q202 is less than the depth: how it pecks depends on the control's version");
   return true;

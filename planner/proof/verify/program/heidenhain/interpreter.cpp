@@ -17,6 +17,7 @@ using model::MoveKind;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kMost = 99999.9999;  ///< mm or degrees of a word: TNC 640 ISO programming, 19.3
 
 }  // namespace
 
@@ -128,7 +129,6 @@ void Interpreter::end_program(const std::vector<std::string>& w) {
 void Interpreter::misc(const std::vector<std::string>& w) {
   std::vector<int> m;
   const bool stops = w[0] == "STOP";
-  if (stops) m.push_back(0);
   for (std::size_t i = stops ? 1 : 0; i < w.size(); ++i) {
     const auto code = number_behind(w[i], "M");
     if (!code || *code < 0.0 || *code > 999.0 || *code != std::floor(*code))
@@ -140,16 +140,22 @@ void Interpreter::misc(const std::vector<std::string>& w) {
     return fault(33, "CHK-WORD", "M91 stands in a block without a move");
   before_move(m);
   if (std::find(m.begin(), m.end(), 99) != m.end()) call_cycle();
-  after_move(m);
+  after_move(m, stops);
 }
 
-bool Interpreter::take_radius(const std::string& word) {
+void Interpreter::once(bool before, const std::string& what) {
+  if (before) fault(33, "CHK-WORD-TWICE", what + " stands twice in one block; leave one of them");
+}
+
+bool Interpreter::take_radius(const std::string& word, Said& s) {
+  if (word != "R0" && word != "RL" && word != "RR") return false;
+  once(s.radius, "a radius compensation (R0, RL, RR)");
+  s.radius = true;
   if (word == "R0") {
     radius_ = -1;
     stated_ |= kStatedRadius;
     return true;
   }
-  if (word != "RL" && word != "RR") return false;
   left_ = word == "RL";
   radius_ = tool_;
   return true;
@@ -165,45 +171,54 @@ bool Interpreter::take_axis(const std::string& word, Said& s) {
     fault(1, "CHK-NUMBER", letters + " is not followed by a number (\"" + word.substr(0, 20) + "\")");
     return true;
   }
-  constexpr double kMost = 99999.9999;  // TNC 640 ISO programming, 19.3
   if (std::abs(*value) > kMost)
     fault(33, "CHK-WORD", word + " is more than the control takes, " + plain(kMost));
   const int i = axis - 'A', at = axis - 'X';
-  if (s.axes.has[i])
-    fault(33, "CHK-WORD-TWICE", std::string("the axis ") + axis + " stands twice in one block");
+  once(s.axes.has[i], std::string("the axis ") + axis);
   const double now[3] = {at_.x, at_.y, at_.z};
   if (by_increment && !known_[at])
     fault(27, "CHK-POSITION", letters + " counts from a place that is not known");
   s.axes.has[i] = true;
+  s.incremental = s.incremental || by_increment;
   s.axes.value[i] = by_increment ? now[at] / units() + *value : *value;
   return true;
 }
 
-/// False: the block is not followed.
-bool Interpreter::take(const std::string& word, std::string_view kind, Said& s) {
+/// DR, IPA of CP and R of CR. `followed` false: the block is not.
+bool Interpreter::take_arc(const std::string& word, std::string_view kind, Said& s, bool& followed) {
   if (word == "DR+" || word == "DR-") {
-    if (s.clockwise) fault(33, "CHK-WORD-TWICE", "DR stands twice in one block");
+    once(s.clockwise.has_value(), "DR");
     s.clockwise = word == "DR-";
     return true;
   }
-  if (take_radius(word)) return true;
   if (kind == "CP" && word.starts_with("IPA")) {
+    once(s.angle.has_value(), "IPA");
     s.angle = number_behind(word, "IPA");
+    followed = s.angle.has_value();
     if (!s.angle) fault(1, "CHK-NUMBER", "IPA is not followed by a number (\"" + word.substr(0, 20) + "\")");
-    return s.angle.has_value();
-  }
-  if (take_axis(word, s)) return true;
-  if (kind == "CR" && word.front() == 'R') {
-    const auto radius = number_behind(word, "R");
-    if (!radius) {
-      fault(1, "CHK-NUMBER", "R of CR is not followed by a number");
-      return false;
-    }
-    s.axes.has['R' - 'A'] = true;
-    s.axes.value['R' - 'A'] = *radius;
+    if (s.angle && std::abs(*s.angle) > kMost)
+      fault(33, "CHK-WORD", word + " is more than the control takes, " + plain(kMost) + " degrees");
     return true;
   }
+  if (kind == "CR" && word.front() == 'R') {
+    const auto radius = number_behind(word, "R");
+    once(s.axes.is('R'), "R");
+    followed = radius.has_value();
+    if (!followed) fault(1, "CHK-NUMBER", "R of CR is not followed by a number");
+    s.axes.has['R' - 'A'] = true;
+    s.axes.value['R' - 'A'] = radius.value_or(0.0);
+    return true;
+  }
+  return false;
+}
+
+/// False: the block is not followed.
+bool Interpreter::take(const std::string& word, std::string_view kind, Said& s) {
+  bool followed = true;
+  if (take_radius(word, s) || take_arc(word, kind, s, followed)) return followed;
+  if (take_axis(word, s)) return true;
   if (word == "FMAX") {
+    once(s.rapid, "FMAX");
     s.rapid = true;
     return true;
   }
@@ -213,7 +228,7 @@ bool Interpreter::take(const std::string& word, std::string_view kind, Said& s) 
       fault(33, "CHK-UNVERIFIABLE", word + " is no feed in mm/min and is not followed", true);
       return false;
     }
-    if (s.feed) fault(33, "CHK-WORD-TWICE", "F stands twice in one block");
+    once(s.feed.has_value(), "F");
     s.feed = feed;
     return true;
   }
@@ -236,6 +251,11 @@ void Interpreter::move(const std::vector<std::string>& w) {
   for (std::size_t i = 1; i < w.size(); ++i) {
     if (!take(w[i], kind, s)) return;
   }
+  if (s.in_machine && s.incremental)
+    return fault(
+        33, "CHK-WORD",
+        "an increment (I) and M91 stand in one block: it counts from the last place with M91, which is "
+        "not followed; state the machine's place without I");
   if (s.rapid && s.feed) fault(33, "CHK-WORD", "FMAX and another feed stand in one block");
   if (s.feed) {
     feed_ = *s.feed * units();
@@ -339,12 +359,17 @@ void Interpreter::optional_stop() {
   if (!proves_out_ || !machine_z_ || spindle_ != 0 || flood_ || mist_) out_.odd.emplace_back(line_, "M1");
 }
 
-void Interpreter::after_move(const std::vector<int>& m) {
+/// M0 also stops the spindle and turns the coolant off; STOP by itself leaves them.
+void Interpreter::after_move(const std::vector<int>& m, bool stop_block) {
   const auto has = [&](int code) { return std::find(m.begin(), m.end(), code) != m.end(); };
   if (has(5)) spindle_ = 0;
   if (has(9)) mist_ = flood_ = false;
   if (has(1)) optional_stop();
-  if (has(0)) stop();
+  if (has(0) || stop_block) stop();
+  if (has(0)) {
+    spindle_ = 0;
+    mist_ = flood_ = false;
+  }
   if (!has(2) && !has(30)) return;
   Block b = block();
   b.kind = Block::Kind::kEnd;

@@ -35,7 +35,7 @@ class Interpreter : private BlockState {
   /// What one block of movement says.
   struct Said {
     BlockSaid axes;  ///< absolute, mm; I, J: the circle's centre from the start; R: the radius of CR
-    bool rapid = false, in_machine = false;
+    bool rapid = false, in_machine = false, incremental = false, radius = false;
     std::optional<double> feed, angle;
     std::optional<bool> clockwise;
     std::vector<int> m;
@@ -57,12 +57,16 @@ class Interpreter : private BlockState {
   void move(const std::vector<std::string>& w);
   bool take(const std::string& word, std::string_view kind, Said& s);
   bool take_axis(const std::string& word, Said& s);
-  bool take_radius(const std::string& word);
+  bool take_radius(const std::string& word, Said& s);
+  bool take_arc(const std::string& word, std::string_view kind, Said& s, bool& followed);
+  /// `before`: it stood in this block already.
+  void once(bool before, const std::string& what);
   void pole(const std::vector<std::string>& w);
   void arc_block(std::string_view kind, Said& s);
   void helix(const Said& s);
   void before_move(const std::vector<int>& m);
-  void after_move(const std::vector<int>& m);
+  /// `stop_block`: the block is a STOP.
+  void after_move(const std::vector<int>& m, bool stop_block = false);
   void optional_stop();
   // state.cpp
   void tool_call(const std::vector<std::string>& w);

@@ -27,8 +27,10 @@ void Interpreter::tool_call(const std::vector<std::string>& w) {
       if (tool) continue;
     }
     if (word == "Z") {
+      once(axis, "the tool axis Z");
       axis = true;
-    } else if (const auto s = number_behind(word, "S"); s && !speed) {
+    } else if (const auto s = number_behind(word, "S")) {
+      once(speed.has_value(), "S");
       speed = s;
     } else {
       return fault(33, "CHK-UNVERIFIABLE",

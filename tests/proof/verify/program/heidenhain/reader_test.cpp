@@ -107,7 +107,15 @@ TEST(HeidenhainCycles, TappingHoldsStepBothWaysAndStopsTheSpindle) {
   EXPECT_EQ(last(p).spindle_rpm, 0.0);
   const auto left = read(tapping("-1.5") + "CYCL CALL\n");
   EXPECT_EQ(left.blocks[left.blocks.size() - 4].spindle_rpm, -1000.0);
-  EXPECT_EQ(faults(read(tapping("+1.5", "  Q403=+1 ~\n") + "CYCL CALL\n")), "");
+}
+
+// 247 acts where it stands: the cycle that is defined stays so.
+TEST(HeidenhainCycles, APresetLeavesTheCycleThatIsDefined) {
+  const std::string preset = "CYCL DEF 247 DATUM SETTING ~\n  Q339=+1 ;DATUM NUMBER\n";
+  const auto p = read(drilling() + preset + "CYCL CALL\n");
+  EXPECT_EQ(faults(p), "");
+  EXPECT_EQ(moves(p), (Moves{"R 5 6 3", "L 5 6 -7", "D 0.5", "R 5 6 16"}));
+  EXPECT_TRUE(finds(read(drilling() + "CYCL DEF 203 UNIVERSAL DRILLING\nCYCL CALL\n"), "CHK-CYCLE"));
 }
 
 TEST(HeidenhainCycles, WhatWouldBreakTheToolOrIsNotFollowedIsAFault) {
@@ -125,7 +133,10 @@ TEST(HeidenhainCycles, WhatWouldBreakTheToolOrIsNotFollowedIsAFault) {
   EXPECT_TRUE(finds(edited("Q203=+1", "Q203=Q5"), "CHK-UNVERIFIABLE"));
   EXPECT_TRUE(finds(read(drilling("  Q395=+1 ~\n") + "CYCL CALL\n"), "CHK-UNVERIFIABLE"));
   EXPECT_TRUE(finds(read(drilling("  Q999=+1 ~\n") + "CYCL CALL\n"), "CHK-UNVERIFIABLE"));
-  EXPECT_TRUE(finds(read(tapping("+1.5", "  Q403=+2 ~\n") + "CYCL CALL\n"), "CHK-UNVERIFIABLE"));
+  // Q403 is of cycle 209, Q0 of none.
+  for (const char* other : {"  Q403=+1 ~\n", "  Q403=+2 ~\n", "  Q0=+1 ~\n"})
+    EXPECT_TRUE(finds(read(tapping("+1.5", other) + "CYCL CALL\n"), "CHK-UNVERIFIABLE")) << other;
+  EXPECT_TRUE(finds(read(drilling("  Q0=+1 ~\n") + "CYCL CALL\n"), "CHK-UNVERIFIABLE"));
   EXPECT_TRUE(finds(read(tapping("+0") + "CYCL CALL\n"), "CHK-TAP-FEED"));
   EXPECT_TRUE(finds(read("CYCL CALL\n"), "CHK-CYCLE"));
   EXPECT_TRUE(finds(read("L X+9 R0 FMAX M99\n"), "CHK-CYCLE"));
@@ -184,6 +195,19 @@ TEST(HeidenhainArcs, AHelixTurnsByItsAngleAndGoesDownInStep) {
   EXPECT_TRUE(finds(read("CC X+1 Y+6\nCP PA+180 IZ-1 DR+ F100\n"), "CHK-UNVERIFIABLE"));
 }
 
+// Helices beyond all bounds are not followed, however many they are: each of these turns by more than what a
+// whole program may.
+TEST(HeidenhainArcs, TurnsBeyondAllBoundsAreNotFollowed) {
+  constexpr std::size_t kHelices = 4296;  // times the bound of half turns: more than an int holds
+  std::string body = "CC X+1 Y+6\n";
+  for (std::size_t i = 0; i < kHelices; ++i) body += "CP IPA+100000000 IZ-1 DR+ F100\n";
+  const auto p = read(body);
+  EXPECT_TRUE(finds(p, "CHK-TOO-LARGE"));
+  EXPECT_LT(p.blocks.size(), kHelices + 10);
+  EXPECT_TRUE(finds(read("CC X+1 Y+6\nCP IPA+100000 IZ-1 DR+ F100\n"), "CHK-WORD"));
+  EXPECT_EQ(faults(read("CC X+1 Y+6\nCP IPA+99999.9999 IZ-1 DR+ F100\n")), "");
+}
+
 // FMAX holds for its block; behind it F is what it was.
 TEST(HeidenhainState, FmaxIsOfItsBlockAndIncrementsOfTheirAxis) {
   const auto p = read("L X+9 R0 F100\nL IX+3 Z+15 R0 FMAX\nL Y+1\n");
@@ -199,6 +223,34 @@ TEST(HeidenhainState, M91SaysWhereTheAxisGoesInItsBlock) {
   EXPECT_TRUE(last(p).machine_z);
   EXPECT_FALSE(last(read("L Z+0 R0 FMAX M91\nL Z+10 R0 FMAX\n")).machine_z);
   EXPECT_FALSE(read("M91\n").faults.empty());
+}
+
+// An increment counts from the last place with M91, not from one of the work: Z+10 and IZ-10 are not Z0 of
+// the machine.
+TEST(HeidenhainState, AnIncrementWithM91IsNoPlaceOfTheMachine) {
+  const auto p = read("L Z+10 R0 FMAX\nL IZ-10 R0 FMAX M91\n");
+  EXPECT_TRUE(finds(p, "CHK-WORD")) << faults(p);
+  EXPECT_FALSE(last(p).machine_z);
+  EXPECT_TRUE(finds(read("L Z+0 IX+5 R0 FMAX M91\n"), "CHK-WORD"));
+  EXPECT_TRUE(finds(read("L Z+0 M91 IX+5 R0 FMAX\n"), "CHK-WORD"));
+}
+
+// M0: "program STOP, spindle STOP, coolant OFF". STOP by itself leaves them.
+TEST(HeidenhainState, M0StopsTheSpindleAndTheCoolantAndStopLeavesThem) {
+  const auto behind = [](const std::string& stop) {
+    return last(read("M8\nM7\n" + stop + "\nL X+9 R0 FMAX\n"));
+  };
+  for (const char* stop : {"M0", "STOP M0", "L X+7 R0 FMAX M0"}) {
+    EXPECT_EQ(behind(stop).spindle_rpm, 0.0) << stop;
+    EXPECT_FALSE(behind(stop).flood || behind(stop).mist) << stop;
+    const auto p = read(std::string(stop) + "\n");
+    EXPECT_EQ(p.stops.size(), 1U) << stop;
+    EXPECT_EQ(p.stops[0].spindle_rpm, 1000.0) << stop;  // as it comes to the stop
+  }
+  EXPECT_EQ(behind("STOP").spindle_rpm, 1000.0);
+  EXPECT_TRUE(behind("STOP").flood && behind("STOP").mist);
+  EXPECT_EQ(read("STOP\n").stops.size(), 1U);
+  EXPECT_EQ(behind("M0\nM3").spindle_rpm, 1000.0);
 }
 
 TEST(HeidenhainState, ToolCallChangesTheToolWithItsLengthOrStatesASpeed) {
@@ -248,6 +300,16 @@ TEST(HeidenhainText, BlocksAreReadAsTheControlReadsThem) {
   EXPECT_EQ(p.blocks[1].dwell_s, 0.5);
   EXPECT_EQ(p.stops.size(), 1U);
   EXPECT_TRUE(p.ended);
+}
+
+TEST(HeidenhainText, AWordThatStandsTwiceInABlockIsAFault) {
+  for (const char* body :
+       {"L X+5 R0 RL FMAX\n", "L X+5 R0 R0 FMAX\n", "L X+5 R0 FMAX FMAX\n", "L X+5 R0 F100 F200\n",
+        "L X+5 IX+6 R0 FMAX\n", "CC X+1 Y+6\nCP IPA+180 IPA+360 IZ-1 DR+ F100\n",
+        "CR X+1 Y+10 R+4 R-4 DR+ F100\n", "CR X+1 Y+10 R+4 DR+ DR- F100\n", "TOOL CALL 7 Z Z S500\n",
+        "TOOL CALL 7 Z S500 S600\n"})
+    EXPECT_TRUE(finds(read(body), "CHK-WORD-TWICE")) << body << faults(read(body));
+  EXPECT_EQ(faults(read("CR X+1 Y+10 R+4 DR+ R0 F100\n")), "");
 }
 
 TEST(HeidenhainText, WhatTheControlRefusesIsAFault) {
