@@ -117,6 +117,8 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
     auto inputs = gather(request, read_part->plan, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
+    // The raw piece of a CAD part was made with the allowance; its features begin there.
+    if (read_part->shape != nullptr) inputs->stock_allowance_mm.reset();
     if (request.may) {
       std::erase_if(inputs->provenance, [](const auto& p) { return p.what == kMay; });
       inputs->provenance.push_back({std::string(kMay), *request.may, request.sign + std::string(kMay)});

@@ -81,7 +81,10 @@ TEST_F(Readme, ShowsWhatTheProgramSays) {
   for (const auto& e : fs::directory_iterator(capstan::testing::source_dir() + "/examples")) {
     if (e.is_regular_file()) fs::copy_file(e.path(), folder_ / e.path().filename());
   }
+  // Without OpenCASCADE, CAD parts are refused, and what follows has no plan of them.
+  const bool cad = fs::exists(fs::path(CAPSTAN_COMMAND).parent_path() / "capstan-brep");
   for (const Shown& s : shown) {
+    if (!cad && s.arguments.find("cover.") != std::string::npos) continue;
     const Ran r = run(s.arguments);
     std::vector<std::string> printed;
     // Empty lines are layout.

@@ -1,18 +1,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/files/json/json.h"
 #include "tests/door/app/command/command.h"
 #include "tests/files/exchange/brep/step_part.h"
 
-// CAD models at the command: shown by `inspect`, or one clear fault.
+// CAD models at the command: shown by `inspect`, planned by `plan`, or one clear fault.
 
 namespace capstan::app {
 namespace {
 
 using exchange::testing::StepPart;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::string drilled() {
   StepPart part;
@@ -85,12 +88,55 @@ TEST_F(CadModel, PathsAreRefused) {
   EXPECT_THAT(r.err, HasSubstr("[INS-PATH]"));
 }
 
-TEST_F(CadModel, PlanSaysWhatItIsAndWritesNothing) {
+TEST_F(CadModel, TheExampleIsPlannedCheckedAgainstItsShapeAndWrittenInEveryForm) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
+  put("cover.step", slurp(capstan::testing::source_dir() + "/examples/cover.step"));
+  const Ran r = run("plan cover.step --material 6061 -o cover.json -o cover.ngc -o cover.stpnc -o cover.p21");
+  EXPECT_THAT(r.err + r.out, AllOf(HasSubstr("\nSafe"), HasSubstr("plane faces within 0.06 mm [CHK-SHAPE]"),
+                                   Not(HasSubstr("CHK-SHAPE-GOUGE")), Not(HasSubstr("not planned;"))));
+  EXPECT_THAT(files(), ElementsAre("cover.json", "cover.ngc", "cover.p21", "cover.step", "cover.stpnc"));
+  for (const char* file : {"cover.p21", "cover.stpnc"}) {
+    const Ran again = run(std::string("check ") + file);
+    EXPECT_THAT(again.err + again.out,
+                AllOf(HasSubstr("Safe: 1 file checked; no error"), Not(HasSubstr("error:"))))
+        << file;
+  }
+  const Ran program = run("check cover.json cover.ngc");
+  EXPECT_THAT(program.err + program.out, HasSubstr("Safe: 2 files checked; no error"));
+}
+
+TEST_F(CadModel, TheAllowanceGrowsTheRawPieceOnce) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
   put("part.step", drilled());
-  const Ran r = run("plan part.step -o part.stpnc");
-  EXPECT_EQ(r.code, 3);
-  EXPECT_THAT(r.err, AllOf(HasSubstr("CAD model"), HasSubstr("capstan inspect part.step")));
-  EXPECT_THAT(files(), ::testing::ElementsAre("part.step"));
+  const Ran r = run("plan part.step --material 6061 --stock block:+2 -o part.json");
+  Job job;
+  const auto plan = json::read_json(slurp(folder_ / "part.json"), "part.json", job);
+  ASSERT_TRUE(plan) << r.err << r.out;
+  EXPECT_EQ(plan->stock.box.lo, (geometry::Vec3{8, 18, 28}));
+  EXPECT_EQ(plan->stock.box.hi, (geometry::Vec3{42, 62, 52}));
+  // Nothing is cut over the raw piece: in the first set-up the workpiece stands as it is drawn.
+  std::size_t cuts = 0;
+  for (const model::StepResult& s : plan->steps) {
+    if (s.setup != 0 || !s.path) continue;
+    for (std::size_t m = 0; m < s.path->size(); ++m) {
+      if (s.path->role[m] != model::MoveRole::kCut) continue;
+      ++cuts;
+      EXPECT_LT(s.path->z[m], 52.0) << model::step_id(*plan, s) << ", move " << m;
+    }
+  }
+  EXPECT_GT(cuts, 0U) << r.err << r.out;
+}
+
+TEST_F(CadModel, OtherCommandsSayWhatDoesIt) {
+  put("part.step", drilled());
+  for (const char* line : {"bind part.step -o part.ngc", "check part.step"}) {
+    const Ran r = run(line);
+    EXPECT_EQ(r.code, 3) << line;
+    EXPECT_THAT(r.err, AllOf(HasSubstr("CAD model"), HasSubstr("capstan plan part.step"),
+                             HasSubstr("capstan inspect part.step")))
+        << line;
+  }
+  EXPECT_THAT(files(), ElementsAre("part.step"));
 }
 
 }  // namespace
