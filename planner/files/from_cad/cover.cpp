@@ -85,8 +85,8 @@ Lattice lattice_of(const Part& part) {
     points = std::max(1.0, points / out.n[k]);
     volume /= sizes[k];
   }
-  out.origin = part.raw().lo + Vec3{kAskew[0] * out.step_mm[0], kAskew[1] * out.step_mm[1],
-                                    kAskew[2] * out.step_mm[2]};
+  out.origin = part.raw().lo +
+               Vec3{kAskew[0] * out.step_mm[0], kAskew[1] * out.step_mm[1], kAskew[2] * out.step_mm[2]};
   out.inside.assign(static_cast<std::size_t>(out.n[0]) * static_cast<std::size_t>(out.n[1]) *
                         static_cast<std::size_t>(out.n[2]),
                     false);
@@ -134,8 +134,8 @@ double surface_error(const Part& part, const Lattice& lattice) {
   const exchange::Body& b = part.body();
   for (std::uint32_t f = b.first_face; f < b.first_face + b.face_count; ++f) {
     for (const Part::Spot& s : part.spots(f))
-      cells += s.area_mm2 *
-               (std::abs(s.normal.x) / (y * z) + std::abs(s.normal.y) / (x * z) + std::abs(s.normal.z) / (x * y));
+      cells += s.area_mm2 * (std::abs(s.normal.x) / (y * z) + std::abs(s.normal.y) / (x * z) +
+                             std::abs(s.normal.z) / (x * y));
   }
   return std::sqrt(cells);
 }

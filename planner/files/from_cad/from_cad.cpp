@@ -429,13 +429,12 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
     ++features_made;
     faces_made += faces;
   }
-  say("CAD-RECOGNISED", counted(features_made, "feature", "features") + " of " +
-                            counted(faces_made, "face", "faces") + "; " +
-                            counted(found.on_raw.size(), "face lies", "faces lie") +
-                            " on the sides of the part's box; " +
-                            counted(stays.size(), "feature, group of faces or volume is",
-                                    "features, groups of faces or volumes are") +
-                            " not planned");
+  say("CAD-RECOGNISED",
+      counted(features_made, "feature", "features") + " of " + counted(faces_made, "face", "faces") + "; " +
+          counted(found.on_raw.size(), "face lies", "faces lie") + " on the sides of the part's box; " +
+          counted(stays.size(), "feature, group of faces or volume is",
+                  "features, groups of faces or volumes are") +
+          " not planned");
   plan.provenance.push_back({"unit of the CAD file", brep.unit, "the file; planned in mm"});
   return plan;
 }

@@ -56,6 +56,7 @@ struct Sections {
   std::vector<Bore> bores;  ///< from the mouth inwards, heights along the frame's z
   HoleEnd end = HoleEnd::kThrough;
   double tip_angle_rad = 0.0, end_radius_mm = 0.0, lowest_mm = 0.0;
+  std::vector<std::uint32_t> fillets;  ///< faces at the bottom of the last bore, ascending
 };
 
 std::optional<Sections> sections_of(const Part& part, const recognise::Feature& feature,
@@ -106,6 +107,7 @@ std::optional<Sections> sections_of(const Part& part, const recognise::Feature& 
         out.lowest_mm = lo;
         break;
       case Carrier::kTorus:
+        out.fillets.push_back(f);
         fillets.push_back({hi, lo, face.minor_radius, face.radius + face.minor_radius});
         break;
       default:
@@ -148,10 +150,10 @@ std::optional<Sections> sections_of(const Part& part, const recognise::Feature& 
   return out;
 }
 
-/// Whether nothing of the part stands above a disc.
+/// Whether nothing of the part stands above a disc. `but`: faces that are not looked at, a fillet at its rim.
 bool free_above(const Part& part, const geometry::Placement& frame, Vec2 centre, double radius_mm,
-                double z_mm) {
-  const Cleared& c = part.cleared(frame, z_mm, {});
+                double z_mm, const std::vector<std::uint32_t>& but = {}) {
+  const Cleared& c = part.cleared(frame, z_mm, but);
   const auto points = rim(centre, radius_mm);
   return std::all_of(points.begin(), points.end(),
                      [&](Vec2 p) { return room_at(c, p) >= 0 || !geometry::contains(c.raw, p); });
@@ -198,7 +200,9 @@ std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature,
       if (i > 0) narrows = narrows && b.top_radius_mm < s->bores[i - 1].bottom_radius_mm + kLevelMm;
       if (i > 0 && s->bores[0].cone() && i == 1)
         narrows = narrows && same(b.top_radius_mm, s->bores[0].bottom_radius_mm);
-      free = free && free_above(part, frame, centre, b.bottom_radius_mm, b.bottom_mm);
+      const bool rounded = s->end == HoleEnd::kRounded && i + 1 == s->bores.size();
+      free = free && free_above(part, frame, centre, b.bottom_radius_mm, b.bottom_mm,
+                                rounded ? s->fillets : std::vector<std::uint32_t>{});
     }
     if (!narrows) {
       say("it widens below its mouth, or has a cone that is not at its mouth");
