@@ -38,6 +38,7 @@ struct Drawn {
   double depth_mm = 0.0;
   Region raw, area;
   std::vector<RoundWall> walls;
+  std::vector<FlatWall> flats;
   std::vector<Piece> outer;
   std::vector<std::vector<Piece>> islands;
   double chord_mm = 0.0;
@@ -57,10 +58,11 @@ Drawn drawn(const Part& part, const Room& room) {
   out.area = shifted(room.area, -1.0 * middle);
   for (const RoundWall& w : part.round_walls(room.frame))
     out.walls.push_back({w.centre - middle, w.radius_mm});
+  for (const FlatWall& w : part.flat_walls(room.frame)) out.flats.push_back({w.from - middle, w.to - middle});
   // The mesh keeps its chord; where two meshes of a circle cross, corners lie a little beside it.
   out.chord_mm = 2.0 * part.brep().chord;
   for (std::size_t i = 0; i < out.area.loops.size(); ++i) {
-    auto pieces = pieces_of(out.area.loops[i], out.raw, out.walls, out.chord_mm);
+    auto pieces = pieces_of(out.area.loops[i], out.raw, out.walls, out.chord_mm, out.flats);
     if (pieces.empty()) continue;
     if (geometry::signed_area(out.area.loops[i]) > 0.0) {
       out.outer = std::move(pieces);
@@ -343,7 +345,7 @@ class Maker {
     for (const Loop& l : parts.empty() ? std::vector<Loop>{} : parts.front().loops) {
       if (geometry::signed_area(l) > 0.0) loop = l;
     }
-    const auto round = pieces_of(loop, geometry::Region{}, d_.walls, d_.chord_mm);
+    const auto round = pieces_of(loop, geometry::Region{}, d_.walls, d_.chord_mm, d_.flats);
     if (round.empty()) return {};
     auto f = feature<model::GeneralOutsideProfile>("OUTSIDE");
     model::LinearPath swept;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <numbers>
 
 #include "planner/files/from_cad/areas.h"
 #include "planner/files/from_cad/cover.h"
@@ -374,6 +375,7 @@ TEST_F(FromCad, AStepWithAFilletSaysThatItsFilletIsNotPlanned) {
                                       {{0, 20}, {}}},
                                      60));
   ASSERT_TRUE(plan) << plan.error().message;
+  EXPECT_FALSE(model::not_recognised(*plan).empty());
   for (const auto& [feature, why] : model::not_recognised(*plan))
     EXPECT_NE(why.find("fillets of 2 mm"), std::string::npos) << why;
 }
@@ -428,6 +430,32 @@ TEST_F(FromCad, TheNoteCountsWhatIsPlanned) {
   EXPECT_NE(said("CAD-RECOGNISED").find("2 features, groups of faces or volumes are not planned"),
             std::string::npos)
       << said("CAD-RECOGNISED");
+}
+
+TEST_F(FromCad, AShortFlatOnARoundIsNoArc) {
+  // A disc of 10 mm whose right side is flat over 0.8 mm: 0.008 mm short of the circle.
+  const double half = std::asin(0.04);
+  geometry::Loop loop;
+  for (int i = 0; i <= 100; ++i) {
+    const double a = half + (2.0 * std::numbers::pi - 2.0 * half) * i / 100;
+    loop.push_back(10.0 * Vec2{std::cos(a), std::sin(a)});
+  }
+  const std::vector<from_cad::RoundWall> round = {{{0, 0}, 10.0}};
+  EXPECT_EQ(from_cad::pieces_of(loop, {}, round, 0.04).size(), 1U) << "by its points alone: a circle";
+  const std::vector<from_cad::FlatWall> flat = {{loop.back(), loop.front()}};
+  const auto pieces = from_cad::pieces_of(loop, {}, round, 0.04, flat);
+  ASSERT_EQ(pieces.size(), 2U);
+  const auto line = std::find_if(pieces.begin(), pieces.end(), [](const auto& p) { return !p.arc(); });
+  ASSERT_NE(line, pieces.end());
+  EXPECT_NEAR(norm(line->to - line->from), 0.8, 1e-9);
+  const exchange::Brep brep = shape(extruded(rounded_plate(), 10));
+  const from_cad::Part part(brep, 0, {{0, 0, 0}, {60, 40, 10}});
+  const auto walls = part.flat_walls(from_cad::Part::frame_along({0, 0, 1}));
+  ASSERT_EQ(walls.size(), 4U);
+  for (const auto& w : walls) {
+    const double length = norm(w.to - w.from);
+    EXPECT_LT(std::min(std::abs(length - 48.0), std::abs(length - 28.0)), 1e-6) << length;
+  }
 }
 
 }  // namespace
