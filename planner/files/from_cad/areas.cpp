@@ -38,6 +38,7 @@ struct Drawn {
   double depth_mm = 0.0;
   Region raw, area;
   std::vector<RoundWall> walls;
+  std::vector<FlatWall> flats;
   std::vector<Piece> outer;
   std::vector<std::vector<Piece>> islands;
   double chord_mm = 0.0;
@@ -57,10 +58,11 @@ Drawn drawn(const Part& part, const Room& room) {
   out.area = shifted(room.area, -1.0 * middle);
   for (const RoundWall& w : part.round_walls(room.frame))
     out.walls.push_back({w.centre - middle, w.radius_mm});
+  for (const FlatWall& w : part.flat_walls(room.frame)) out.flats.push_back({w.from - middle, w.to - middle});
   // The mesh keeps its chord; where two meshes of a circle cross, corners lie a little beside it.
   out.chord_mm = 2.0 * part.brep().chord;
   for (std::size_t i = 0; i < out.area.loops.size(); ++i) {
-    auto pieces = pieces_of(out.area.loops[i], out.raw, out.walls, out.chord_mm);
+    auto pieces = pieces_of(out.area.loops[i], out.raw, out.walls, out.chord_mm, out.flats);
     if (pieces.empty()) continue;
     if (geometry::signed_area(out.area.loops[i]) > 0.0) {
       out.outer = std::move(pieces);
@@ -87,30 +89,37 @@ std::vector<std::vector<Piece>> runs(const std::vector<Piece>& outer) {
   return out;
 }
 
+/// Through, and open all round, or beside one arc that bulges: the tool goes round what stands.
+bool is_contour(const Room& room, const Drawn& d) {
+  if (room.contour) return true;
+  if (!room.through || d.outer.empty()) return false;
+  if (std::all_of(d.outer.begin(), d.outer.end(), [](const Piece& p) { return p.open; })) return true;
+  const auto sides = runs(d.outer);
+  return sides.size() == 2 && sides[0].size() == 1 && sides[0][0].sweep_rad < 0.0;
+}
+
 class Maker {
  public:
   Maker(const Room& room, const Drawn& d, model::Model& m, Ref<model::Workpiece> piece, std::string number)
       : room_(room), d_(d), m_(m), nouns_(m), piece_(piece), number_(std::move(number)) {}
 
   AnyRef make() {
+    if (d_.outer.empty()) return {};
+    if (is_contour(room_, d_)) return outside();
     const auto sides = runs(d_.outer);
     const bool walls = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return !p.open; });
     const bool open = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return p.open; });
     if (!open) return closed_pocket();
-    if (!walls && !room_.through)
-      return d_.islands.empty() ? face(over_all(), {}) : face(d_.outer, d_.islands);
-    if (!walls) return outside();
+    if (!walls) return d_.islands.empty() ? face(over_all(), {}) : face(d_.outer, d_.islands);
     if (sides.size() == 2) {
       const auto& wall = sides[0];
       if (wall.size() == 1 && lies_beside(wall[0])) return step(wall[0]);
-      const bool bulges = wall.size() == 1 && wall[0].sweep_rad < 0.0;
-      if (!(bulges && room_.through)) return open_pocket(wall, sides[1]);
-      return outside();
+      return open_pocket(wall, sides[1]);
     }
     if (sides.size() == 4 && d_.islands.empty()) {
       if (const auto slot = straight_slot(sides)) return *slot;
     }
-    return sides.size() > 2 ? open_on_more_sides(sides) : outside();
+    return open_on_more_sides(sides);
   }
 
  private:
@@ -330,19 +339,20 @@ class Maker {
 
   /// The whole contour of what stands down to the underside of the raw piece.
   AnyRef outside() {
-    auto f = feature<model::GeneralOutsideProfile>("OUTSIDE");
     const Region stands = geometry::subtract(d_.raw, d_.area);
     const auto parts = geometry::pieces(stands);
     Loop loop;
     for (const Loop& l : parts.empty() ? std::vector<Loop>{} : parts.front().loops) {
       if (geometry::signed_area(l) > 0.0) loop = l;
     }
+    const auto round = pieces_of(loop, geometry::Region{}, d_.walls, d_.chord_mm, d_.flats);
+    if (round.empty()) return {};
+    auto f = feature<model::GeneralOutsideProfile>("OUTSIDE");
     model::LinearPath swept;
     swept.distance = nouns_.length(d_.depth_mm);
     swept.its_direction = nouns_.direction({0.0, 0.0, -1.0});
     f.profile_swept_shape = m_.add(swept);
-    f.feature_boundary =
-        Ref<model::Profile>(AnyRef(profile(pieces_of(loop, geometry::Region{}, d_.walls, d_.chord_mm))));
+    f.feature_boundary = Ref<model::Profile>(AnyRef(profile(round)));
     return m_.add(f);
   }
 
@@ -357,6 +367,16 @@ class Maker {
 bool same_area(const Region& a, const Region& b) {
   return geometry::area(geometry::subtract(a, b)) < kSpeckMm2 &&
          geometry::area(geometry::subtract(b, a)) < kSpeckMm2;
+}
+
+/// One room takes over what another is made of.
+void take(Room& to, const Room& from) {
+  std::vector<std::uint32_t> faces;
+  std::set_union(to.faces.begin(), to.faces.end(), from.faces.begin(), from.faces.end(),
+                 std::back_inserter(faces));
+  to.faces = std::move(faces);
+  to.recognised.insert(to.recognised.end(), from.recognised.begin(), from.recognised.end());
+  to.blend_radius_mm = std::max(to.blend_radius_mm, from.blend_radius_mm);
 }
 
 }  // namespace
@@ -406,12 +426,7 @@ void settle(std::vector<Room>& rooms) {
       out.push_back(std::move(room));
       continue;
     }
-    std::vector<std::uint32_t> faces;
-    std::set_union(same->faces.begin(), same->faces.end(), room.faces.begin(), room.faces.end(),
-                   std::back_inserter(faces));
-    same->faces = std::move(faces);
-    same->recognised.insert(same->recognised.end(), room.recognised.begin(), room.recognised.end());
-    same->blend_radius_mm = std::max(same->blend_radius_mm, room.blend_radius_mm);
+    take(*same, room);
   }
   for (Room& room : out) {
     for (const Room& above : out) {
@@ -420,6 +435,24 @@ void settle(std::vector<Room>& rooms) {
           geometry::area(geometry::subtract(room.area, above.area)) < kSpeckMm2)
         room.top_mm = above.level_mm;
     }
+  }
+  rooms = std::move(out);
+}
+
+void join_contours(const Part& part, std::vector<Room>& rooms) {
+  std::vector<Room> out;
+  for (Room& room : rooms) {
+    room.contour = is_contour(room, drawn(part, room));
+    const auto same = std::find_if(out.begin(), out.end(), [&](const Room& r) {
+      return room.contour && r.contour && r.frame.z == room.frame.z &&
+             std::abs(r.level_mm - room.level_mm) < kLevelMm && std::abs(r.top_mm - room.top_mm) < kLevelMm;
+    });
+    if (same == out.end()) {
+      out.push_back(std::move(room));
+      continue;
+    }
+    same->area = geometry::unite(same->area, room.area);
+    take(*same, room);
   }
   rooms = std::move(out);
 }

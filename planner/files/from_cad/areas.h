@@ -15,6 +15,7 @@ struct Room {
   double level_mm = 0.0;       ///< along z of the frame
   double top_mm = 0.0;         ///< what lies above it is cleared by another room, or is outside the raw piece
   bool through = false;        ///< the level is the underside of the raw piece
+  bool contour = false;        ///< the whole contour of what stands beside its areas
   geometry::Region raw, area;  ///< in the frame's plane; holes are what stands in the area
   std::vector<std::uint32_t> blends;
   double blend_radius_mm = 0.0;
@@ -28,11 +29,16 @@ struct Room {
 /// Joins rooms of one area and level, and lets each begin at the level of the lowest room that holds it.
 void settle(std::vector<Room>& rooms);
 
+/// Joins through rooms of one direction and height that each round one place of the part's contour, such as
+/// the corners of a plate, into one room whose noun is the contour.
+void join_contours(const Part& part, std::vector<Room>& rooms);
+
 /// Whether a room clears a place of the workpiece.
 [[nodiscard]] bool clears(const Room& room, Vec3 at);
 
 /// The noun of a room: closed_pocket, open_pocket, slot, step, planar_face or general_outside_profile, by
 /// which of its sides are walls and which are open. Walls are lines and arcs; others are chords of the mesh.
+/// Unset where the area is thinner than points are told apart: nothing is written.
 [[nodiscard]] AnyRef noun_of(const Part& part, const Room& room, model::Model& m, Ref<model::Workpiece> piece,
                              const std::string& number);
 

@@ -14,6 +14,8 @@ namespace {
 
 /// Points of the lattice, about. Default, unsourced: a hundredth of a second, and a thousandth of the volume.
 constexpr double kPoints = 60'000.0;
+/// Layers of it across the thinnest side of the raw piece, at least. Default, unsourced.
+constexpr int kLeastLayers = 4;
 /// A place that lies this far within both counts as cut, mm: twice the chord of the mesh.
 constexpr double kWithinMm = 0.04;
 /// The lattice lies askew to surfaces that stand on round numbers.
@@ -22,7 +24,7 @@ constexpr std::array<double, 3> kAskew = {0.4142, 0.5772, 0.6180};
 /// Points in a box, each inside the part or not.
 struct Lattice {
   Vec3 origin;
-  double step_mm = 0.0;
+  std::array<double, 3> step_mm{};  ///< along x, y, z
   std::array<int, 3> n{};
   std::vector<bool> inside;
   [[nodiscard]] std::size_t index(int i, int j, int k) const {
@@ -31,8 +33,9 @@ struct Lattice {
            static_cast<std::size_t>(k);
   }
   [[nodiscard]] Vec3 at(int i, int j, int k) const {
-    return origin + Vec3{i * step_mm, j * step_mm, k * step_mm};
+    return origin + Vec3{i * step_mm[0], j * step_mm[1], k * step_mm[2]};
   }
+  [[nodiscard]] double each_mm3() const { return step_mm[0] * step_mm[1] * step_mm[2]; }
 };
 
 /// Where an upright line meets a triangle, and whether it looks up.
@@ -67,10 +70,23 @@ bool inside(const geometry::Mesh& mesh, Vec3 p) {
 Lattice lattice_of(const Part& part) {
   Lattice out;
   const Vec3 size = part.raw().size();
-  out.step_mm = std::cbrt(size.x * size.y * size.z / kPoints);
   const std::array<double, 3> sizes{size.x, size.y, size.z};
-  for (std::size_t k = 0; k < 3; ++k) out.n[k] = std::max(1, static_cast<int>(sizes[k] / out.step_mm));
-  out.origin = part.raw().lo + out.step_mm * Vec3{kAskew[0], kAskew[1], kAskew[2]};
+  // From the thinnest side on, what is left of the points is shared by the sides that are left.
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
+  double points = kPoints;
+  double volume = size.x * size.y * size.z;
+  for (std::size_t done = 0; done < 3; ++done) {
+    const std::size_t k = order[done];
+    const double step = std::pow(volume / points, 1.0 / static_cast<double>(3 - done));
+    out.n[k] = std::max(kLeastLayers, static_cast<int>(sizes[k] / step));
+    out.step_mm[k] = sizes[k] / out.n[k];
+    points = std::max(1.0, points / out.n[k]);
+    volume /= sizes[k];
+  }
+  out.origin = part.raw().lo +
+               Vec3{kAskew[0] * out.step_mm[0], kAskew[1] * out.step_mm[1], kAskew[2] * out.step_mm[2]};
   out.inside.assign(static_cast<std::size_t>(out.n[0]) * static_cast<std::size_t>(out.n[1]) *
                         static_cast<std::size_t>(out.n[2]),
                     false);
@@ -79,15 +95,15 @@ Lattice lattice_of(const Part& part) {
   const auto& mesh = part.mesh();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto c = corners(mesh, t);
-    const auto range = [&](double lo, double hi, double from, int n) {
-      const int a = std::max(0, static_cast<int>(std::floor((lo - from) / out.step_mm)));
-      const int b = std::min(n - 1, static_cast<int>(std::ceil((hi - from) / out.step_mm)));
+    const auto range = [&](double lo, double hi, double from, std::size_t k) {
+      const int a = std::max(0, static_cast<int>(std::floor((lo - from) / out.step_mm[k])));
+      const int b = std::min(out.n[k] - 1, static_cast<int>(std::ceil((hi - from) / out.step_mm[k])));
       return std::pair(a, b);
     };
     const auto [i0, i1] =
-        range(std::min({c[0].x, c[1].x, c[2].x}), std::max({c[0].x, c[1].x, c[2].x}), out.origin.x, out.n[0]);
+        range(std::min({c[0].x, c[1].x, c[2].x}), std::max({c[0].x, c[1].x, c[2].x}), out.origin.x, 0);
     const auto [j0, j1] =
-        range(std::min({c[0].y, c[1].y, c[2].y}), std::max({c[0].y, c[1].y, c[2].y}), out.origin.y, out.n[1]);
+        range(std::min({c[0].y, c[1].y, c[2].y}), std::max({c[0].y, c[1].y, c[2].y}), out.origin.y, 1);
     for (int i = i0; i <= i1; ++i) {
       for (int j = j0; j <= j1; ++j) {
         double z = 0.0;
@@ -108,6 +124,20 @@ Lattice lattice_of(const Part& part) {
     }
   }
   return out;
+}
+
+/// By how many points a count in the lattice may be wrong: of the cells that the part's surface meets, each
+/// is in or out by chance, so the root of their number.
+double surface_error(const Part& part, const Lattice& lattice) {
+  double cells = 0.0;
+  const auto& [x, y, z] = lattice.step_mm;
+  const exchange::Body& b = part.body();
+  for (std::uint32_t f = b.first_face; f < b.first_face + b.face_count; ++f) {
+    for (const Part::Spot& s : part.spots(f))
+      cells += s.area_mm2 * (std::abs(s.normal.x) / (y * z) + std::abs(s.normal.y) / (x * z) +
+                             std::abs(s.normal.z) / (x * y));
+  }
+  return std::sqrt(cells);
 }
 
 struct Shape {
@@ -152,7 +182,7 @@ bool cuts(const Part& part, const Shape& s, Vec3 at) {
 std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
   const Lattice lattice = lattice_of(part);
   const std::vector<Shape> shapes = shapes_in(m);
-  const double each = std::pow(lattice.step_mm, 3.0);
+  const double each = lattice.each_mm3();
   std::map<AnyRef, double> found;
   for (int i = 0; i < lattice.n[0]; ++i) {
     for (int j = 0; j < lattice.n[1]; ++j) {
@@ -173,15 +203,13 @@ std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
 Missing not_covered(const Part& part, const model::Model& m, bool all) {
   const Lattice lattice = lattice_of(part);
   const std::vector<Shape> shapes = shapes_in(m);
-  const double each = std::pow(lattice.step_mm, 3.0);
+  const double each = lattice.each_mm3();
   std::size_t points = 0;
-  std::size_t outside = 0;
   Vec3 sum;
   for (int i = 0; i < lattice.n[0]; ++i) {
     for (int j = 0; j < lattice.n[1]; ++j) {
       for (int k = 0; k < lattice.n[2]; ++k) {
         if (lattice.inside[lattice.index(i, j, k)]) continue;
-        ++outside;
         const Vec3 at = lattice.at(i, j, k);
         const bool in_one = std::any_of(shapes.begin(), shapes.end(), [&](const Shape& s) {
           double depth = 0.0;
@@ -200,9 +228,7 @@ Missing not_covered(const Part& part, const model::Model& m, bool all) {
       }
     }
   }
-  // Where faces are left out anyway, only what is more than they could be is said once more.
-  const std::size_t least = all ? 1 : outside;
-  if (points < std::max<std::size_t>(least, 1)) return {};
+  if (static_cast<double>(points) < (all ? 1.0 : 1.0 + surface_error(part, lattice))) return {};
   return {each * static_cast<double>(points), (1.0 / static_cast<double>(points)) * sum};
 }
 

@@ -15,8 +15,9 @@ struct Cut {
 
 /// Features, as the planner reads them, that cut into the part.
 ///
-/// Accuracy  a lattice of some 100,000 points in the raw piece; what is thinner than its spacing is not seen,
-///           and a point nearer than a fiftieth of it to a surface is not counted.
+/// Accuracy  a lattice of some 60,000 points in the raw piece, at least four layers across each side; what is
+///           thinner than its spacing may not be seen, and a point nearer than 0.04 mm to a surface is not
+///           counted.
 [[nodiscard]] std::vector<Cut> cuts_into(const Part& part, const model::Model& m);
 
 /// What lies in the raw piece, not in the part, and in no feature.
@@ -25,8 +26,9 @@ struct Missing {
   Vec3 at;                  ///< the middle of its points
 };
 
-/// Accuracy  as cuts_into. `all`: every face is in a feature, so that any point counts; else only more than
-///           the lattice's own error does.
+/// Accuracy  as cuts_into. `all`: every face is in a feature, so that any point counts. Else more points than
+///           the lattice's own error, the root of the number of its cells that the part's surface meets; what
+///           the faces that are left out would take away is counted with it.
 [[nodiscard]] Missing not_covered(const Part& part, const model::Model& m, bool all);
 
 }  // namespace capstan::from_cad

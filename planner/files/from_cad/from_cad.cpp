@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "planner/files/from_cad/areas.h"
 #include "planner/files/from_cad/cover.h"
@@ -41,6 +42,11 @@ struct Removal {
   std::vector<std::size_t> hole_of;  ///< per hole: into Recognition::features
   std::vector<Left> left;
 };
+
+std::string too_thin(const Room& room) {
+  return "its area of " + trimmed(geometry::area(room.area), 4) + " mm2 at the level of " +
+         trimmed(room.level_mm, 3) + " mm is thinner than points are told apart, 0.0001 mm: nothing is drawn";
+}
 
 /// The sides of the part that lie below the raw piece's: faces to be milled.
 std::vector<Feature> sides_to_mill(const Part& part, const Recognition& found) {
@@ -125,7 +131,9 @@ Removal removal_of(const Part& part, const std::vector<Feature>& features) {
     }
   }
   settle(out.rooms);
+  join_contours(part, out.rooms);
   for (Hole& h : out.holes) raise(part, out.rooms, h);
+  end(part, out.rooms, out.holes);
   return out;
 }
 
@@ -206,6 +214,12 @@ class Writer {
       const AnyRef made = item.room != nullptr ? noun_of(part_, *item.room, plan_.model, piece_, n)
                                                : noun_of(*item.hole, plan_.model, piece_, n);
       const auto& faces = item.room != nullptr ? item.room->faces : item.hole->faces;
+      if (!made.set()) {
+        removal.left.push_back({faces, too_thin(*item.room)});
+        continue;
+      }
+      if (item.room != nullptr && item.room->blend_radius_mm > 0.0)
+        blends_.emplace(made, item.room->blend_radius_mm);
       std::string why = "from faces " + recognise::faces_in_words(part_.brep(), faces);
       std::vector<model::Rejected> rejected;
       for (const std::size_t of : item.of) {
@@ -218,6 +232,7 @@ class Writer {
                         {"recognise.feature", why, "the shape of " + plan_.file_name}, {},
                         std::move(rejected));
       plan_.kept.push_back(made);
+      made_.emplace_back(made, faces.size());
     }
   }
 
@@ -234,9 +249,22 @@ class Writer {
     model::set_not_recognised(plan_, made, left.why);
   }
 
+  /// Why a feature is not planned that, read as it is written, would cut into the part.
+  [[nodiscard]] std::string cutting(const Cut& cut) const {
+    const std::string cuts = "it would cut " + trimmed(cut.volume_mm3, 1) + " mm3 out of the part";
+    const auto blend = blends_.find(cut.feature);
+    if (blend == blends_.end()) return "as it is written " + cuts;
+    return "its floor meets walls in fillets of " + trimmed(blend->second, 3) +
+           " mm, and fillets at the walls of steps and open pockets and at islands are not planned yet: "
+           "without them " +
+           cuts;
+  }
+
   model::Plan plan_;
+  std::vector<std::pair<AnyRef, std::size_t>> made_;  ///< features, and of how many faces each is
 
  private:
+  std::map<AnyRef, double> blends_;  ///< features with fillets at their floors: the radius, mm
   const Part& part_;
   const std::vector<Feature>& features_;
   Nouns nouns_;
@@ -247,6 +275,45 @@ std::string words(const geometry::Box3& b) {
   const Vec3 s = b.size();
   return trimmed(s.x, 3) + " x " + trimmed(s.y, 3) + " x " + trimmed(s.z, 3) + " mm, from (" +
          trimmed(b.lo.x, 3) + ", " + trimmed(b.lo.y, 3) + ", " + trimmed(b.lo.z, 3) + ")";
+}
+
+using Axes = std::array<Vec3, 3>;
+
+/// Of the 24 right-handed ways to name three axes x, y and z the one that is turned least from the file's.
+Axes nearest_to_file(const Axes& axes) {
+  Axes best = axes;
+  double most = -4.0;  // the sum of the cosines, which falls with the angle of the turn
+  for (const auto& order : {std::array{0U, 1U, 2U}, std::array{1U, 2U, 0U}, std::array{2U, 0U, 1U},
+                            std::array{0U, 2U, 1U}, std::array{2U, 1U, 0U}, std::array{1U, 0U, 2U}}) {
+    for (int signs = 0; signs < 4; ++signs) {
+      const Vec3 x = ((signs & 1) != 0 ? -1.0 : 1.0) * axes[order[0]];
+      const Vec3 y = ((signs & 2) != 0 ? -1.0 : 1.0) * axes[order[1]];
+      const Vec3 z = dot(cross(x, y), axes[order[2]]) > 0.0 ? axes[order[2]] : -1.0 * axes[order[2]];
+      const double trace = x.x + y.y + z.z;
+      if (trace < most + 1e-9) continue;
+      most = trace;
+      best = {x, y, z};
+    }
+  }
+  return best;
+}
+
+/// The axes of the first solid's box; nothing where they are the file's.
+std::optional<Axes> turned_axes(const Brep& brep) {
+  for (std::size_t b = 0; b < brep.bodies.size(); ++b) {
+    if (!brep.bodies[b].solid) continue;
+    const auto axes = recognise::recognise(brep, b).raw.axis;
+    const auto straight = [](Vec3 a) {
+      return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 1.0 - 1e-9;
+    };
+    if (std::all_of(axes.begin(), axes.end(), straight)) return std::nullopt;
+    return nearest_to_file({axes[0], axes[1], axes[2]});
+  }
+  return std::nullopt;
+}
+
+std::string words(Vec3 d) {
+  return "(" + trimmed(d.x, 4) + ", " + trimmed(d.y, 4) + ", " + trimmed(d.z, 4) + ")";
 }
 
 /// The one solid of a file.
@@ -269,27 +336,22 @@ Result<std::size_t> only_solid(const Brep& brep, const std::string& name) {
 }  // namespace
 
 exchange::Brep straightened(exchange::Brep brep) {
-  for (std::size_t b = 0; b < brep.bodies.size(); ++b) {
-    if (!brep.bodies[b].solid) continue;
-    const auto axes = recognise::recognise(brep, b).raw.axis;
-    const auto straight = [](Vec3 a) {
-      return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 1.0 - 1e-9;
-    };
-    if (std::all_of(axes.begin(), axes.end(), straight)) return brep;
-    const auto turned = [&](Vec3 v) { return Vec3{dot(v, axes[0]), dot(v, axes[1]), dot(v, axes[2])}; };
-    for (auto& f : brep.faces) {
-      f.point = turned(f.point);
-      f.axis = turned(f.axis);
-    }
-    for (auto& e : brep.edges) {
-      for (Vec3* p : {&e.start, &e.end, &e.middle, &e.centre, &e.axis}) *p = turned(*p);
-    }
-    brep.box = {};
-    for (Vec3& p : brep.points) {
-      p = turned(p);
-      brep.box.add(p);
-    }
-    return brep;
+  const auto axes = turned_axes(brep);
+  if (!axes) return brep;
+  const auto turned = [&](Vec3 v) {
+    return Vec3{dot(v, (*axes)[0]), dot(v, (*axes)[1]), dot(v, (*axes)[2])};
+  };
+  for (auto& f : brep.faces) {
+    f.point = turned(f.point);
+    f.axis = turned(f.axis);
+  }
+  for (auto& e : brep.edges) {
+    for (Vec3* p : {&e.start, &e.end, &e.middle, &e.centre, &e.axis}) *p = turned(*p);
+  }
+  brep.box = {};
+  for (Vec3& p : brep.points) {
+    p = turned(p);
+    brep.box.add(p);
   }
   return brep;
 }
@@ -298,7 +360,7 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
   const auto body = only_solid(given, name);
   if (!body) return tl::unexpected(body.error());
   const Brep brep = straightened(given);
-  const bool turned = !(brep.points == given.points);
+  const auto turned = turned_axes(given);
   const Recognition found = recognise::recognise(brep, *body);
   const geometry::Box3 least = box_of(found);
   geometry::Box3 box = raw.box ? *raw.box : least;
@@ -326,9 +388,7 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
   writer.write(removal);
   for (const Cut& wrong : cuts_into(part, writer.plan_.model)) {
     // A reading of the nouns that differs from what was meant: never planned.
-    model::set_not_recognised(
-        writer.plan_, wrong.feature,
-        "as it is written it would cut " + trimmed(wrong.volume_mm3, 1) + " mm3 out of the part");
+    model::set_not_recognised(writer.plan_, wrong.feature, writer.cutting(wrong));
   }
   for (const Left& left : removal.left) writer.leave(left);
   model::Plan plan = std::move(writer.plan_);
@@ -336,20 +396,15 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
   const auto say = [&](const char* code, std::string text) {
     job.report({.code = code, .severity = Severity::kNote, .message = std::move(text), .file = name});
   };
-  std::size_t made = 0;
-  for (const Room& r : removal.rooms) made += r.faces.size();
-  for (const Hole& h : removal.holes) made += h.faces.size();
-  say("CAD-RECOGNISED",
-      counted(removal.rooms.size() + removal.holes.size(), "feature", "features") + " of " +
-          counted(made, "face", "faces") + "; " + counted(found.on_raw.size(), "face lies", "faces lie") +
-          " on the sides of the part's box; " +
-          counted(removal.left.size(), "group of faces is", "groups of faces are") + " not planned");
   if (!raw.box)
     say("CAD-STOCK", "the file names no raw piece; taken is the box of the part" +
                          (raw.allowance_mm > 0.0 ? " and " + trimmed(raw.allowance_mm, 3) + " mm on each side"
                                                  : std::string(", whose sides stay as they are")) +
                          ": " + words(box) + "; name another with --stock");
-  if (turned) say("CAD-TURNED", "the part lies askew in its file; the workpiece's axes are those of its box");
+  if (turned)
+    say("CAD-TURNED",
+        "the part lies askew in its file; the workpiece's axes are those of its box, in the file's x " +
+            words((*turned)[0]) + ", y " + words((*turned)[1]) + ", z " + words((*turned)[2]));
   if (const Missing gap = not_covered(part, plan.model, removal.left.empty()); gap.volume_mm3 > 0.0) {
     Left rest;
     model::TopologicalRegion region;
@@ -366,6 +421,20 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
                                   trimmed(gap.at.x, 2) + ", " + trimmed(gap.at.y, 2) + ", " +
                                   trimmed(gap.at.z, 2) + ")");
   }
+  const auto stays = model::not_recognised(plan);
+  std::size_t features_made = 0;
+  std::size_t faces_made = 0;
+  for (const auto& [feature, faces] : writer.made_) {
+    if (stays.count(feature) != 0) continue;
+    ++features_made;
+    faces_made += faces;
+  }
+  say("CAD-RECOGNISED",
+      counted(features_made, "feature", "features") + " of " + counted(faces_made, "face", "faces") + "; " +
+          counted(found.on_raw.size(), "face lies", "faces lie") + " on the sides of the part's box; " +
+          counted(stays.size(), "feature, group of faces or volume is",
+                  "features, groups of faces or volumes are") +
+          " not planned");
   plan.provenance.push_back({"unit of the CAD file", brep.unit, "the file; planned in mm"});
   return plan;
 }

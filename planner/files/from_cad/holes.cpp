@@ -18,6 +18,9 @@ constexpr int kRim = 16;
 /// So far within its rim, mm and as a share of the radius: beyond the chords of the mesh.
 constexpr double kWithinMm = 0.03;
 constexpr double kWithin = 0.02;
+/// A tip_angle up to this is read as the angle of a flank, or as half of the point's (model/features/shape,
+/// holes.cpp): the full angle of a sharper tip has no word that is read back.
+constexpr double kSharpestTip = 75.0 * std::numbers::pi / 180.0;
 
 bool same(double a, double b) { return std::abs(a - b) < kLevelMm; }
 
@@ -31,17 +34,36 @@ std::vector<Vec2> rim(Vec2 centre, double radius_mm) {
   return out;
 }
 
+/// A fillet about the axis.
+struct Fillet {
+  double hi = 0.0, lo = 0.0, radius_mm = 0.0, wall_radius_mm = 0.0;
+};
+
+/// Bores of one radius, one behind the other, are one: a gap between two ears is no shelf.
+void join_bores(std::vector<Bore>& bores) {
+  std::vector<Bore> out;
+  for (const Bore& b : bores) {
+    if (!out.empty() && !b.cone() && !out.back().cone() && same(b.top_radius_mm, out.back().top_radius_mm)) {
+      out.back().bottom_mm = std::min(out.back().bottom_mm, b.bottom_mm);
+    } else {
+      out.push_back(b);
+    }
+  }
+  bores = std::move(out);
+}
+
 struct Sections {
   std::vector<Bore> bores;  ///< from the mouth inwards, heights along the frame's z
   HoleEnd end = HoleEnd::kThrough;
   double tip_angle_rad = 0.0, end_radius_mm = 0.0, lowest_mm = 0.0;
+  std::vector<std::uint32_t> fillets;  ///< faces at the bottom of the last bore, ascending
 };
 
 std::optional<Sections> sections_of(const Part& part, const recognise::Feature& feature,
                                     const geometry::Placement& frame, std::string& why) {
   Sections out;
-  double floor = -1e300;
-  bool flat = false;
+  std::optional<double> floor;  ///< the lowest plane that looks up
+  std::vector<Fillet> fillets;
   for (const std::uint32_t f : feature.faces) {
     const exchange::Face& face = part.brep().faces[f];
     const auto [lo, hi] = part.span(frame, {f});
@@ -76,8 +98,7 @@ std::optional<Sections> sections_of(const Part& part, const recognise::Feature& 
       }
       case Carrier::kPlane:
         if (dot(normal_of(face), frame.z) > 0.5) {
-          flat = true;
-          floor = floor < -1e299 ? lo : std::min(floor, lo);
+          floor = floor ? std::min(*floor, lo) : lo;
         }
         break;
       case Carrier::kSphere:
@@ -86,8 +107,8 @@ std::optional<Sections> sections_of(const Part& part, const recognise::Feature& 
         out.lowest_mm = lo;
         break;
       case Carrier::kTorus:
-        out.end = HoleEnd::kRounded;
-        out.end_radius_mm = face.minor_radius;
+        out.fillets.push_back(f);
+        fillets.push_back({hi, lo, face.minor_radius, face.radius + face.minor_radius});
         break;
       default:
         why = "one of its faces is no plane, cylinder, cone, sphere or torus";
@@ -100,19 +121,50 @@ std::optional<Sections> sections_of(const Part& part, const recognise::Feature& 
   }
   std::stable_sort(out.bores.begin(), out.bores.end(),
                    [](const Bore& a, const Bore& b) { return a.top_mm > b.top_mm; });
-  if (out.end == HoleEnd::kThrough && flat && same(floor, out.bores.back().bottom_mm))
-    out.end = HoleEnd::kFlat;
-  if (out.end == HoleEnd::kRounded) out.bores.back().bottom_mm = floor;
+  join_bores(out.bores);
+  Bore& last = out.bores.back();
+  for (const Fillet& f : fillets) {
+    if (!floor) {
+      why = "a fillet of " + trimmed(f.radius_mm, 3) + " mm ends its wall, but it has no flat bottom";
+      return std::nullopt;
+    }
+    const bool at_bottom = same(f.lo, *floor) && same(f.hi, last.bottom_mm) &&
+                           same(f.wall_radius_mm, last.bottom_radius_mm) &&
+                           (out.end == HoleEnd::kThrough || out.end == HoleEnd::kRounded) &&
+                           same(f.radius_mm, fillets.front().radius_mm);
+    if (!at_bottom) {
+      why = "it has a fillet of " + trimmed(f.radius_mm, 3) +
+            " mm between its bores; a fillet is written at the bottom of the last bore only";
+      return std::nullopt;
+    }
+    out.end = HoleEnd::kRounded;
+    out.end_radius_mm = f.radius_mm;
+  }
+  if (out.end == HoleEnd::kThrough && floor && same(*floor, last.bottom_mm)) out.end = HoleEnd::kFlat;
+  if (out.end == HoleEnd::kRounded) last.bottom_mm = *floor;
+  if (out.end == HoleEnd::kConical && out.tip_angle_rad <= kSharpestTip + 1e-6) {
+    why = "its conical bottom has a point of " + trimmed(out.tip_angle_rad * 180.0 / std::numbers::pi, 2) +
+          " degrees; a tip_angle of 75 degrees or less is read as another angle";
+    return std::nullopt;
+  }
   return out;
 }
 
-/// Whether nothing of the part stands above a disc.
+/// Whether nothing of the part stands above a disc. `but`: faces that are not looked at, a fillet at its rim.
 bool free_above(const Part& part, const geometry::Placement& frame, Vec2 centre, double radius_mm,
-                double z_mm) {
-  const Cleared& c = part.cleared(frame, z_mm, {});
+                double z_mm, const std::vector<std::uint32_t>& but = {}) {
+  const Cleared& c = part.cleared(frame, z_mm, but);
   const auto points = rim(centre, radius_mm);
   return std::all_of(points.begin(), points.end(),
                      [&](Vec2 p) { return room_at(c, p) >= 0 || !geometry::contains(c.raw, p); });
+}
+
+/// Whether a hole removes a place of the workpiece.
+bool clears(const Hole& hole, Vec3 at) {
+  const Vec3 p = hole.frame.to_local(at);
+  return std::any_of(hole.bores.begin(), hole.bores.end(), [&](const Bore& b) {
+    return p.z < b.top_mm && p.z > b.bottom_mm && norm(xy(p)) < b.bottom_radius_mm;
+  });
 }
 
 }  // namespace
@@ -130,8 +182,11 @@ std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature,
     const geometry::Placement frame = Part::frame_along(side);
     std::string fault;
     const auto s = sections_of(part, feature, frame, fault);
+    const auto say = [&why](const std::string& reason) {
+      if (why.empty()) why = reason;  // that of the first side, which recognition chose
+    };
     if (!s) {
-      why = fault;
+      say(fault);
       continue;
     }
     const Vec2 centre = xy(frame.to_local(on_axis));
@@ -145,14 +200,16 @@ std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature,
       if (i > 0) narrows = narrows && b.top_radius_mm < s->bores[i - 1].bottom_radius_mm + kLevelMm;
       if (i > 0 && s->bores[0].cone() && i == 1)
         narrows = narrows && same(b.top_radius_mm, s->bores[0].bottom_radius_mm);
-      free = free && free_above(part, frame, centre, b.bottom_radius_mm, b.bottom_mm);
+      const bool rounded = s->end == HoleEnd::kRounded && i + 1 == s->bores.size();
+      free = free && free_above(part, frame, centre, b.bottom_radius_mm, b.bottom_mm,
+                                rounded ? s->fillets : std::vector<std::uint32_t>{});
     }
     if (!narrows) {
-      why = "it widens below its mouth, or has a cone that is not at its mouth";
+      say("it widens below its mouth, or has a cone that is not at its mouth");
       continue;
     }
     if (!free) {
-      why = "the part itself stands above it: no tool comes to it along its axis";
+      say("the part itself stands above it: no tool comes to it along its axis");
       continue;
     }
     Hole out;
@@ -205,6 +262,23 @@ void raise(const Part& part, const std::vector<Room>& rooms, Hole& hole) {
   }
   hole.bores.front().top_mm = 0.0;
   hole.lowest_mm -= by;
+}
+
+void end(const Part& part, const std::vector<Room>& rooms, std::vector<Hole>& holes) {
+  for (Hole& hole : holes) {
+    if (hole.end != HoleEnd::kThrough) continue;
+    const Bore& last = hole.bores.back();
+    const Vec3 end = hole.frame.to_parent({0.0, 0.0, last.bottom_mm});
+    const geometry::Placement below = Part::frame_along(-1.0 * hole.frame.z);
+    const Vec3 at = below.to_local(end);
+    if (part.raw_span(below).second - at.z < kLevelMm) continue;
+    if (free_above(part, below, xy(at), last.bottom_radius_mm, at.z)) continue;
+    const Vec3 behind = end - 2.0 * kLevelMm * hole.frame.z;
+    const bool open =
+        std::any_of(rooms.begin(), rooms.end(), [&](const Room& r) { return clears(r, behind); }) ||
+        std::any_of(holes.begin(), holes.end(), [&](const Hole& h) { return clears(h, behind); });
+    if (!open) hole.end = HoleEnd::kFlat;
+  }
 }
 
 AnyRef noun_of(const Hole& hole, model::Model& m, Ref<model::Workpiece> piece, const std::string& number) {

@@ -37,6 +37,10 @@ struct Hole {
 /// else at the raw piece's surface.
 void raise(const Part& part, const std::vector<Room>& rooms, Hole& hole);
 
+/// Gives a blind end to holes that go through into a cavity which no room and no hole makes, with the part
+/// behind it: the planner cuts a through hole that ends in nothing down to the underside of the raw piece.
+void end(const Part& part, const std::vector<Room>& rooms, std::vector<Hole>& holes);
+
 /// round_hole, or counterbore_hole or countersunk_hole with its elements.
 [[nodiscard]] AnyRef noun_of(const Hole& hole, model::Model& m, Ref<model::Workpiece> piece,
                              const std::string& number);

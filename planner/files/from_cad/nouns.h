@@ -24,7 +24,8 @@ struct Piece {
   [[nodiscard]] bool arc() const { return radius_mm > 0.0; }
 };
 
-/// Makes the nouns that features are written with. Units  mm, rad.
+/// Makes the nouns that features are written with. Units  mm, rad; where an arc is trimmed by parameter, its
+/// PARAMETER_VALUEs are degrees.
 class Nouns {
  public:
   explicit Nouns(model::Model& m) : m_(m) {}

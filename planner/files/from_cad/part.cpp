@@ -100,6 +100,29 @@ std::vector<RoundWall> Part::round_walls(const geometry::Placement& frame) const
   return out;
 }
 
+std::vector<FlatWall> Part::flat_walls(const geometry::Placement& frame) const {
+  std::vector<FlatWall> out;
+  const exchange::Body& b = body();
+  for (std::uint32_t f = b.first_face; f < b.first_face + b.face_count; ++f) {
+    const exchange::Face& face = brep_.faces[f];
+    if (face.carrier != Carrier::kPlane || std::abs(dot(face.axis, frame.z)) > recognise::kSameAngleRad)
+      continue;
+    const Vec3 d = geometry::normalised(cross(frame.z, face.axis));
+    double lo = 1e300;
+    double hi = -1e300;
+    for (std::uint32_t t = face.first_triangle; t < face.first_triangle + face.triangle_count; ++t) {
+      for (const std::uint32_t corner : brep_.triangles[t]) {
+        const double along = dot(brep_.points[corner] - face.point, d);
+        lo = std::min(lo, along);
+        hi = std::max(hi, along);
+      }
+    }
+    if (lo > hi) continue;
+    out.push_back({xy(frame.to_local(face.point + lo * d)), xy(frame.to_local(face.point + hi * d))});
+  }
+  return out;
+}
+
 std::vector<Part::Spot> Part::spots(std::uint32_t f) const {
   std::vector<Spot> out;
   const exchange::Face& face = brep_.faces[f];

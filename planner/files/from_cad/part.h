@@ -45,6 +45,9 @@ class Part {
   /// Circles that cylinders along z of a frame lie on.
   [[nodiscard]] std::vector<RoundWall> round_walls(const geometry::Placement& frame) const;
 
+  /// Plane faces that stand upright along z of a frame.
+  [[nodiscard]] std::vector<FlatWall> flat_walls(const geometry::Placement& frame) const;
+
   /// A place of a face: the middle of a triangle of it, with its area and its normal.
   struct Spot {
     Vec3 at, normal;

@@ -21,6 +21,9 @@ constexpr double kOnRawMm = 2e-3;
 /// A corner of a mesh lies so near to the carrier of its face.
 constexpr double kOnWallMm = 5e-3;
 
+/// Of a side on a flat wall each point lies so near to it: the rounding of regions is below it.
+constexpr double kOnFlatMm = 1e-3;
+
 /// The part of a triangle above a height, in plan.
 Loop clipped(const std::array<Vec3, 3>& t, double height) {
   Loop out;
@@ -70,6 +73,19 @@ Loop straightened(Loop loop) {
   return loop;
 }
 
+/// Whether a side of a polygon lies on a flat wall.
+bool on_flat(Vec2 a, Vec2 b, const std::vector<FlatWall>& flats) {
+  const Vec2 middle = 0.5 * (a + b);
+  return std::any_of(flats.begin(), flats.end(), [&](const FlatWall& w) {
+    const double length = norm(w.to - w.from);
+    if (length < kSamePointMm) return false;
+    const Vec2 d = (1.0 / length) * (w.to - w.from);
+    const double along = dot(middle - w.from, d);
+    const auto off = [&](Vec2 p) { return std::abs(cross(p - w.from, d)); };
+    return along > 0.0 && along < length && std::max({off(a), off(middle), off(b)}) < kOnFlatMm;
+  });
+}
+
 /// Which round wall a side of a polygon is a chord of.
 std::optional<std::size_t> wall_of(Vec2 a, Vec2 b, const std::vector<RoundWall>& walls, double chord_mm) {
   const double half = 0.5 * norm(b - a);
@@ -117,7 +133,7 @@ geometry::Mesh mesh_of(const geometry::Box3& box) {
 }
 
 std::vector<Piece> pieces_of(const Loop& loop, const Region& raw, const std::vector<RoundWall>& walls,
-                             double chord_mm) {
+                             double chord_mm, const std::vector<FlatWall>& flats) {
   const Loop points = straightened(without_doubles(loop));
   const std::size_t n = points.size();
   if (n < 3) return {};
@@ -133,7 +149,7 @@ std::vector<Piece> pieces_of(const Loop& loop, const Region& raw, const std::vec
     s.open = true;
     for (const Vec2 p : {s.from, middle, s.to})
       s.open = s.open && geometry::distance_to_boundary(raw, p) < kOnRawMm;
-    if (!s.open) s.wall = wall_of(s.from, s.to, walls, chord_mm);
+    if (!s.open && !on_flat(s.from, s.to, flats)) s.wall = wall_of(s.from, s.to, walls, chord_mm);
     sides.push_back(s);
   }
   // Begins where one piece ends, so that none is cut in two.

@@ -27,11 +27,18 @@ struct RoundWall {
   double radius_mm = 0.0;
 };
 
+/// An upright plane face of the part, seen along its walls: from one of its ends to the other.
+struct FlatWall {
+  Vec2 from, to;
+};
+
 /// A closed polygon as lines and arcs: points that lie one behind the other on one of the round walls become
-/// its arc, points on a line are dropped. Edges on the boundary of the raw piece are open.
+/// its arc, unless they lie on a flat wall, points on a line are dropped. Edges on the boundary of the raw
+/// piece are open.
 ///
 /// chord_mm   what the polygon may leave the arcs by.
 [[nodiscard]] std::vector<Piece> pieces_of(const geometry::Loop& loop, const geometry::Region& raw,
-                                           const std::vector<RoundWall>& walls, double chord_mm);
+                                           const std::vector<RoundWall>& walls, double chord_mm,
+                                           const std::vector<FlatWall>& flats = {});
 
 }  // namespace capstan::from_cad
