@@ -34,12 +34,11 @@ Result<Output> output_of(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   const Format* format = format_of_ending(ending);
   if (format != nullptr && format->write != nullptr) return Output{path, format, {}, 0};
-  if (format != nullptr && !format->reads)
-    return fail(
-        {.code = "OUT-KIND",
-         .message = "writing " + std::string(format->words) + " (" + ending + ") is not supported yet",
-         .file = path,
-         .expected = supported()});
+  if (format != nullptr)
+    return fail({.code = "OUT-KIND",
+                 .message = std::string(format->words) + " (" + ending + ") is read and not written",
+                 .file = path,
+                 .expected = supported()});
   return fail({.code = "OUT-KIND",
                .message = ending.empty() ? "the name has no ending, which says what to write"
                                          : "the ending '" + ending + "' names no format",

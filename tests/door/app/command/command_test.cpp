@@ -43,10 +43,10 @@ TEST_F(CommandTest, WrongUsageEndsWithTwoAndSaysWhy) {
   EXPECT_THAT(run("bind part.p21 -o a.json --deadline soon").err, HasSubstr("'soon' is no time"));
 }
 
-TEST_F(CommandTest, WhatIsNotSupportedYetIsSaidBeforeAnyWork) {
-  const Ran r = run("plan missing.p21 -o plan.h");
+TEST_F(CommandTest, WhatIsNotWrittenIsSaidBeforeAnyWork) {
+  const Ran r = run("plan missing.p21 -o plan.stl");
   EXPECT_EQ(r.code, 2);
-  EXPECT_THAT(r.err, HasSubstr("not supported yet"));
+  EXPECT_THAT(r.err, HasSubstr("STL (.stl) is read and not written"));
   EXPECT_EQ(run("plan missing.p21 -o plan.xyz").code, 2);
   EXPECT_EQ(run("plan missing.p21 -o plan").code, 2);
   EXPECT_EQ(run("plan missing.p21 -o a.json -o ./a.json").code, 2);
