@@ -12,6 +12,10 @@ endif()
 if(CAPSTAN_SANITIZE)
   target_compile_options(capstan_options INTERFACE
     -fsanitize=${CAPSTAN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # A third of GCC's time goes into these, and the address sanitizer stops at what they find but for alignment. The
+  # preset fuzz, by clang, has them all.
+  target_compile_options(capstan_options INTERFACE
+    $<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=null,alignment,vptr,object-size>)
   target_link_options(capstan_options INTERFACE -fsanitize=${CAPSTAN_SANITIZE})
   # Under the sanitizers GCC 12 takes the standard library's own code (std::regex) for uninitialised; the
   # sanitizer itself, and the build without it, watch what is ours.
@@ -53,6 +57,32 @@ if(CAPSTAN_PRECOMPILE)
     <string> <string_view> <vector> <tl/expected.hpp>)
 endif()
 
+# The preset asan compiles sources of a target together where their names allow it (sources_together.py): what they
+# include is parsed once for them all. The preset dev compiles each source alone, so that a change rebuilds what it
+# touches, and a source that lacks an include is found.
+option(CAPSTAN_TOGETHER "Compile sources of a target together" OFF)
+set(CAPSTAN_MOST_TOGETHER 10)
+if(CAPSTAN_TOGETHER)  # these then speak without a cause; dev keeps them errors
+  target_compile_options(capstan_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
+function(capstan_compile_together target)
+  if(NOT CAPSTAN_TOGETHER)
+    return()
+  endif()
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "^/.*\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/build/")
+  execute_process(COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_SOURCE_DIR}/cmake/sources_together.py
+    ${CAPSTAN_MOST_TOGETHER} ${sources} OUTPUT_VARIABLE grouped COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^\n]+" lines "${grouped}")
+  foreach(line IN LISTS lines)
+    string(REGEX MATCH "^([0-9]+) (.*)$" line "${line}")
+    set_source_files_properties(${CMAKE_MATCH_2} PROPERTIES UNITY_GROUP ${target}_${CMAKE_MATCH_1})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # capstan_room(<name> [DEPENDS room...] [PRIVATE_LIBS lib...])
 #
 # One static library of the .cpp files of the current folder and below it. DEPENDS names rooms
@@ -76,6 +106,7 @@ function(capstan_room name)
   if(ARG_PRIVATE_LIBS)
     target_link_libraries(capstan_${name} PRIVATE ${ARG_PRIVATE_LIBS})
   endif()
+  capstan_compile_together(capstan_${name})
   if(CAPSTAN_PRECOMPILE)
     target_precompile_headers(capstan_${name} REUSE_FROM capstan_room_pch)
     target_compile_options(capstan_${name} PRIVATE ${capstan_falsely_warned})
@@ -93,11 +124,31 @@ function(capstan_compile_as_test target)
   endif()
 endfunction()
 
-# capstan_test(<room> [DEPENDS room...] [LIBS lib...])
+# capstan_tests_by_suite(<program> [APART suite...] [PROPERTIES name value...])
 #
-# One test program of the *_test.cpp of the caller's folder and below it.
+# The suites of a test program as tests of ctest (SuitesOfProgram.cmake), found each time it is linked. APART names
+# suites of long tests, which are entered test by test. What each test did is in ${CAPSTAN_TEST_REPORTS}.
+set(CAPSTAN_TEST_REPORTS ${CMAKE_BINARY_DIR}/reports_of_tests)
+function(capstan_tests_by_suite program)
+  cmake_parse_arguments(ARG "" "" "APART;PROPERTIES" ${ARGN})
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)
+  string(REPLACE ";" " " properties "${ARG_PROPERTIES}")
+  add_custom_command(TARGET ${program} POST_BUILD BYPRODUCTS ${suites} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${program}> -D NAME=${program} -D OUTPUT=${suites}
+      -D REPORTS=${CAPSTAN_TEST_REPORTS} -D "APART=${ARG_APART}" -D "PROPERTIES=${properties}"
+      -P ${CMAKE_SOURCE_DIR}/cmake/SuitesOfProgram.cmake)
+  # A program that is not built has no tests here, and ctest says so of the program.
+  set(listed ${CMAKE_CURRENT_BINARY_DIR}/${program}_tests.cmake)
+  file(WRITE ${listed} "if(EXISTS [==[${suites}]==])\n  include([==[${suites}]==])\nelse()\n  add_test(${program}_is_not_built ${program}_is_not_built)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${listed})
+endfunction()
+
+# capstan_test(<room> [DEPENDS room...] [LIBS lib...] [APART suite...] [COST seconds])
+#
+# One test program of the *_test.cpp of the caller's folder and below it. COST: what its suites take at most, where
+# that is much; the dearest begin first, so that none is waited for at the end.
 function(capstan_test room)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "COST" "DEPENDS;LIBS;APART" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*_test.cpp)
   if(NOT sources)
     return()
@@ -107,10 +158,13 @@ function(capstan_test room)
   target_link_libraries(${target}_test PRIVATE
     $<BUILD_INTERFACE:capstan_options> capstan_test_support GTest::gmock GTest::gtest_main ${ARG_LIBS})
   capstan_compile_as_test(${target}_test)
+  capstan_compile_together(${target}_test)
   foreach(dep IN LISTS ARG_DEPENDS)
     target_link_libraries(${target}_test PRIVATE capstan::${dep})
   endforeach()
-  # One seed for tests that draw: what passes here passes again. `./dev soak` draws others.
-  gtest_discover_tests(${target}_test EXTRA_ARGS --gtest_random_seed=1
-    DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+  set(cost "")
+  if(ARG_COST)
+    set(cost COST ${ARG_COST})
+  endif()
+  capstan_tests_by_suite(${target}_test APART ${ARG_APART} PROPERTIES TIMEOUT 900 ${cost})
 endfunction()

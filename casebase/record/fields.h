@@ -32,13 +32,13 @@ struct WordAt {
   std::string_view (*get)(const Case&);
   bool (*set)(Case&, std::string_view);  ///< false: no such word
 };
-using Place = std::variant<TextAt, NumberAt, CountAt, FigureAt, SeriesAt, WordAt>;
+using FieldPlace = std::variant<TextAt, NumberAt, CountAt, FigureAt, SeriesAt, WordAt>;
 
 struct Field {
   std::uint8_t tag;  ///< names the field in stored records: never changed, never used again
   std::string_view name;
   std::string_view unit;  ///< "mm", "1", ...; empty: it has none
-  Place at;
+  FieldPlace at;
   double low = 0.0, high = 0.0;             ///< physical limits of numbers, both allowed
   TextKind text = TextKind::kMaybeKeyword;  ///< of texts
   bool needed = false;                      ///< a record from outside that lacks it is refused

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,12 +56,11 @@ class PostgresServer {
     return text;
   }
   bool start() {
-    constexpr int kTurns = 3000;  // of 20 ms: a machine may be busy
     for (int i = 0; i < kTurns; ++i) {
       // One that was killed leaves workers for a moment, and no other starts until they are gone.
       if (server_ <= 0 || waitpid(server_, nullptr, WNOHANG) == server_) {
         server_ = launch({programs_ + "/postgres", "-D", data(), "-k", folder_.path().string(), "-c",
-                          "listen_addresses=", "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
+                          "listen_addresses=", "-c", "fsync=off", "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
                          folder_.file("log"));
       }
       if (run({programs_ + "/pg_isready", "-q", "-h", folder_.path().string()})) return true;
@@ -68,17 +68,21 @@ class PostgresServer {
     }
     return false;
   }
-  /// SIGINT: it ends its connections and writes everything; SIGKILL: its workers end when they find
-  /// it gone.
+  /// SIGINT: it ends its connections and writes everything; SIGKILL: its workers end when they find it gone, and until
+  /// then serve who is connected. Returns when they, too, have ended.
   void stop(int signal) {
     if (server_ <= 0) return;
+    const std::vector<pid_t> workers = workers_of(server_);
     kill(server_, signal);
     waitpid(server_, nullptr, 0);
     server_ = 0;
+    for (const pid_t worker : workers)
+      for (int turn = 0; turn < kTurns && kill(worker, 0) == 0; ++turn) usleep(20'000);
   }
   [[nodiscard]] std::string data() const { return folder_.file("data"); }
 
  private:
+  static constexpr int kTurns = 3000;  // of 20 ms: a machine may be busy
   explicit PostgresServer(std::string programs) : programs_(std::move(programs)) {
     if (geteuid() == 0) {
       user_ = getpwnam("postgres");
@@ -90,6 +94,11 @@ class PostgresServer {
     std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
   }
 
+  static std::vector<pid_t> workers_of(pid_t server) {
+    const std::string of = std::to_string(server);
+    std::ifstream in("/proc/" + of + "/task/" + of + "/children");
+    return {std::istream_iterator<pid_t>(in), {}};
+  }
   static std::string programs_folder() {
     std::vector<std::string> found;
     std::error_code none;

@@ -1,2 +1,2 @@
 find_package(SQLite3 REQUIRED)  # to plant faults behind the store's back
-capstan_test(casebase DEPENDS casebase mechanics LIBS SQLite::SQLite3)
+capstan_test(casebase DEPENDS casebase mechanics LIBS SQLite::SQLite3 COST 200)

@@ -19,5 +19,4 @@ target_link_libraries(linuxcnc_test PRIVATE capstan_simulated capstan::tooling G
 capstan_compile_as_test(linuxcnc_test)
 # LinuxCNC's shared memory has fixed keys: one at a time. They mostly wait for its clock, so they begin first and
 # other tests run beside them; what is measured counts servo periods, and does not depend on the load.
-gtest_discover_tests(linuxcnc_test DISCOVERY_TIMEOUT 60
-  PROPERTIES TIMEOUT 900 RESOURCE_LOCK linuxcnc COST 1000)
+capstan_tests_by_suite(linuxcnc_test PROPERTIES TIMEOUT 900 RESOURCE_LOCK linuxcnc COST 1000)

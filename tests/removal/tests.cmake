@@ -7,4 +7,4 @@ target_link_libraries(capstan_drawing PUBLIC $<BUILD_INTERFACE:capstan_options> 
 add_library(capstan_removal STATIC ${removal_sources})
 target_link_libraries(capstan_removal PRIVATE $<BUILD_INTERFACE:capstan_options> PUBLIC capstan_test_support
   capstan_drawing capstan::facade)
-capstan_test(removal DEPENDS facade LIBS capstan_removal)
+capstan_test(removal DEPENDS facade LIBS capstan_removal COST 100)

@@ -12,7 +12,7 @@ target_link_libraries(capstan_validation_comparisons
     capstan_simulated_shop capstan::casebase yaml-cpp)
 add_executable(capstan_validation ${validation}/main.cpp)
 target_link_libraries(capstan_validation PRIVATE capstan_validation_comparisons)
-capstan_test(validation LIBS capstan_validation_comparisons)
+capstan_test(validation LIBS capstan_validation_comparisons COST 700)
 
 # Records times of late binding: capstan_bind_times FOLDER.
 add_executable(capstan_bind_times ${validation}/late/bind_times_main.cpp)

@@ -5,5 +5,5 @@ if(TARGET capstan)
   add_test(NAME Report.LooksRightInABrowser
     COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_LIST_DIR}/look_test.py $<TARGET_FILE:capstan>
       ${CMAKE_SOURCE_DIR}/examples ${CMAKE_BINARY_DIR}/reports)
-  set_tests_properties(Report.LooksRightInABrowser PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77)
+  set_tests_properties(Report.LooksRightInABrowser PROPERTIES TIMEOUT 900 COST 500 SKIP_RETURN_CODE 77)
 endif()

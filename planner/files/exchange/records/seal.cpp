@@ -74,7 +74,7 @@ constexpr std::size_t kAtOnce = 64;
 
 /// Whether the seals of what there are millions of are those of its text as the file has it, if that is as
 /// `spell` would print it.
-enum class Spelling : std::uint8_t { kOfFile, kOfSeal };
+enum class SealText : std::uint8_t { kOfFile, kOfSeal };
 
 bool is_of_points(std::string_view keyword) { return keyword == "CARTESIAN_POINT" || keyword == "POLYLINE"; }
 
@@ -113,12 +113,12 @@ class Standing {
   std::vector<Seals::Text> texts_;
 };
 
-Seals sealed(const p21::File& file, Spelling spelling) {
+Seals sealed(const p21::File& file, SealText spelling) {
   Seals out;
   Standing standing(out);
   const auto add = [&](std::string_view keyword, std::string_view of) { out.add(keyword, fnv1a(of)); };
   const auto stands = [&](bool may, std::string_view keyword, const p21::Value& parameters) {
-    return may && spelling == Spelling::kOfFile ? as_it_stands(keyword, parameters) : std::string_view();
+    return may && spelling == SealText::kOfFile ? as_it_stands(keyword, parameters) : std::string_view();
   };
   std::string text;
   for (std::size_t i = 0; i < file.header_count(); ++i) {
@@ -248,7 +248,7 @@ Result<std::string> seal_text(std::string rest, const Seals& sealed_already) {
   Job quiet;
   const auto parsed = p21::parse(std::move(rest), "", {}, quiet);
   if (!parsed) return fail(parsed.error());
-  Seals all = sealed(*parsed, Spelling::kOfSeal);
+  Seals all = sealed(*parsed, SealText::kOfSeal);
   all.add(sealed_already);
   std::string seals;
   for (const auto& [keyword, s] : all.by_keyword())
@@ -288,7 +288,7 @@ SealState seal_of(const p21::File& file, Reporter& reporter) {
   // Files of earlier versions have no seals of their own for the records of AP238.
   const bool records =
       std::any_of(then.begin(), then.end(), [](const auto& s) { return s.first.starts_with(kRecord); });
-  const auto edited_since = [&](Spelling spelling) {
+  const auto edited_since = [&](SealText spelling) {
     const Seals here = sealed(file, spelling);
     Stated now;
     for (const auto& [keyword, s] : here.by_keyword())
@@ -297,8 +297,8 @@ SealState seal_of(const p21::File& file, Reporter& reporter) {
     return model::edited_parts(now, then);
   };
   // A text that has the sealed hash is what was sealed. One that has another may only be spelled otherwise.
-  std::vector<std::string> edited = edited_since(Spelling::kOfFile);
-  if (!edited.empty()) edited = edited_since(Spelling::kOfSeal);
+  std::vector<std::string> edited = edited_since(SealText::kOfFile);
+  if (!edited.empty()) edited = edited_since(SealText::kOfSeal);
   state.holds = state.paths_hold = edited.empty();
   if (state.holds) return state;
   reporter.report(model::parts_edited(std::string(model::kEditedCode), edited));

@@ -6,23 +6,23 @@
 namespace capstan::optimise {
 namespace {
 
-using Column = std::vector<double>;
+using Values = std::vector<double>;
 
-double dot(const Column& a, const Column& b) {
+double dot(const Values& a, const Values& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
 /// Least squares A_passive z = b by modified Gram-Schmidt; columns that depend on earlier ones get 0.
-std::vector<double> least_squares(const std::vector<Column>& columns, const std::vector<std::size_t>& passive,
-                                  const Column& b) {
+std::vector<double> least_squares(const std::vector<Values>& columns, const std::vector<std::size_t>& passive,
+                                  const Values& b) {
   constexpr double kDependent = 1e-10;
   const std::size_t k = passive.size();
-  std::vector<Column> q;
-  std::vector<Column> r(k, Column(k, 0.0));
-  Column rest = b;
-  Column right(k, 0.0);
+  std::vector<Values> q;
+  std::vector<Values> r(k, Values(k, 0.0));
+  Values rest = b;
+  Values right(k, 0.0);
   for (std::size_t j = 0; j < k; ++j) {
     q.push_back(columns[passive[j]]);
     const double before = std::sqrt(dot(q[j], q[j]));
@@ -51,11 +51,11 @@ std::vector<double> least_squares(const std::vector<Column>& columns, const std:
 }
 
 /// min |A x - b|, x >= 0, columns of unit length.
-std::vector<double> nnls(const std::vector<Column>& columns, const Column& b) {
+std::vector<double> nnls(const std::vector<Values>& columns, const Values& b) {
   const std::size_t n = columns.size();
   std::vector<double> x(n, 0.0);
   std::vector<bool> in(n, false);
-  Column rest = b;
+  Values rest = b;
   const double enough = 1e-12 * std::max(1.0, std::sqrt(dot(b, b)));
   for (std::size_t outer = 0; outer < 3 * n + 3; ++outer) {
     std::size_t enter = n;
@@ -104,18 +104,18 @@ std::vector<double> nnls(const std::vector<Column>& columns, const Column& b) {
 FirstOrder first_order(const Evaluation& e, const std::vector<double>& u, double active_tolerance) {
   const std::size_t n = u.size();
   FirstOrder result;
-  std::vector<Column> columns;
-  const auto add = [&](ReachedLimit limit, Column slope) {
+  std::vector<Values> columns;
+  const auto add = [&](ReachedLimit limit, Values slope) {
     result.reached.push_back(limit);
     columns.push_back(std::move(slope));
   };
   for (std::size_t i = 0; i < e.constraints.size(); ++i) {
     if (e.constraints[i] < -active_tolerance) continue;
     const auto row = e.jacobian.begin() + static_cast<std::ptrdiff_t>(i * n);
-    add({ReachedLimit::Kind::kConstraint, i, 0.0}, Column(row, row + static_cast<std::ptrdiff_t>(n)));
+    add({ReachedLimit::Kind::kConstraint, i, 0.0}, Values(row, row + static_cast<std::ptrdiff_t>(n)));
   }
   for (std::size_t k = 0; k < n; ++k) {
-    Column slope(n, 0.0);
+    Values slope(n, 0.0);
     if (u[k] <= active_tolerance) {
       slope[k] = -1.0;
       add({ReachedLimit::Kind::kLowerBound, k, 0.0}, std::move(slope));
@@ -125,14 +125,14 @@ FirstOrder first_order(const Evaluation& e, const std::vector<double>& u, double
     }
   }
   std::vector<double> length;
-  for (Column& c : columns) {
+  for (Values& c : columns) {
     length.push_back(std::sqrt(dot(c, c)));
     for (double& v : c) v = length.back() > 0.0 ? v / length.back() : 0.0;
   }
-  Column downhill = e.gradient;
+  Values downhill = e.gradient;
   for (double& v : downhill) v = -v;
   const std::vector<double> lambda = nnls(columns, downhill);
-  Column rest = e.gradient;
+  Values rest = e.gradient;
   for (std::size_t j = 0; j < columns.size(); ++j) {
     for (std::size_t s = 0; s < n; ++s) rest[s] += lambda[j] * columns[j][s];
     result.reached[j].multiplier = length[j] > 0.0 ? lambda[j] / length[j] : 0.0;
