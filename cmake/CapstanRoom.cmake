@@ -57,10 +57,10 @@ if(CAPSTAN_PRECOMPILE)
     <string> <string_view> <vector> <tl/expected.hpp>)
 endif()
 
-# The preset asan compiles sources of a target together where their names allow it (sources_together.py): what they
+# The preset asan compiles sources of a room together where their names allow it (sources_together.py): what they
 # include is parsed once for them all. The preset dev compiles each source alone, so that a change rebuilds what it
-# touches, and a source that lacks an include is found.
-option(CAPSTAN_TOGETHER "Compile sources of a target together" OFF)
+# touches, and a source that lacks an include is found. Tests have names of their own in too many namespaces.
+option(CAPSTAN_TOGETHER "Compile sources of a room together" OFF)
 set(CAPSTAN_MOST_TOGETHER 10)
 if(CAPSTAN_TOGETHER)  # these then speak without a cause; dev keeps them errors
   target_compile_options(capstan_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
@@ -158,7 +158,6 @@ function(capstan_test room)
   target_link_libraries(${target}_test PRIVATE
     $<BUILD_INTERFACE:capstan_options> capstan_test_support GTest::gmock GTest::gtest_main ${ARG_LIBS})
   capstan_compile_as_test(${target}_test)
-  capstan_compile_together(${target}_test)
   foreach(dep IN LISTS ARG_DEPENDS)
     target_link_libraries(${target}_test PRIVATE capstan::${dep})
   endforeach()

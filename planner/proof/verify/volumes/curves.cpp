@@ -166,7 +166,7 @@ Trim trim_of(const Model& m, const model::SelectList& list) {
   return out;
 }
 
-Course trimmed(const Model& m, const model::TrimmedCurve& t) {
+Course course_of(const Model& m, const model::TrimmedCurve& t) {
   const Trim first = trim_of(m, t.trim_1), second = trim_of(m, t.trim_2);
   const bool along = t.sense_agreement.value_or(true);
   if (const auto* line = m.get<model::Line>(t.basis_curve)) {
@@ -316,7 +316,7 @@ Course read(const Model& m, AnyRef r, int depth) {
   if (!r.set()) return refuse("a curve is missing");
   if (depth > kDeepest) return refuse("a curve is nested in itself, or too deeply");
   if (const auto* p = m.get<model::Polyline>(r)) return polyline(m, *p);
-  if (const auto* t = m.get<model::TrimmedCurve>(r)) return trimmed(m, *t);
+  if (const auto* t = m.get<model::TrimmedCurve>(r)) return course_of(m, *t);
   if (const auto* c = m.get<model::CompositeCurve>(r)) return composite(m, *c, depth);
   if (const auto* s = m.get<model::BSplineCurve>(r)) return spline(m, r, *s);
   if (const auto c = conic_of(m, r); c && c->kind == ConicAt::Kind::kEllipse)
