@@ -85,11 +85,11 @@ class CaseBase {
   /// The case of an id. Fails CASE-UNKNOWN, and CASE-ROW if it is not what was stored.
   [[nodiscard]] Result<Case> get(std::string_view id) const;
   /// What was said of a case, in order: its verdicts after the recorded one, and its removal (no verdict).
-  struct Said {
+  struct LaterVerdict {
     std::optional<Verdict> verdict;
     std::string by, time_utc, reason;
   };
-  [[nodiscard]] std::vector<Said> said_of(std::string_view id) const;
+  [[nodiscard]] std::vector<LaterVerdict> later_verdicts(std::string_view id) const;
 
   /// The k nearest cases of the question's categories, nearest first, equal distances by id. Whatever
   /// their verdict and origin: the caller sees both. Fails CASE-INVALID on a question that cannot be.

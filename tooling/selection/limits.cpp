@@ -14,7 +14,7 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "tooling/library/cutters/complete.h"
-#include "tooling/library/cutters/shape.h"
+#include "tooling/library/cutters/edge_kind.h"
 #include "tooling/library/nouns/tool_material.h"
 
 namespace capstan::tooling {

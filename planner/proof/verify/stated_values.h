@@ -4,7 +4,7 @@
 #include "planner/model/plan/resources/material.h"
 
 // What presets of a tool state for a material, read by the check's own code: planning looks them up apart
-// (model/plan/borne_feed.h, of which only the words in a preset's source and the shares are shared).
+// (model/plan/preset_feeds.h, of which only the words in a preset's source and the shares are shared).
 
 namespace capstan::verify {
 

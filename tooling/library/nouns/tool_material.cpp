@@ -4,7 +4,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/assumed_tool_material.h"
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
 

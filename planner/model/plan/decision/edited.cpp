@@ -168,10 +168,10 @@ std::optional<std::uint64_t> hash_from_text(std::string_view text) {
   return out;
 }
 
-EditTold edit_told_by(const Diagnostic& d) {
-  if (d.code == kDisagreesCode) return EditTold::kDisagrees;
-  if (d.code != kEditedCode && d.code != kEditedJsonCode) return EditTold::kNothing;
-  return d.severity == Severity::kNote ? EditTold::kValue : EditTold::kPart;
+ReportedEdit reported_edit_of(const Diagnostic& d) {
+  if (d.code == kDisagreesCode) return ReportedEdit::kDisagrees;
+  if (d.code != kEditedCode && d.code != kEditedJsonCode) return ReportedEdit::kNothing;
+  return d.severity == Severity::kNote ? ReportedEdit::kValue : ReportedEdit::kPart;
 }
 
 Diagnostic steps_disagree(const std::string& how, std::string file) {

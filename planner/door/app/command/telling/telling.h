@@ -12,7 +12,7 @@
 namespace capstan::app {
 
 /// How progress is told.
-enum class ProgressTold : std::uint8_t {
+enum class ProgressForm : std::uint8_t {
   kAuto,  ///< a bar on a terminal, once the work takes more than a second
   kJson,  ///< a line of JSON every half second, on a terminal or not
   kNone,
@@ -20,7 +20,7 @@ enum class ProgressTold : std::uint8_t {
 
 /// Tells progress as `told` says; null: nothing is told. `bar`: standard error is a terminal and is read by a
 /// person.
-[[nodiscard]] std::function<void(std::string_view stage, double fraction)> progress_teller(ProgressTold told,
+[[nodiscard]] std::function<void(std::string_view stage, double fraction)> progress_teller(ProgressForm told,
                                                                                            bool bar);
 /// Takes the bar off the terminal.
 void end_progress();

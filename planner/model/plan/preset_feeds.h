@@ -37,7 +37,7 @@ inline constexpr double kOverPreset = 1.5;
 /// cutter's own start value for this material. Where the cutter has no start value, it is the least of those
 /// for materials of the same ISO 513 group (`of_group`), and no more: groups are wide. Values of another
 /// group do not count.
-[[nodiscard]] double borne_feed_mm(const Cutter& c, const WorkMaterial& m);
+[[nodiscard]] double largest_tooth_feed_mm(const Cutter& c, const WorkMaterial& m);
 
 /// The feed per tooth that its presets state for a material, the own before those of its like; 0: none.
 [[nodiscard]] double start_feed_mm(const Cutter& c, const WorkMaterial& m);

@@ -8,16 +8,16 @@
 namespace capstan {
 
 /// Reports at the end of a scope what was said before it, whatever ends it.
-class SaidBefore {
+class EarlierDiagnostics {
  public:
-  explicit SaidBefore(Job& job) : job_(job), said_(job.take_diagnostics()) {}
-  ~SaidBefore() {
+  explicit EarlierDiagnostics(Job& job) : job_(job), said_(job.take_diagnostics()) {}
+  ~EarlierDiagnostics() {
     auto now = job_.take_diagnostics();
     for (auto& d : said_) job_.report(std::move(d));
     for (auto& d : now) job_.report(std::move(d));
   }
-  SaidBefore(const SaidBefore&) = delete;
-  SaidBefore& operator=(const SaidBefore&) = delete;
+  EarlierDiagnostics(const EarlierDiagnostics&) = delete;
+  EarlierDiagnostics& operator=(const EarlierDiagnostics&) = delete;
 
  private:
   Job& job_;
