@@ -446,7 +446,7 @@ class Check {
       shop_.machine = controls::with_control(std::move(shop_.machine), other);
       told_by = in.path;
       job_.note("APP-CONTROL", in.path + " is read as a program of " + name_of_control(other) + ", for " +
-                                   sign->text + " stands in line " + std::to_string(sign->line) + "; " +
+                                   sign->text + " is in line " + std::to_string(sign->line) + "; " +
                                    request_.sign + "control names another");
     }
     return std::nullopt;

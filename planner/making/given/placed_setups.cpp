@@ -214,7 +214,7 @@ std::string leans_in_setup(const model::Plan& plan, const SetupDraft& setup, con
       model::leaning_attributes(plan.model, setup.setup, model::workpiece_of(plan.model, plan.project));
   const std::string placed =
       by.empty() ? std::string() : ": " + by + " has the workpiece " + model::turn_text({}, setup.workpiece);
-  return "the axis of " + feature + " stands " + degrees(lean) + " off the tool's in " +
+  return "the axis of " + feature + " leans " + degrees(lean) + " from the tool's in " +
          name_of(plan, setup.setup) + placed + "; a tool along Z cannot cut it so: " +
          (by.empty() ? "give the step a set-up in which that axis is up"
                      : "correct " + by + ", or give the step a set-up in which that axis is up");

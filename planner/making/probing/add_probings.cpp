@@ -231,8 +231,8 @@ Added add_probings(model::Plan plan, std::vector<StepDraft> steps, const piece::
             {next.member, next.chain,
              "'" + wanted.name + "' cannot be made (" + what.found.why_not + "), and without it " +
                  (for_size(probing)
-                      ? std::string("the last cut does not hold what is asked")
-                      : "nothing holds what is asked: " + wanted.why.text + " [" + wanted.why.id +
+                      ? std::string("the last cut does not hold the tolerance")
+                      : "nothing holds the requirement: " + wanted.why.text + " [" + wanted.why.id +
                             "]; give the tolerance a datum or a wall that a probe reaches, or "
                             "measure the piece on another machine and take the tolerance out "
                             "of this plan")});

@@ -48,7 +48,7 @@ std::optional<ToolMaterial> by_speed(const ToolMaterialHints& hints) {
   if (v > kOverCard * kCoatedCarbideOverBare * carbide) return std::nullopt;
   return ToolMaterial{
       Substrate::kCarbide,
-      assumed_source(Substrate::kCarbide, in_file + " is more than HSS bears (" + speed(hss) +
+      assumed_source(Substrate::kCarbide, in_file + " is more than HSS allows (" + speed(hss) +
                                               "), and a speed of carbide (" + speed(carbide) + ")")};
 }
 

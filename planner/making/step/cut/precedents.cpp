@@ -173,7 +173,7 @@ model::Reason reason_of(const FromCases& from) {
     text = "starts from the middle of " + std::string(to_text(a.origin)) +
            " cuts that went well: " + words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
     if (a.held_back)
-      text += ", held at what the table bears (" + trimmed(casebase::kCaseReach, 2) +
+      text += ", held at the largest value of the table (" + trimmed(casebase::kCaseReach, 2) +
               " times its values after " + std::to_string(casebase::kRepeats) + " repeats, before that once)";
     if (a.centre.fz_mm < from.table_fz_mm && !a.lowered && a.start.fz_mm >= from.table_fz_mm)
       text += ", with the table's chip, which their paths may have had in corners";

@@ -193,7 +193,7 @@ Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts,
           .file = std::move(file),
           .hint =
               "`capstan plan` chooses anew what was chosen from the old values; `check` and `explain` "
-              "take all of it as it stands"};
+              "take all of it as it is"};
 }
 
 }  // namespace capstan::model
