@@ -7,7 +7,7 @@
 
 namespace capstan {
 
-/// Reports at the end of a scope what was said before it, whatever ends it.
+/// Takes the diagnostics reported so far and puts them back, before those of its scope, when the scope ends.
 class EarlierDiagnostics {
  public:
   explicit EarlierDiagnostics(Job& job) : job_(job), said_(job.take_diagnostics()) {}

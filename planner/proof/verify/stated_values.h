@@ -14,7 +14,7 @@ inline constexpr double kMeasured = 1.1;
 /// Bending of a roughing tool's tip. Default, unsourced.
 inline constexpr double kMostBentMm = 0.2;
 
-/// What a preset is asked for.
+/// Which number of a preset is wanted.
 enum class Wanted { kSpeed, kFeed };
 
 /// The tool's own preset for a material, or (`of_its_like`) one taken from a cutter like it, that states what

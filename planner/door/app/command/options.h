@@ -87,7 +87,7 @@ struct ToolsOptions {
   bool report = false;               ///< every line of the loss report
 };
 
-/// What `serve` is told beside the options of `bind`.
+/// The options of `serve` beside those of `bind`.
 struct ServeOptions {
   std::string socket, tcp;
   std::vector<std::uint32_t> users;  ///< user ids

@@ -8,11 +8,11 @@
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/step/path/attempt.h"
 
-// What is said of the cases that a step's cut leans on.
+// What the plan reports of the cases that a step's cut leans on.
 
 namespace capstan::step {
 
-/// What cases came to in a plan, for one line at its end.
+/// Counts of what cases changed in a plan, for one line at its end.
 struct CaseTally {
   int leaning = 0;  ///< steps that start from near cases
   int proven = 0;   ///< of these, from tuned values
