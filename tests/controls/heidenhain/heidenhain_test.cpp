@@ -141,7 +141,7 @@ TEST(HeidenhainProgram, AToleranceOfAStepThatRoundsToNothingIsRefused) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, "OUT-CONTROL");
   EXPECT_EQ(refused.error().path, "rough pocket");
-  EXPECT_THAT(refused.error().message, HasSubstr(" mm is 0 with the machine's 3 decimals"));
+  EXPECT_THAT(refused.error().message, HasSubstr("tolerance of 0.0004 mm is 0 with the machine's 3 decimals"));
   EXPECT_THAT(refused.error().expected, HasSubstr("0.001 mm"));
   plan.steps[0].contour_tolerance_mm = 0.0006;
   EXPECT_THAT(bare(plan), HasSubstr("\nCYCL DEF 32.1 T0.001\n"));
