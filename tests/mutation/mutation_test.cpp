@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -103,6 +104,22 @@ TEST(MutationSeed, EveryDangerousEditOfAHeidenhainProgramIsFoundAndNoBenignOneBl
     EXPECT_EQ(row.benign_blamed, 0) << told(row);
   }
   RecordProperty("edits", edits);
+}
+
+// A first block that names a work offset in place of ending the length offset (G59 for G49).
+TEST(MutationSeed, AWorkOffsetBeforeTheFirstStepIsFound) {
+  for (const Emitted& e : emitted()) {
+    std::string text = e.text;
+    const std::size_t at = text.find(" G49");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, 4, " G59");
+    Job job;
+    const auto findings =
+        verify::check_program({e.name, text, e.table}, &e.plan, e.plan.machine, e.plan.cutters, job);
+    EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const auto& f) {
+      return f.code == "CHK-TEXT-STATE" && f.message.find("G59") != std::string::npos;
+    })) << e.name;
+  }
 }
 
 std::vector<Emitted> all_emitted() {
