@@ -110,6 +110,9 @@ struct Words {
   /// A hole as a canned cycle, cancelled behind it; nothing where this control has none that makes these
   /// moves. Null: explicit moves always.
   std::function<std::optional<std::string>(const HoleCycle& hole)> cycle = {};
+  /// The last line of `cycle` where it runs what the lines before it define: for equal holes of a step these
+  /// stand once. Empty: each hole has its whole text.
+  std::string_view cycle_call = {};
   /// Around the moves of a milling step; nothing where they are empty.
   std::string smooth_on = {}, smooth_off = {};
   /// Arcs: decimals of I and J beyond those of ends; how far the radii at both ends may differ (0: by a unit
