@@ -31,6 +31,13 @@ std::vector<Class> dangerous_in_grbl() {
            return l + " (" + kCommands[r.below(5)] + ")";
          });
        }},
+      {"carriage return within a comment", Kind::kDangerous, true,
+       [](const Emitted& e, Random& r) {
+         return changed(e, r, is_code, [&](const std::string& l) {
+           static const char* const kEnded[] = {" (and\rG0 Z-40\rG0 X200 Y200\r)", " ; and\rG0 Z-40"};
+           return l + kEnded[r.below(2)];
+         });
+       }},
       {"code of another control", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
          static const char* const kCodes[] = {"G43 H1", "G64 P0.05", "G81 Z-5 R2 F100", "G41 D1", "G98"};

@@ -7,7 +7,8 @@
 
 // Lines as Grbl takes them in (protocol.c, nuts_bolts.c read_float): blanks and comments away, letters in
 // capitals, a number of sign, digits and one point. Some characters never reach a line: Grbl takes them out
-// of its input as commands, in comments too (serial.c).
+// of its input as commands, in comments too (serial.c). A line ends at '\n' and at '\r', whatever is open
+// in it (protocol.c): one '\r' before '\n' is the end of the same line, any other would start another.
 
 namespace capstan::verify::grbl {
 namespace {
@@ -66,6 +67,11 @@ std::string kept(std::string_view text, Line& out) {
 Line split_line(std::string_view text) {
   Line out;
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+  if (text.find('\r') != std::string_view::npos)
+    out.fault =
+        "a carriage return (0x0D) stands within the line: Grbl ends the block there, and a comment with it, "
+        "and "
+        "runs what follows; take it out";
   for (const char c : text) {
     if (const char* what = command_of(c); what != nullptr && out.fault.empty())
       out.fault = shown(c) + " " + what + " wherever it stands, in comments too: take it out";

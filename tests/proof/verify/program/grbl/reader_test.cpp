@@ -107,6 +107,14 @@ TEST(GrblReader, CharactersThatAreCommandsAreFaultsInCommentsToo) {
   EXPECT_EQ(faults(read("(plain words, 100 % of them; and more)\n")), "");
 }
 
+// protocol.c: '\r' ends a line as '\n' does, and a comment with it.
+TEST(GrblReader, ACarriageReturnWithinALineIsAFaultInCommentsToo) {
+  for (const char* text : {"(a comment\rG0 Z-40\rG0 X200 Y200\r)\n", "; a comment\rG0 Z-40\n",
+                           "G1 X1\rG0 Z-40\n", "(a comment)\r\r\n"})
+    EXPECT_TRUE(finds(read(text), "CHK-SYNTAX")) << text;
+  EXPECT_EQ(faults(read("(a comment)\r\nG1 X1 F100\r\n")), "");
+}
+
 TEST(GrblReader, WhatGrblRefusesIsAFault) {
   for (const char* text : {"G43 H1\n", "G64 P0.01\n", "G81 X1 Y1 Z-1 R2\n", "G33.1 Z-5 K1\n", "G59.1\n",
                            "G61.1\n", "G95\n", "G41 D1\n", "M48\n", "M60\n"})
