@@ -23,7 +23,7 @@ struct ControlOptionRow {
 
 /// Sources: FANUC Series 0i-MODEL B operator's manual B-63844EN/02 ("0i"), FANUC Series 30i user's manual
 /// (machining centre) B-63944EN-2/02 ("30i"), FANUC connection manual B-63833EN-1/02 ("0i connection"), Haas
-/// mill operator's manual 96-8000 ("Haas"), and for Siemens and Heidenhain those of
+/// mill operator's manual 96-8000 ("Haas"), and for Siemens, Heidenhain and Grbl those of
 /// planner/controls/siemens/siemens.h, planner/controls/heidenhain/heidenhain.h and
 /// planner/controls/grbl/grbl.h.
 inline constexpr std::array kControlOptions{
