@@ -34,4 +34,9 @@ double option_number(const model::Machine& machine, std::string_view name) {
   return parse_double(option(machine, name)).value_or(0.0);
 }
 
+bool touches_off(const model::Machine& machine) {
+  constexpr std::string_view kName = "tool_length";
+  return reader_default(machine.control.dialect, kName) != "-" && option(machine, kName) == "touch_off";
+}
+
 }  // namespace capstan::verify

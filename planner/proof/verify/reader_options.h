@@ -19,5 +19,8 @@ namespace capstan::verify {
 [[nodiscard]] std::string_view option(const model::Machine& machine, std::string_view name);
 /// The same as a number; 0 where there is none.
 [[nodiscard]] double option_number(const model::Machine& machine, std::string_view name);
+/// Whether the length of a tool is in the zero of Z of the work offset that was set with it at its change,
+/// and in no block of the program; false for a control without the option.
+[[nodiscard]] bool touches_off(const model::Machine& machine);
 
 }  // namespace capstan::verify

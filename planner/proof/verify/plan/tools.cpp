@@ -7,6 +7,7 @@
 #include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/program/readers.h"
+#include "planner/proof/verify/reader_options.h"
 
 namespace capstan::verify {
 namespace {
@@ -57,6 +58,7 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
   const Findings::Where whole{0, "", -1};
   const DialectReader* reader = reader_of(plan.machine.control.dialect);
   const ControlWords words = reader != nullptr ? reader->words : ControlWords{};
+  const bool states_lengths = !touches_off(plan.machine);  // else no block takes the table's length
   std::map<int, std::string> pockets;
   std::map<int, const model::Cutter*> places;
   for (const model::Cutter& c : plan.cutters) {
@@ -90,7 +92,7 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
       findings.error(
           4, "CHK-TOOL", at,
           "its tool \"" + s.planned->cutter_id + "\" is not among the plan's tools: plan it again");
-    else if (const std::string fault = model::offset_fault(*s.cutter); !fault.empty())
+    else if (const std::string fault = model::offset_fault(*s.cutter); !fault.empty() && states_lengths)
       findings.error(6, "CHK-TOOL-OFFSET", at,
                      fault + ", and " + length_of(words, s.cutter->pocket) +
                          " would take that for its length: measure it and enter its length");

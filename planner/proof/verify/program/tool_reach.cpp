@@ -4,6 +4,7 @@
 
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/proof/verify/program/program_checks.h"
+#include "planner/proof/verify/reader_options.h"
 
 // Lengths against the program itself. A tool is fed down from a height to which a rapid took it, just above
 // the work; whatever holds it is above its gage line. A tool that is shorter than the way from there to its
@@ -42,6 +43,7 @@ std::map<std::pair<int, int>, Heights> heights_of(const ProgramCase& c) {
 
 /// Lengths that the header tells and no tool can have.
 void check_header_lengths(const ProgramCase& c, Findings& findings) {
+  if (touches_off(c.machine)) return;  // no block takes them
   std::vector<model::TableOffset> offsets;
   for (const HeaderTool& h : c.program.tools)
     offsets.push_back({h.length_mm.value_or(0.0), h.diameter_mm.value_or(0.0)});
