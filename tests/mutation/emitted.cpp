@@ -77,6 +77,18 @@ model::Plan two_setups() {
   return k.plan;
 }
 
+/// The drill goes on in the second set-up.
+model::Plan one_tool_in_two_setups() {
+  auto k = plans::good_plan();
+  k.plan.machine.spindle.spin_up_s = 1.5;
+  k.plan.setups.push_back(k.plan.setups[0]);
+  k.plan.setups[1].work_offset = "G55";
+  model::CutterPath p = plans::drill_path();
+  for (double& y : p.y) y = 85.0;
+  k.step<model::Drilling>("drill anew", k.hole("H2", 15, 85, 8, 20), "d8", p, 225, 1500).setup = 1;
+  return k.plan;
+}
+
 model::Plan tapped() {
   auto k = plans::empty_plan();
   k.plan.machine.spindle.spin_up_s = 1.0;
@@ -155,6 +167,7 @@ std::vector<Emitted> emitted_for(const std::string& dialect) {
     model::Plan stated = on(pocket_and_hole());
     stated.machine.control_options = model::ControlOptions{{{"tool_length", "g43.1"}}};
     out.push_back(written("stated lengths", std::move(stated)));
+    out.push_back(written("one tool in two set-ups", on(one_tool_in_two_setups())));
     return out;
   }
   out.push_back(written("tapped hole", on(tapped()), {"CHK-GOUGE", "CHK-GOUGE-WALL"}));

@@ -64,6 +64,11 @@ struct Words {
       change_tool = [](const std::string& tool, const std::string& /*id*/, const std::string& /*speed*/) {
         return "T" + tool + " M6";
       };
+  /// Where the length of a tool lies in the zero of Z of one work offset: calls the tool in the spindle
+  /// again, to set that of another offset, in a set-up that goes on with it. One or more lines. Null: lengths
+  /// are true of every offset.
+  std::function<std::string(const std::string& tool, const std::string& id, const std::string& offset)>
+      call_again = {};
   /// Makes the tool of the next change ready, right after a change; nothing where it is empty.
   std::function<std::string(const std::string& next, const std::string& id)> stage_tool = {};
   /// Behind the last step of each tool, when it is away and all is off; nothing where it is empty.

@@ -166,6 +166,7 @@ class Writer {
     const bool new_tool = cutter.pocket != tool_;
     const bool first = tool_ == 0;
     const bool new_setup = !first && step.setup != setup_;
+    const bool again = new_setup && !new_tool && words_.call_again;
     forget_cycle();
     const auto why = reasons(step, n);
     program_.blank();
@@ -183,7 +184,7 @@ class Writer {
     }
     if (!why.empty()) stop_for(why, n);
     // Behind a step with the same tool a restart would not call it.
-    if (new_tool) program_.number_step(n + 1);
+    if (new_tool || again) program_.number_step(n + 1);
     if (!words_.step_state.empty()) program_.line(words_.step_state);
     tolerance(step.contour_tolerance_mm, !roughs(step));
     program_.line(words_.work_offset ? words_.work_offset(setup.work_offset) : setup.work_offset);
@@ -197,6 +198,7 @@ class Writer {
       if (const Cutter* next = next_tool(n); next != nullptr && words_.stage_tool)
         program_.line(words_.stage_tool(std::to_string(next->pocket), next->id));
     }
+    if (again) program_.line(words_.call_again(t, cutter.id, setup.work_offset));
     if (words_.offset_moves_z) {
       program_.with_next_height(" " + words_.length_offset(t));
     } else if (const std::string offset = words_.length_offset(t); !offset.empty()) {

@@ -32,9 +32,26 @@ Status has_the_coolant(const model::Plan& plan) {
   return {};
 }
 
+/// Grbl holds at M0, and jogs in no hold (protocol.c; doc/markdown/jogging.md: only in IDLE): nobody sets the
+/// zero of Z there.
+Status can_touch_off(const model::Plan& plan) {
+  if (model::control_option(plan.machine, "tool_change") != "m0" ||
+      model::control_option(plan.machine, "tool_length") != "touch_off")
+    return {};
+  return fail(
+      {.code = "OUT-CONTROL",
+       .message = "tools of machine '" + plan.machine.id +
+                  "' are changed at M0 (tool_change: m0), a hold in which Grbl refuses to jog: nobody "
+                  "can set the zero of Z with the tool (tool_length: touch_off)",
+       .expected = "tool_length: g43.1, or tool_change: m6",
+       .hint = "state 'tool_length: g43.1' under the machine's control and measure the tools, or "
+               "'tool_change: m6' where what sends the program stops at M6 by itself"});
+}
+
 Result<std::string> write_program(const model::Plan& plan, Job& job,
                                   const std::vector<model::Condemnation>& condemned) {
   if (auto ok = gcode::options_right(plan); !ok) return tl::unexpected(ok.error());
+  if (auto ok = can_touch_off(plan); !ok) return tl::unexpected(ok.error());
   if (auto ok = has_the_coolant(plan); !ok) return tl::unexpected(ok.error());
   gcode::Words words = words_of(plan);
   words.work_offsets = kWorkOffsets;

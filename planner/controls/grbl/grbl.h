@@ -12,10 +12,15 @@ namespace capstan::controls::grbl {
 ///
 /// Tools    `T5 M6`, which the program that sends the blocks carries out, or a macro; Grbl itself answers
 ///          error 20 and runs nothing. With `tool_change: m0` it is `T5` and a stop. Behind either the tool
-///          goes to the top of Z again, for a touch-off leaves it anywhere.
+///          goes to the top of Z again, for a touch-off leaves it anywhere. M0 is a hold, in which Grbl
+///          itself refuses to jog: nobody touches off there, so that `tool_change: m0` with `tool_length:
+///          touch_off` is refused; between set-ups whoever sends the program has to keep M0 to itself, and
+///          the program says so.
 ///
 /// Length   `tool_length: touch_off`: who changes the tool sets the zero of Z with it, and no block states a
-///          length. `g43.1`: each step states `G43.1 Z` with the tool's length, as measured, as a number.
+///          length. It is true of one work offset: a set-up that goes on with the same tool calls it again,
+///          by `T5 M6`, to have Z of its own offset set. `g43.1`: each step states `G43.1 Z` with the tool's
+///          length, as measured, as a number.
 ///
 /// Path     exact: corners are slowed down for ($11), never rounded. `G61` says so.
 ///

@@ -1,4 +1,5 @@
 #include <map>
+#include <set>
 #include <string>
 
 #include "planner/controls/gcode/options.h"
@@ -32,6 +33,12 @@ std::string comment_text(std::string_view text) {
   return out;
 }
 
+std::size_t set_ups_of(const model::Plan& plan) {
+  std::set<std::size_t> out;
+  for (const model::StepResult& step : plan.steps) out.insert(step.setup);
+  return out.size();
+}
+
 }  // namespace
 
 gcode::Words words_of(const model::Plan& plan) {
@@ -61,6 +68,20 @@ gcode::Words words_of(const model::Plan& plan) {
     return told + (touches_off ? "" : "G49\n") + (by_m6 ? "T" + tool + " M6\n" : "T" + tool + "\nM0\n") +
            to_top;
   };
+  if (touches_off) {
+    w.call_again = [=](const std::string& tool, const std::string& id, const std::string& offset) {
+      return "(" +
+             comment_text("T" + tool + " " + gcode::plain_text(id) + " stays: set the zero of Z of " +
+                          offset + " with it") +
+             ")\nT" + tool + " M6\n" + to_top;
+    };
+  }
+  if (set_ups_of(plan) > 1) {
+    w.first_state =
+        "(between set-ups M0 is a hold in which Grbl refuses to jog: have what sends it keep M0 to "
+        "itself)\n" +
+        w.first_state;
+  }
   w.length_offset = [=](const std::string& tool) {
     const auto at = lengths.find(tool);
     return touches_off || at == lengths.end() ? std::string() : "G43.1 Z" + at->second;

@@ -107,10 +107,11 @@ inline constexpr std::array kControlOptions{
         "Heidenhain, PLANE and M128; default, unsourced: an option of the control"},
     ControlOptionRow{"tool_change", "m6 m0", 0, 0, false,
                      "M6 is carried out by what sends the program (Grbl itself refuses it), or tools are "
-                     "changed at a stop, M0",
-                     "gnea/grbl, README.md (no M6); senders"},
+                     "changed at a stop, M0, in which Grbl refuses to jog: with tool_length: g43.1 alone",
+                     "gnea/grbl, README.md (no M6), doc/markdown/jogging.md; senders"},
     ControlOptionRow{"tool_length", "touch_off g43.1", 0, 0, false,
-                     "the zero of Z is set anew with each tool at its change, or G43.1 Z states the tool's "
+                     "the zero of Z is set anew with each tool at its change, and in each set-up, or G43.1 Z "
+                     "states the tool's "
                      "length, which is measured, as a number",
                      "gnea/grbl, README.md (G43.1, no G43 H)"},
     ControlOptionRow{"mist", "no yes", 0, 0, false, "M7 is compiled in", "gnea/grbl, config.h (ENABLE_M7)"},

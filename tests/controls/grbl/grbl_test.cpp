@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/controls/controls.h"
+#include "planner/ground/base/number.h"
 #include "tests/controls/control_plans.h"
 #include "tests/support/corpus.h"
 
@@ -54,6 +55,48 @@ TEST(GrblProgram, ATapIsRefusedWithWhatToDo) {
   EXPECT_EQ(refused.error().code, "OUT-TAP");
   EXPECT_THAT(refused.error().path, HasSubstr("H4 tap"));
   EXPECT_THAT(refused.error().hint, HasSubstr("thread mill"));
+}
+
+Plan two_setups_with_one_tool() {
+  Plan plan = pocket_plan("grbl");
+  plan.setups.push_back({.setup = {}, .work_offset = "G55", .security_z_mm = 30.0});
+  capstan::testing::add_step(plan, "finish pocket", "em18", plans::pocket(), 3000.4).setup = 1;
+  return plan;
+}
+
+// The length of a touched-off tool is in the zero of Z of one work offset.
+TEST(GrblProgram, ASetUpThatGoesOnWithTheSameToolHasItTouchedOffInItsWorkOffset) {
+  Plan plan = two_setups_with_one_tool();
+  const std::string text = program_of(plan);
+  const std::string second = text.substr(text.find("CAPSTAN STEP id=\"finish%20pocket\""));
+  const std::string again = "\nG55\n(T1 em18 stays: set the zero of Z of G55 with it)\nT1 M6\nG53 G0 Z" +
+                            trimmed(plan.machine.axes[2].travel_max_mm, 3) + "\n";
+  EXPECT_THAT(second, HasSubstr(again));
+  EXPECT_LT(second.find(again), second.find("\nG0 X"));
+  // Within a set-up it goes on, and so it does where its length is stated.
+  plan.steps[1].setup = 0;
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("stays")));
+  plan.steps[1].setup = 1;
+  choose(plan, "tool_length", "g43.1");
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("stays")));
+}
+
+// Grbl refuses to jog in the hold of M0.
+TEST(GrblProgram, TouchingOffAtM0IsRefusedWithWhatToDo) {
+  Plan plan = pocket_plan("grbl");
+  choose(plan, "tool_change", "m0");
+  const auto refused = written(plan);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "OUT-CONTROL");
+  EXPECT_THAT(refused.error().message, HasSubstr("jog"));
+  EXPECT_THAT(refused.error().hint, HasSubstr("tool_length: g43.1"));
+  choose(plan, "tool_length", "g43.1");
+  EXPECT_TRUE(written(plan));
+}
+
+TEST(GrblProgram, AProgramOfMoreThanOneSetUpSaysWhoKeepsM0) {
+  EXPECT_THAT(program_of(two_setups_with_one_tool()), HasSubstr("have what sends it keep M0 to itself"));
+  EXPECT_THAT(program_of(pocket_plan("grbl")), Not(HasSubstr("M0 to itself")));
 }
 
 TEST(GrblProgram, MistIsRefusedWhereM7IsNotCompiledIn) {

@@ -3,6 +3,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/resources/control_options.h"
 #include "planner/proof/verify/program/program_checks.h"
+#include "planner/proof/verify/reader_options.h"
 
 // What the text does between two steps, against the plan: tools are changed where the next step has another
 // one, the program stops where a piece is clamped anew, measured, or a step is condemned, and nowhere else.
@@ -88,6 +89,11 @@ class Between {
     return cutter != nullptr ? cutter->pocket : 0;
   }
 
+  /// Whether a step needs the zero of Z set with the tool that was changed last for `before`.
+  [[nodiscard]] bool sets_anew(const model::StepResult* s, const model::StepResult* before) const {
+    return touches_off_ && s != nullptr && before != nullptr && s->setup != before->setup;
+  }
+
   void before_steps(const Block& b) {
     // Each step states its own: one from before the first acts where a step is edited or begun by itself.
     if (b.work_offset != 0)
@@ -104,14 +110,14 @@ class Between {
   void change(const Block& b) {
     if (b.flood || b.mist)
       out_.error(29, "CHK-TEXT-STATE", c_.where(b), "the coolant is on in a change of tools");
-    if (b.tool == loaded_)
+    const model::StepResult* s = planned(b.marker);
+    if (b.tool == loaded_ && !sets_anew(s, planned(changed_)))
       out_.error(4, "CHK-TEXT-TOOL", c_.where(b),
                  "T" + std::to_string(b.tool) + " is changed for itself; the plan has no change here");
     loaded_ = b.tool;
     if (b.marker == changed_)
       out_.error(4, "CHK-TEXT-TOOL", c_.where(b), "a second change of tools in one step; the plan has one");
     changed_ = b.marker;
-    const model::StepResult* s = planned(b.marker);
     if (s == nullptr || b.tool != pocket(s))
       out_.error(
           4, "CHK-TEXT-TOOL", c_.where(b),
@@ -139,6 +145,11 @@ class Between {
     if (!first && proves_out_ && pocket(s) != proved_) ++wanted;
     proved_ = pocket(s);
     if (!first && setup_ != s->setup) ++wanted;
+    if (sets_anew(s, planned(changed_)))
+      out_.error(4, "CHK-TEXT-TOOL", c_.where(b),
+                 "set-up " + std::to_string(s->setup + 1) + " goes on with T" + std::to_string(loaded_) +
+                     ", and nobody sets the zero of Z with it there; state T" + std::to_string(loaded_) +
+                     " M6 behind its work offset");
     if (measured_.before.contains(s->step)) ++wanted;
     if (c_.program.markers[static_cast<std::size_t>(b.marker)].condemned) ++wanted;
     setup_ = s->setup;
@@ -165,6 +176,7 @@ class Between {
   Measured measured_;
   /// The machine stops behind the last step of each tool.
   const bool proves_out_ = model::control_option(c_.machine, "prove_out") == "m0";
+  const bool touches_off_ = touches_off(c_.machine);
   int proved_ = 0;
   int step_ = -1, changed_ = -2, loaded_ = 0, stops_ = 0;
   long last_stop_ = -1;

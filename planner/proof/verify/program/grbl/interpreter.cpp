@@ -23,7 +23,7 @@ constexpr double kEqualLengthMm = 0.0015;
 
 Interpreter::Interpreter(const model::Machine& machine) {
   by_m6_ = option(machine, "tool_change") == "m6";
-  touches_off_ = option(machine, "tool_length") == "touch_off";
+  touches_off_ = verify::touches_off(machine);
   has_mist_ = option(machine, "mist") == "yes";
   // It follows the exact path, which every tolerance allows.
   tolerance_ = naive_ = std::max(0.0, machine.control.path_tolerance_mm);
@@ -55,10 +55,13 @@ bool Interpreter::gather(const Line& l, BlockSaid& s) {
   return true;
 }
 
-/// Touched off at its change, a tool has its length in the zero of Z.
-void Interpreter::restate() {
-  stated_ = 0;
-  if (touches_off_ && tool_ > 0) stated_ |= kStatedLength;
+/// Touched off at its change, a tool has its length in the zero of Z: in that of the work offset which acted
+/// then, and in no other.
+void Interpreter::touched_off() {
+  if (!touches_off_) return;
+  const bool acts = tool_ > 0 && touched_in_ != 0 && touched_in_ == offset_;
+  length_ = acts ? tool_ : -1;
+  stated_ = acts ? stated_ | kStatedLength : stated_ & ~static_cast<unsigned>(kStatedLength);
 }
 
 /// G43.1 Z: the length as a number, which is the header's of this tool. G49: none.
@@ -127,6 +130,7 @@ void Interpreter::state_code(int g) {
       if (offset_ != g && offset_ != 0) known_[0] = known_[1] = known_[2] = false;
       offset_ = g;
       stated_ |= kStatedOffset;
+      touched_off();
       return;
     case 900:
     case 910:
@@ -170,9 +174,14 @@ void Interpreter::change_tool() {
   known_[0] = known_[1] = known_[2] = false;
   machine_z_.reset();
   anywhere_ = true;
-  if (!touches_off_) return;
-  length_ = tool_ > 0 ? tool_ : -1;
-  if (tool_ > 0) stated_ |= kStatedLength;
+  if (touches_off_ && !by_m6_)
+    fault(
+        4, "CHK-TOOL-CHANGE",
+        "the tool is changed at M0, a hold in which Grbl refuses to jog: whether Z was set with it cannot be "
+        "told; state tool_length: g43.1 under the machine's control, or tool_change: m6",
+        true);
+  touched_in_ = offset_;
+  touched_off();
 }
 
 void Interpreter::machine_codes(const BlockSaid& s) {
@@ -264,7 +273,8 @@ void Interpreter::line(const Line& l, long number) {
   for (const std::string& c : l.comments) {
     if (!read_comment(c, line_, out_)) continue;
     marker_ = static_cast<int>(out_.markers.size()) - 1;
-    restate();
+    stated_ = 0;
+    touched_off();
   }
   if (!l.fault.empty()) fault(l.no_number ? 1 : 33, l.no_number ? "CHK-NUMBER" : "CHK-SYNTAX", l.fault);
   if (l.skips)

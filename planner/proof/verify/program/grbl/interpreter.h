@@ -17,7 +17,7 @@ class Interpreter : private BlockState {
 
  private:
   bool gather(const Line& l, BlockSaid& s);
-  void restate();
+  void touched_off();
   // block_rules.cpp: what Grbl refuses in a block, or reads otherwise than this reader does.
   void block_rules(const BlockSaid& s);
   void code_rules(const BlockSaid& s);
@@ -33,6 +33,7 @@ class Interpreter : private BlockState {
   bool by_m6_ = true, touches_off_ = true, has_mist_ = false;
   int motion_ = 0;  ///< modal motion code times ten; -1: G80. A reset leaves G0
   int next_tool_ = -1;
+  int touched_in_ = 0;  ///< code of the work offset whose Z was set with the tool; 0: of none that is known
   bool anywhere_ = false;  ///< a tool was changed, and did not go to a place of the machine since
 };
 

@@ -20,8 +20,11 @@ inline constexpr std::size_t kLongestBlock = 79;
 /// has and this reader does not follow (G10, G28, G30, G38, G92, other planes), becomes a fault, and reading
 /// goes on.
 ///
-/// Length   with `tool_length: touch_off` that of the tool acts from its change on; with `g43.1` from a block
-///          `G43.1 Z`, whose number is the length that the program's header has of the tool.
+/// Length   with `tool_length: touch_off` that of the tool acts from its change on, in the work offset that
+/// was
+///          stated before: Z of that one is set with the tool (G10 L20 P0). In another there is none until
+///          the tool is changed again, for itself or for another. With `g43.1` it acts from a block `G43.1
+///          Z`, whose number is the length that the program's header has of the tool.
 /// Path     exact: it keeps within every tolerance.
 ///
 /// Cost     linear in the text. No recursion.
@@ -30,10 +33,11 @@ inline constexpr std::size_t kLongestBlock = 79;
 [[nodiscard]] Program read_program(std::string_view text, const model::Machine& machine);
 
 /// For messages.
-inline constexpr ControlWords kWords{.length = "G43.1, or a touch-off at the change",
-                                     .length_of = "G43.1 Z of T",
-                                     .unit = "unit (G20/G21)",
-                                     .feed_mode = "feed mode (G93/G94)"};
+inline constexpr ControlWords kWords{
+    .length = "G43.1, or the work offset and then the change with its touch-off",
+    .length_of = "G43.1 Z of T",
+    .unit = "unit (G20/G21)",
+    .feed_mode = "feed mode (G93/G94)"};
 
 /// A copy on purpose: tests/door/service/controls_test.cpp holds it against the writer's.
 inline constexpr std::array<std::string_view, 6> kOffsets = {"G54", "G55", "G56", "G57", "G58", "G59"};

@@ -24,7 +24,7 @@ const std::vector<model::ControlOption> kStated{{"tool_length", "g43.1"}, {"tool
 
 constexpr const char* kStart =
     "(CAPSTAN TOOL T1 H1 length=102 diameter=10 id=\"em\" endmill)\nG21 G17 G90 G94 G40 G49 G80\nG53 G0 Z0\n"
-    "T1 M6\nG53 G0 Z0\nG54\nS1000 M3\nG0 X5 Y6\nG0 Z20\n";
+    "G54\nT1 M6\nG53 G0 Z0\nS1000 M3\nG0 X5 Y6\nG0 Z20\n";
 constexpr long kLinesOfStart = 9;
 
 Program read(const std::string& body, std::vector<model::ControlOption> options = {}) {
@@ -79,6 +79,54 @@ TEST(GrblReader, BehindAChangeTheLengthActsAndThePlaceIsNotKnown) {
   EXPECT_TRUE(finds(p, "CHK-HEIGHT"));  // no G53 between
   EXPECT_FALSE(finds(read("G53 G0 Z0\nM5\nT2 M6\nG53 G0 Z0\nG0 X1\n"), "CHK-HEIGHT"));
   EXPECT_TRUE(finds(read("G43.1 Z102\n"), "CHK-DYNAMIC-LENGTH"));
+}
+
+// It sets Z of the work offset that acts at the change, and of no other.
+TEST(GrblReader, ATouchedOffLengthActsInTheWorkOffsetOfItsChangeAlone) {
+  const auto length = [](const std::string& body) {
+    const auto b = blocks(read("M5\nG53 G0 Z0\n" + body + "G53 G0 Z0\nG0 X1 Y1\nG1 Z-1 F100\n"));
+    const auto cut =
+        std::find_if(b.begin(), b.end(), [](const Block& c) { return c.move == model::MoveKind::kLine; });
+    EXPECT_NE(cut, b.end()) << body;
+    return cut == b.end() ? -2 : cut->length_offset;
+  };
+  const auto stated = [](const std::string& body) {
+    const auto b = blocks(read("M5\nG53 G0 Z0\n(CAPSTAN STEP id=\"a\" n=2)\n" + body));
+    return !b.empty() && (b.back().stated & kStatedLength) != 0U;
+  };
+  EXPECT_EQ(length(""), 1);
+  EXPECT_EQ(length("G54\n"), 1);
+  EXPECT_EQ(length("G55\n"), -1);
+  EXPECT_EQ(length("G55\nT1 M6\n"), 1);
+  EXPECT_EQ(length("G55\nT2 M6\n"), 2);
+  EXPECT_EQ(length("T2 M6\nG55\n"), -1);
+  EXPECT_EQ(length("G55 T2 M6\n"), -1);  // M6 acts first
+  EXPECT_EQ(length("G55\nT2 M6\nG54\n"), -1);
+  EXPECT_EQ(length("G55\nG54\n"), 1);
+  EXPECT_TRUE(stated("G54\n"));
+  EXPECT_FALSE(stated("G55\n"));
+  EXPECT_TRUE(stated("G55\nT1 M6\n"));
+}
+
+// The one that acts is what whoever used the control before left.
+TEST(GrblReader, BeforeAWorkOffsetIsStatedATouchOffSetsNoneThatIsKnown) {
+  std::string text = kStart;
+  text.erase(text.find("G54\n"), 4);
+  text.insert(text.find("G0 X5"), "G54\n");
+  const auto p = read_program(text + "G1 Z-1 F100\nM5\nM30\n", machine());
+  EXPECT_EQ(blocks(p).front().length_offset, -1);
+}
+
+// M0 is a hold, and a hold refuses to jog.
+TEST(GrblReader, ATouchOffAtM0CannotBeVerified) {
+  const std::vector<model::ControlOption> at_m0{{"tool_change", "m0"}};
+  const auto p = read("M5\nG53 G0 Z0\nT2\nM0\nG53 G0 Z0\n", at_m0);
+  const auto f = std::find_if(p.faults.begin(), p.faults.end(), [](const auto& one) {
+    return one.code == "CHK-TOOL-CHANGE" && one.line == kLinesOfStart + 4;
+  });
+  ASSERT_NE(f, p.faults.end()) << faults(p);
+  EXPECT_TRUE(f->undecided);
+  EXPECT_NE(f->message.find("tool_length: g43.1"), std::string::npos);
 }
 
 TEST(GrblReader, AStatedLengthIsTheHeadersOfTheTool) {
