@@ -58,6 +58,7 @@ struct UnreadPmi {
   std::int64_t id = 0;
   std::string what;  ///< its keyword
   std::string why;
+  bool has_tolerance = true;  ///< false: a size or an angle without one, or a datum
   friend bool operator==(const UnreadPmi&, const UnreadPmi&) = default;
 };
 

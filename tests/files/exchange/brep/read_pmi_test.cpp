@@ -11,6 +11,7 @@
 #include <map>
 
 #include "planner/files/p21/read/parse.h"
+#include "planner/ground/base/stopping.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::exchange {
@@ -179,6 +180,118 @@ TEST(ReadPmi, ATextureIsInMicrometres) {
   EXPECT_THAT(p.textures.front().faces, ElementsAre(1));
 }
 
+TEST(ReadPmi, EachParameterOfATextureIsOneOfItsOwn) {
+  const Pmi p = pmi_of("#13=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MICRO.,.METRE.));\n" +
+                       measure("#30", "1.6", "#13", "Ra") + measure("#32", "6.3", "#13", "Rz") +
+                       "#31=DESCRIPTIVE_REPRESENTATION_ITEM('measuring method','ISO 21920');\n"
+                       "#40=PROPERTY_DEFINITION('surface_condition','',#3);\n"
+                       "#41=SURFACE_TEXTURE_REPRESENTATION('',(#30,#32,#31),#94);\n"
+                       "#42=PROPERTY_DEFINITION_REPRESENTATION(#40,#41);\n");
+  ASSERT_EQ(p.textures.size(), 2U);
+  EXPECT_EQ(p.textures[0].parameter, "Ra");
+  EXPECT_DOUBLE_EQ(p.textures[0].value_um, 1.6);
+  EXPECT_EQ(p.textures[1].parameter, "Rz");
+  EXPECT_DOUBLE_EQ(p.textures[1].value_um, 6.3);
+  for (const StatedTexture& t : p.textures) {
+    EXPECT_EQ(t.id, 40);
+    EXPECT_EQ(t.method, "ISO 21920");
+    EXPECT_THAT(t.faces, ElementsAre(1));
+  }
+}
+
+TEST(ReadPmi, ADirectedDistanceIsADistance) {
+  const StatedSize s = only_size(measure("#30", "8.", "#10") +
+                                 "#20=DIRECTED_DIMENSIONAL_LOCATION('linear distance',$,#3,#6);\n"
+                                 "#21=SHAPE_DIMENSION_REPRESENTATION('',(#30),#94);\n"
+                                 "#22=DIMENSIONAL_CHARACTERISTIC_REPRESENTATION(#20,#21);\n");
+  EXPECT_EQ(s.nominal_mm, 8.0);
+  EXPECT_THAT(s.to, ElementsAre(1, 5));
+}
+
+TEST(ReadPmi, WhatAFitIsOfFollowsFromItsLetterWhereItIsNotStated) {
+  for (const auto& [letter, shaft] : {std::pair{"H", false}, std::pair{"g", true}}) {
+    const StatedSize s =
+        only_size(diameter("#30", measure("#30", "8.", "#10") + "#33=LIMITS_AND_FITS('" + letter +
+                                      "','','6','');\n#34=PLUS_MINUS_TOLERANCE(#33,#20);\n"));
+    EXPECT_EQ(s.of_shaft, shaft) << letter;
+  }
+}
+
+/// A position of #3 with datum references #41, …
+std::string position(const std::string& references, const std::string& more) {
+  return measure("#30", "0.05", "#10") +
+         "#40=(GEOMETRIC_TOLERANCE('','',#30,#3)GEOMETRIC_TOLERANCE_WITH_DATUM_REFERENCE((" + references +
+         "))POSITION_TOLERANCE());\n#44=DATUM('',$,#2,.F.,'A');\n#45=DATUM('',$,#2,.F.,'B');\n"
+         "#46=DATUM('',$,#2,.F.,'C');\n" +
+         more;
+}
+
+TEST(ReadPmi, DatumReferencesStandByTheirPrecedenceNotByTheirPlaceInTheSet) {
+  const Pmi p = pmi_of(position("#41,#42,#43",
+                                "#41=DATUM_REFERENCE(3,#44);\n#42=DATUM_REFERENCE(1,#46);\n"
+                                "#43=REFERENCED_MODIFIED_DATUM(2,#45,.MAXIMUM_MATERIAL_CONDITION.);\n"));
+  ASSERT_EQ(p.zones.size(), 1U);
+  EXPECT_THAT(p.zones.front().datums, ElementsAre(ElementsAre("C"), ElementsAre("B"), ElementsAre("A")));
+}
+
+TEST(ReadPmi, ACommonDatumIsThoseThatItIsMadeOf) {
+  const Pmi p = pmi_of(position("#41,#42",
+                                "#41=DATUM_REFERENCE(2,#44);\n#42=DATUM_REFERENCE(1,#47);\n"
+                                "#47=COMMON_DATUM('',$,#2,.F.,'B-C');\n"
+                                "#48=SHAPE_ASPECT_RELATIONSHIP('',$,#47,#45);\n"
+                                "#49=SHAPE_ASPECT_RELATIONSHIP('',$,#47,#46);\n"));
+  ASSERT_EQ(p.zones.size(), 1U);
+  EXPECT_THAT(p.zones.front().datums, ElementsAre(ElementsAre("B", "C"), ElementsAre("A")));
+  EXPECT_EQ(p.datums.size(), 3U);
+}
+
+// A dimension for reference limits nothing; what is not understood of it is no tolerance that is lost.
+TEST(ReadPmi, OfWhatIsNotReadItIsKnownWhetherItHasATolerance) {
+  const std::string angle = "#20=ANGULAR_SIZE(#3,'angle',.SMALL.);\n";
+  const Pmi plain = pmi_of(angle);
+  ASSERT_EQ(plain.unread.size(), 1U);
+  EXPECT_FALSE(plain.unread.front().has_tolerance);
+  const Pmi deviating = pmi_of(angle + "#34=PLUS_MINUS_TOLERANCE(#33,#20);\n");
+  ASSERT_EQ(deviating.unread.size(), 1U);
+  EXPECT_TRUE(deviating.unread.front().has_tolerance);
+  const Pmi limited = pmi_of(angle + measure("#30", "1.", "#10", "upper limit") +
+                             "#21=SHAPE_DIMENSION_REPRESENTATION('',(#30),#94);\n"
+                             "#22=DIMENSIONAL_CHARACTERISTIC_REPRESENTATION(#20,#21);\n");
+  ASSERT_EQ(limited.unread.size(), 1U);
+  EXPECT_TRUE(limited.unread.front().has_tolerance);
+}
+
+// A chain of one aspect more than are followed.
+TEST(ReadPmi, WhatIsOfMoreAspectsThanAreFollowedIsNamedAndNotCut) {
+  constexpr int kAspects = 100'001;
+  std::string chain, before = "#3";
+  for (int i = 0; i < kAspects; ++i) {
+    const std::string next = "#" + std::to_string(2'000'000 + i);
+    chain += next + "=SHAPE_ASPECT('','',#2,.T.);\n#" + std::to_string(1'000'000 + i) +
+             "=SHAPE_ASPECT_RELATIONSHIP('',$," + before + "," + next + ");\n";
+    before = next;
+  }
+  const Pmi p = pmi_of(measure("#30", "0.5", "#10") + "#40=FLATNESS_TOLERANCE('','',#30,#3);\n" + chain);
+  EXPECT_THAT(p.zones, IsEmpty());
+  ASSERT_EQ(p.unread.size(), 1U);
+  EXPECT_THAT(p.unread.front().why, ::testing::HasSubstr("more shape aspects"));
+}
+
+TEST(ReadPmi, ReadingStopsWithItsJob) {
+  std::string data;
+  for (int i = 100; i < 300; ++i) data += "#" + std::to_string(i) + "=SHAPE_ASPECT('','',#2,.T.);\n";
+  Job job;
+  const auto file = p21::parse(
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+      "FILE_SCHEMA(('AP242'));\nENDSEC;\nDATA;\n" +
+          data + "ENDSEC;\nEND-ISO-10303-21;\n",
+      "part.step", {}, job);
+  ASSERT_TRUE(file);
+  job.request_stop();
+  EXPECT_TRUE(stoppable(
+      job, [&] { return read_pmi(*file).unread.size() == 1000; }, [] { return true; }));
+}
+
 struct Broken {
   const char* name;
   std::string data;
@@ -191,11 +304,22 @@ TEST_P(BrokenPmi, IsNamedAndNotRead) {
   const Pmi p = pmi_of(GetParam().data);
   EXPECT_THAT(p.sizes, IsEmpty());
   EXPECT_THAT(p.zones, IsEmpty());
+  EXPECT_THAT(p.textures, IsEmpty());
   ASSERT_EQ(p.unread.size(), 1U);
   EXPECT_FALSE(p.unread.front().why.empty());
 }
 
 std::string nominal() { return measure("#30", "35.", "#10"); }
+std::string texture(const std::string& ra) {
+  return measure("#30", ra, "#10", "Ra") +
+         "#40=PROPERTY_DEFINITION('surface_condition','',#3);\n"
+         "#41=SURFACE_TEXTURE_REPRESENTATION('',(#30),#94);\n"
+         "#42=PROPERTY_DEFINITION_REPRESENTATION(#40,#41);\n";
+}
+std::string flatness(const std::string& part) {
+  return measure("#30", "0.05", "#10") + "#40=(FLATNESS_TOLERANCE()GEOMETRIC_TOLERANCE('','',#30,#3)" + part +
+         ");\n";
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Each, BrokenPmi,
@@ -219,6 +343,37 @@ INSTANTIATE_TEST_SUITE_P(
                diameter("#30", nominal() + "#33=LOOSE();\n#34=PLUS_MINUS_TOLERANCE(#33,#20);\n")},
         Broken{"an_angle", "#20=ANGULAR_SIZE(#3,'angle',.SMALL.);\n"},
         Broken{"a_zone_without_magnitude", "#40=FLATNESS_TOLERANCE('','',#30,#3);\n"},
+        Broken{"a_size_that_is_a_datum_feature",
+               "#20=DIMENSIONAL_SIZE_WITH_DATUM_FEATURE('',$,#2,.T.,#3,'diameter');\n"},
+        Broken{"a_size_along_a_path", nominal() +
+                                          "#20=DIMENSIONAL_SIZE_WITH_PATH(#3,'curve length',#6);\n"
+                                          "#21=SHAPE_DIMENSION_REPRESENTATION('',(#30),#94);\n"
+                                          "#22=DIMENSIONAL_CHARACTERISTIC_REPRESENTATION(#20,#21);\n"},
+        Broken{"a_distance_along_a_path", "#20=DIMENSIONAL_LOCATION_WITH_PATH('',$,#3,#6,#6);\n"},
+        Broken{"a_zone_for_each_length", flatness("GEOMETRIC_TOLERANCE_WITH_DEFINED_UNIT(#30)")},
+        Broken{"a_simple_zone_for_each_length",
+               nominal() + "#40=GEOMETRIC_TOLERANCE_WITH_DEFINED_UNIT('','',#30,#3,#30);\n"},
+        Broken{"a_zone_out_of_the_middle",
+               measure("#30", "0.05", "#10") +
+                   "#40=(GEOMETRIC_TOLERANCE('','',#30,#3)LINE_PROFILE_TOLERANCE()"
+                   "UNEQUALLY_DISPOSED_GEOMETRIC_TOLERANCE(#30));\n"},
+        Broken{"a_projected_zone", position("#41",
+                                            "#41=DATUM_REFERENCE(1,#44);\n#53=TOLERANCE_ZONE_FORM('');\n"
+                                            "#54=TOLERANCE_ZONE('',$,#2,.F.,(#40),#53);\n"
+                                            "#55=PROJECTED_ZONE_DEFINITION(#54,(),#6,#30);\n")},
+        Broken{"a_flatness_below_0",
+               measure("#30", "-0.05", "#10") + "#40=FLATNESS_TOLERANCE('','',#30,#3);\n"},
+        Broken{"a_diameter_below_0", diameter("#30", measure("#30", "-35.", "#10"))},
+        Broken{"an_ra_below_0", texture("-0.0016")}, Broken{"an_ra_of_0", texture("0.")},
+        Broken{"a_fit_of_neither", diameter("#30", nominal() + "#33=LIMITS_AND_FITS('H','bolt','7','');\n"
+                                                               "#34=PLUS_MINUS_TOLERANCE(#33,#20);\n")},
+        Broken{"a_datum_reference_that_is_missing", position("#41,#42", "#41=DATUM_REFERENCE(1,#44);\n")},
+        Broken{"a_datum_reference_to_no_datum",
+               position("#41,#42", "#41=DATUM_REFERENCE(1,#44);\n#42=DATUM_REFERENCE(2,#3);\n")},
+        Broken{"a_common_datum_of_none",
+               position("#41", "#41=DATUM_REFERENCE(1,#47);\n#47=COMMON_DATUM('',$,#2,.F.,'B-C');\n")},
+        Broken{"two_datums_of_one_precedence",
+               position("#41,#42", "#41=DATUM_REFERENCE(1,#44);\n#42=DATUM_REFERENCE(1,#45);\n")},
         Broken{"a_zone_of_no_kind", nominal() + "#40=GEOMETRIC_TOLERANCE('','',#30,#3);\n"}),
     [](const auto& row) { return std::string(row.param.name); });
 
@@ -235,10 +390,8 @@ std::size_t count_of(const std::string& text, const std::string& what) {
 }
 
 // The oracle is the text itself: how often the keywords occur, however the instances are written.
-TEST(ReadPmi, OfTheNistPartsEachSizeToleranceAndDatumIsRead) {
-  const std::filesystem::path folder =
-      std::filesystem::path(capstan::testing::corpus_folder()) / "cad" / "nist";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no corpus";
+TEST(CorpusReadPmi, OfTheNistPartsEachSizeToleranceAndDatumIsRead) {
+  CAPSTAN_CORPUS_FILE(folder, "cad/nist");
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().filename().string().find("ap242") == std::string::npos) continue;
