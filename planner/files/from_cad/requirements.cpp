@@ -8,8 +8,10 @@
 
 #include "planner/files/from_cad/part.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/base/text.h"
 #include "planner/model/features/fit/fit.h"
+#include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::from_cad {
@@ -25,39 +27,62 @@ enum class Kind : std::uint8_t { kDiameter, kRadius, kLength };
 struct Measure {
   Ref<model::TolerancedLengthMeasure> at;
   Kind kind = Kind::kLength;
+  std::optional<Vec3> across;   ///< the normal of the plane faces that a length is between, where it is known
+  std::optional<Vec3> along;    ///< the axis of the cylinders that a radius is of: upright edges of a pocket
+  std::optional<Vec3> athwart;  ///< no axis of the cylinders that a radius is of: fillets of a floor
 };
 
-/// The sizes of a profile.
-void sizes_of(const Model& m, AnyRef profile, std::vector<Measure>& out) {
+/// The frame of a placement; the parent's where there is none.
+geometry::Placement frame_of(const Model& m, Ref<model::Axis2Placement3d> at) {
+  const auto frame = model::placement_or_identity(m, at);
+  return frame ? *frame : geometry::Placement{};
+}
+
+/// The sizes of a profile of a feature.
+void sizes_of(const Model& m, AnyRef profile, const geometry::Placement& feature, std::vector<Measure>& out) {
   if (const auto* c = m.get<model::CircularClosedProfile>(profile)) {
-    out.push_back({c->diameter, Kind::kDiameter});
+    out.push_back({c->diameter, Kind::kDiameter, {}, {}, {}});
   } else if (const auto* r = m.get<model::RectangularClosedProfile>(profile)) {
-    out.push_back({r->profile_length, Kind::kLength});
-    out.push_back({r->profile_width, Kind::kLength});
+    const geometry::Placement at = frame_of(m, r->placement);
+    out.push_back({r->profile_length, Kind::kLength, feature.direction_to_parent(at.x), {}, {}});
+    out.push_back({r->profile_width, Kind::kLength, feature.direction_to_parent(at.y), {}, {}});
   } else if (const auto* u = m.get<model::SquareUProfile>(profile)) {
-    out.push_back({u->width, Kind::kLength});
+    out.push_back({u->width, Kind::kLength, {}, {}, {}});
   }
 }
 
-/// The sizes of a feature, and of the elements that it is made of.
+/// The sizes of a feature, and of the elements that it is made of; each once.
 std::vector<Measure> sizes_of(const Model& m, AnyRef feature) {
   std::vector<Measure> out;
   std::vector<AnyRef> of{feature};
   if (const auto* c = m.get<model::CompoundFeature>(feature))
     of.insert(of.end(), c->elements.items.begin(), c->elements.items.end());
   for (const AnyRef f : of) {
-    if (const auto* h = m.get<model::RoundHole>(f)) out.push_back({h->diameter, Kind::kDiameter});
+    const auto* placed = m.get<model::Two5dManufacturingFeature>(f);
+    const geometry::Placement frame =
+        placed == nullptr ? geometry::Placement{} : frame_of(m, placed->feature_placement);
+    if (const auto* h = m.get<model::RoundHole>(f)) out.push_back({h->diameter, Kind::kDiameter, {}, {}, {}});
     if (const auto* p = m.get<model::Pocket>(f)) {
-      out.push_back({p->planar_radius, Kind::kRadius});
-      out.push_back({p->orthogonal_radius, Kind::kRadius});
+      out.push_back({p->planar_radius, Kind::kRadius, {}, {}, frame.z});
+      out.push_back({p->orthogonal_radius, Kind::kRadius, {}, frame.z, {}});
     }
-    if (const auto* p = m.get<model::ClosedPocket>(f)) sizes_of(m, p->feature_boundary, out);
-    if (const auto* s = m.get<model::Slot>(f)) sizes_of(m, s->swept_shape, out);
-    if (const auto* o = m.get<model::GeneralOutsideProfile>(f)) sizes_of(m, o->feature_boundary, out);
+    if (const auto* p = m.get<model::ClosedPocket>(f)) sizes_of(m, p->feature_boundary, frame, out);
+    if (const auto* s = m.get<model::Slot>(f)) sizes_of(m, s->swept_shape, frame, out);
+    if (const auto* o = m.get<model::GeneralOutsideProfile>(f)) sizes_of(m, o->feature_boundary, frame, out);
   }
   std::erase_if(out,
                 [&](const Measure& s) { return m.get<model::TolerancedLengthMeasure>(s.at) == nullptr; });
   return out;
+}
+
+bool parallel(Vec3 a, Vec3 b) { return norm(cross(a, b)) <= recognise::kSameAngleRad; }
+
+/// Whether a size can be of a face, or between it and another; a face that does not tell may have any size.
+bool can_be_of(const Measure& at, const exchange::Face& face) {
+  if (face.carrier == exchange::Carrier::kPlane) return !at.across || parallel(normal_of(face), *at.across);
+  if (face.carrier != exchange::Carrier::kCylinder) return true;
+  const Vec3 axis{face.axis.x, face.axis.y, face.axis.z};
+  return (!at.along || parallel(axis, *at.along)) && (!at.athwart || !parallel(axis, *at.athwart));
 }
 
 Kind kind_of(const exchange::StatedSize& s) {
@@ -102,6 +127,10 @@ class Attacher {
     for (std::uint32_t f = 0; f < brep.faces.size(); ++f) {
       if (brep.faces[f].id != 0) face_of_[brep.faces[f].id].push_back(f);
     }
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      for (const std::uint32_t f : made[i].faces) makers_[f].push_back(i);
+    }
+    for (const exchange::StatedTexture& t : brep.pmi.textures) ++parameters_[t.id];
   }
 
   Attached attach() {
@@ -112,12 +141,15 @@ class Attacher {
       count(z.id, word_of_zone(z.keyword) + " " + trimmed(z.value_mm, 4), zone(z));
     for (const exchange::StatedTexture& t : brep_.pmi.textures)
       count(t.id, t.parameter + " " + trimmed(t.value_um, 4), texture(t));
-    for (const exchange::UnreadPmi& u : brep_.pmi.unread) count(u.id, u.what, u.why);
+    for (const exchange::UnreadPmi& u : brep_.pmi.unread) {
+      if (u.has_tolerance) count(u.id, u.what, u.why);
+    }
     return std::move(out_);
   }
 
  private:
   void count(std::int64_t id, const std::string& what, const std::string& why) {
+    tick();
     ++out_.stated;
     if (why.empty()) {
       ++out_.attached;
@@ -128,24 +160,47 @@ class Attacher {
 
   /// The features that make faces, in the order of the plan.
   [[nodiscard]] std::vector<const MadeOf*> features_of(const std::vector<std::int64_t>& ids) const {
-    std::set<std::uint32_t> wanted;
+    std::set<std::size_t> wanted;
     for (const std::int64_t id : ids) {
-      if (const auto it = face_of_.find(id); it != face_of_.end())
-        wanted.insert(it->second.begin(), it->second.end());
+      tick();
+      const auto faces = face_of_.find(id);
+      if (faces == face_of_.end()) continue;
+      for (const std::uint32_t f : faces->second) {
+        if (const auto it = makers_.find(f); it != makers_.end())
+          wanted.insert(it->second.begin(), it->second.end());
+      }
     }
     std::vector<const MadeOf*> out;
-    for (const MadeOf& f : made_) {
-      if (std::any_of(f.faces.begin(), f.faces.end(), [&](std::uint32_t x) { return wanted.count(x) != 0; }))
-        out.push_back(&f);
-    }
+    for (const std::size_t i : wanted) out.push_back(&made_[i]);
     return out;
+  }
+
+  static std::string listed(const std::vector<std::int64_t>& ids) {
+    std::string list;
+    for (std::size_t i = 0; i < ids.size() && i < 4; ++i) list += " #" + std::to_string(ids[i]);
+    return "face" + list + (ids.size() > 4 ? " and others" : "");
   }
 
   [[nodiscard]] std::string no_feature(const std::vector<std::int64_t>& ids) const {
     if (ids.empty()) return "it names no face";
-    std::string list;
-    for (std::size_t i = 0; i < ids.size() && i < 4; ++i) list += " #" + std::to_string(ids[i]);
-    return "no planned feature makes face" + list + (ids.size() > 4 ? " and others" : "");
+    return "no planned feature makes " + listed(ids);
+  }
+
+  /// What is wrong where some faces of a statement are made by none of the features that got it; empty: none
+  /// is. `why`: why the other features have not got it.
+  [[nodiscard]] std::string rest(const std::vector<std::int64_t>& ids, const std::vector<const MadeOf*>& got,
+                                 const std::string& why) const {
+    std::vector<std::int64_t> without;
+    for (const std::int64_t id : ids) {
+      const auto by = features_of({id});
+      if (std::none_of(by.begin(), by.end(), [&](const MadeOf* f) {
+            return std::binary_search(got.begin(), got.end(), f, std::less<>());
+          }))
+        without.push_back(id);
+    }
+    if (without.empty()) return {};
+    return "asked of some of its faces only: " +
+           (features_of(without).empty() ? no_feature(without) : listed(without) + ": " + why);
   }
 
   // --- sizes ---
@@ -162,22 +217,47 @@ class Attacher {
     // Limits alone: the size that the shape has between them is nominal.
     const double lo = s.nominal_mm ? *s.nominal_mm - recognise::kSameLengthMm : *s.least_mm;
     const double hi = s.nominal_mm ? *s.nominal_mm + recognise::kSameLengthMm : *s.greatest_mm;
-    std::string why = "no size of its feature is " + words(s) + " mm";
-    bool any = false;
+    const std::string said = words(s) + " mm";
+    std::string why = "no size of its feature is " + said;
+    std::vector<std::int64_t> ids = s.faces;
+    ids.insert(ids.end(), s.to.begin(), s.to.end());
+    std::vector<const MadeOf*> got;
+    std::set<AnyRef> given;
     for (const MadeOf* f : of) {
+      std::map<AnyRef, double> fitting;  // a size, and how many times the stated one it is
       for (const Measure& at : sizes_of(m_, f->feature)) {
         const auto factor = times(kind_of(s), at.kind);
         const double shape = m_.at<model::TolerancedLengthMeasure>(at.at).theoretical_size.value_or(0.0);
         if (!factor || shape < *factor * lo || shape > *factor * hi) continue;
-        const std::string fault = tolerate(s, at.at, *factor);
-        if (fault.empty()) {
-          any = true;
-        } else {
-          why = fault;
-        }
+        if (can_be_of(at, *f, ids)) fitting.emplace(at.at, *factor);
+      }
+      if (fitting.size() > 1)
+        why = "more than one size of its feature is " + said + ", which one is not stated";
+      if (fitting.size() != 1) continue;
+      const auto& [to, factor] = *fitting.begin();
+      const std::string fault =
+          given.insert(to).second ? tolerate(s, Ref<model::TolerancedLengthMeasure>(to), factor) : "";
+      if (fault.empty()) {
+        got.push_back(f);
+      } else {
+        why = fault;
       }
     }
-    return any ? std::string() : why;
+    return got.empty() ? why : rest(ids, got, why);
+  }
+
+  /// Whether a size can be of, or between, the faces that a feature makes of some.
+  [[nodiscard]] bool can_be_of(const Measure& at, const MadeOf& f,
+                               const std::vector<std::int64_t>& ids) const {
+    return std::all_of(ids.begin(), ids.end(), [&](std::int64_t id) {
+      tick();
+      const auto it = face_of_.find(id);
+      return it == face_of_.end() ||
+             std::all_of(it->second.begin(), it->second.end(), [&](std::uint32_t face) {
+               return !std::binary_search(f.faces.begin(), f.faces.end(), face) ||
+                      from_cad::can_be_of(at, brep_.faces[face]);
+             });
+    });
   }
 
   /// Puts a tolerance to a size. What is wrong; empty: nothing.
@@ -285,7 +365,7 @@ class Attacher {
     }
     if (!z.form.empty()) t.zone_form = z.form;
     require(Ref<model::GeometricTolerance>(made));
-    return {};
+    return z.whole ? std::string() : rest(z.faces, of, {});
   }
 
   // --- texture ---
@@ -323,7 +403,7 @@ class Attacher {
     const auto of = features_of(s.faces);
     if (of.empty() && !s.whole) return no_feature(s.faces);
     model::SurfaceTextureParameter t;
-    t.its_id = "#" + std::to_string(s.id);
+    t.its_id = "#" + std::to_string(s.id) + (parameters_[s.id] > 1 ? " " + s.parameter : "");
     t.its_value = s.value_um;
     t.parameter_name = s.parameter;
     t.measuring_method = s.method;
@@ -340,7 +420,7 @@ class Attacher {
       t.applied_surfaces.push_back(m_.add(surface));
     }
     require(m_.add(t));
-    return {};
+    return s.whole ? std::string() : rest(s.faces, of, {});
   }
 
   template <class T>
@@ -357,6 +437,8 @@ class Attacher {
   model::Plan& plan_;
   Model& m_;
   std::map<std::int64_t, std::vector<std::uint32_t>> face_of_;
+  std::map<std::uint32_t, std::vector<std::size_t>> makers_;  ///< face -> into made_, ascending
+  std::map<std::int64_t, std::size_t> parameters_;            ///< texture -> how many parameters it states
   std::map<std::string, Ref<model::Datum>> datums_;
   std::map<std::vector<std::vector<std::string>>, Ref<model::DatumSystem>> systems_;
   Attached out_;

@@ -189,6 +189,124 @@ TEST_F(FromPmi, ATextureOfTheProductIsOfEveryFeature) {
   EXPECT_EQ(model::quality_of(plan.model, model::Ref<model::ManufacturingFeature>(holes.front())).ra_um, 3.2);
 }
 
+/// A block of 60 x 60 x 20 mm with a pocket of 30 x 30 mm, 10 mm deep, in the middle of its top. Faces: the
+/// box's without its top (0 to 4: bottom, front, back, left, right), the top in four (5 to 8), the pocket's
+/// floor (9), and its walls at y = 15 (10), y = 45 (11), x = 15 (12), x = 45 (13).
+std::string pocketed() {
+  StepPart step;
+  auto corners = StepPart::box_corners({0, 0, 0}, {60, 60, 20});
+  const auto mouth = StepPart::box_corners({15, 15, 10}, {45, 45, 20});
+  corners.insert(corners.end(), mouth.begin(), mouth.end());
+  auto faces = StepPart::box_faces();
+  faces.erase(faces.begin() + 1);
+  for (const auto& f :
+       std::vector<std::vector<int>>{{4, 5, 13, 12}, {5, 7, 15, 13}, {7, 6, 14, 15}, {6, 4, 12, 14}})
+    faces.push_back(f);
+  auto inner = StepPart::box_faces();
+  inner.erase(inner.begin() + 1);
+  for (auto& f : inner) {
+    std::reverse(f.begin(), f.end());
+    for (int& corner : f) corner += 8;
+    faces.push_back(f);
+  }
+  step.product({step.solid(step.flat_faces(corners, faces), "pocketed")}, step.context());
+  return step.text();
+}
+
+/// A distance of 30 mm between two aspects with deviations of both signs.
+std::string distance(int id, int from, int to, double deviation) {
+  const std::string n = "#" + std::to_string(id);
+  return n + "0=DIMENSIONAL_LOCATION('linear distance',$,#" + std::to_string(from) + ",#" +
+         std::to_string(to) + ");\n" + n + "1=SHAPE_DIMENSION_REPRESENTATION('',(" + n + "5),#9003);\n" + n +
+         "2=DIMENSIONAL_CHARACTERISTIC_REPRESENTATION(" + n + "0," + n + "1);\n" + n +
+         "3=PLUS_MINUS_TOLERANCE(" + n + "4," + n + "0);\n" + n + "4=TOLERANCE_VALUE(" + n + "6," + n +
+         "7);\n" + measure(id * 10 + 5, 30.0) + measure(id * 10 + 6, -deviation) +
+         measure(id * 10 + 7, deviation);
+}
+
+/// Aspects of the pocket's walls: 910 and 911 at x, 912 and 913 at y, 914: its floor.
+std::string walls(const std::string& part) {
+  return aspect(910, face(part, "12")) + aspect(911, face(part, "13")) + aspect(912, face(part, "10")) +
+         aspect(913, face(part, "11")) + aspect(914, face(part, "9"));
+}
+
+/// The upper deviations of the pocket's size along x and along y.
+std::pair<double, double> deviations_of(const model::Plan& plan) {
+  const auto pockets = plan.model.all(TypeId::kClosedPocket);
+  EXPECT_EQ(pockets.size(), 1U);
+  if (pockets.empty()) return {};
+  const auto& pocket = plan.model.at<model::ClosedPocket>(pockets.front());
+  const auto* box = plan.model.get<model::RectangularClosedProfile>(model::AnyRef(pocket.feature_boundary));
+  EXPECT_NE(box, nullptr);
+  if (box == nullptr) return {};
+  const auto frame = model::placement_or_identity(plan.model, pocket.feature_placement);
+  const auto at = model::placement_or_identity(plan.model, box->placement);
+  EXPECT_TRUE(frame && at);
+  const Vec3 along = frame->direction_to_parent(at->x);
+  const double length = model::length(plan.model, box->profile_length)->upper_mm;
+  const double width = model::length(plan.model, box->profile_width)->upper_mm;
+  return std::abs(along.x) > 0.5 ? std::pair{length, width} : std::pair{width, length};
+}
+
+TEST_F(FromPmi, OfASquarePocketADistanceIsOfTheWallsThatItNames) {
+  const std::string part = pocketed();
+  const auto plan =
+      planned(with(part, walls(part) + distance(920, 910, 911, 0.1) + distance(930, 912, 913, 0.02)));
+  const auto [x, y] = deviations_of(plan);
+  EXPECT_NEAR(x, 0.1, 1e-9);
+  EXPECT_NEAR(y, 0.02, 1e-9);
+  EXPECT_THAT(said(), HasSubstr("2 of 2 tolerances"));
+}
+
+TEST_F(FromPmi, ADistanceOfNoTwoWallsIsNoSizeOfThePocket) {
+  const std::string part = pocketed();
+  (void)planned(with(part, walls(part) + distance(920, 914, 911, 0.1)));
+  EXPECT_THAT(said(), HasSubstr("#9200 linear distance 30 -0.1/0.1: no size of its feature is"));
+}
+
+TEST_F(FromPmi, ASecondToleranceOfASizeIsNamed) {
+  const std::string part = pocketed();
+  const auto plan =
+      planned(with(part, walls(part) + distance(920, 910, 911, 0.1) + distance(930, 911, 910, 0.02)));
+  EXPECT_NEAR(deviations_of(plan).first, 0.1, 1e-9);
+  EXPECT_THAT(said(), HasSubstr("#9300 linear distance 30 -0.02/0.02: its size has a tolerance already"));
+}
+
+TEST_F(FromPmi, FacesThatGetNothingOfAStatementAreNamed) {
+  const std::string part = bore_8();
+  const std::string both = aspect(910, "(" + face(part, "bore") + "," + face(part, "0") + ")");
+  const std::string none =
+      "asked of some of its faces only: no planned feature makes face " + face(part, "0");
+  const auto plan = planned(with(part, both + diameter(8.0, deviations(-0.01, 0.03))));
+  EXPECT_TRUE(hole(plan).given);
+  EXPECT_THAT(said(), HasSubstr("0 of 1 tolerance"));
+  EXPECT_THAT(said(), HasSubstr("#9200 diameter 8 -0.01/0.03: " + none));
+  (void)planned(with(part, both + measure(9300, 0.05) + "#9301=CYLINDRICITY_TOLERANCE('','',#9300,#910);\n"));
+  EXPECT_THAT(said(), HasSubstr("#9301 cylindricity 0.05: " + none));
+  (void)planned(with(part, both + measure(9400, 1.6, 9002, "Ra") +
+                               "#9401=PROPERTY_DEFINITION('surface_condition','',#910);\n"
+                               "#9402=SURFACE_TEXTURE_REPRESENTATION('',(#9400),#9003);\n"
+                               "#9403=PROPERTY_DEFINITION_REPRESENTATION(#9401,#9402);\n"));
+  EXPECT_THAT(said(), HasSubstr("#9401 Ra 1.6: " + none));
+}
+
+TEST_F(FromPmi, AFitOfAShaftIsNotThatOfAHole) {
+  const std::string part = bore_8();
+  const auto plan = planned(with(
+      part, aspect(910, face(part, "bore")) + diameter(8.0, "#9211=LIMITS_AND_FITS('H','shaft','7','');\n")));
+  EXPECT_FALSE(hole(plan).given);
+  EXPECT_THAT(said(), HasSubstr("the fit H7 is stated of a shaft"));
+}
+
+TEST_F(FromPmi, AnAngleWithoutAToleranceIsNoToleranceOfTheFile) {
+  const std::string part = bore_8();
+  const std::string angle = aspect(910, face(part, "bore")) + "#9200=ANGULAR_SIZE(#910,'angle',.SMALL.);\n";
+  (void)planned(with(part, angle));
+  EXPECT_THAT(said(), IsEmpty());
+  (void)planned(with(part, angle + "#9203=PLUS_MINUS_TOLERANCE(#9211,#9200);\n"));
+  EXPECT_THAT(said(), HasSubstr("0 of 1 tolerance"));
+}
+
 TEST_F(FromPmi, FeaturesAndTheirTolerancesAreBoundByRecognition) {
   const std::string part = bore_8();
   const auto plan =
