@@ -19,6 +19,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostTurns = 5'000;
 constexpr double kSameHeight = 1e-6;  // mm
+constexpr double kAirPiece = 0.25;    // of the radius: how finely ways beside the piece are told
+constexpr double kMostAirPieces = 4'000;
 /// How far ahead a ring is met by arcs from the one beside it, in distances between the two, the first that
 /// fits: on equal arcs between straight rings the way then leans by 90, 60 and 45 degrees. Flatter ways are
 /// longer slots: by 60 degrees the reference pocket takes 38.6 s in EN AW-6061 and 88.1 in C45, by 90 degrees
@@ -171,6 +173,48 @@ bool LevelCutter::cut_to(const Level& level, Vec2 p) {
   if (!level.inside.contains(xy(writer.at()), p)) return false;
   writer.line({p.x, p.y, level.z_mm}, MoveRole::kCut);
   return true;
+}
+
+void LevelCutter::follow(const Level& level, const Track& track) {
+  const double length = length_of(track);
+  const double pieces = std::ceil(length / (kAirPiece * radius_mm));
+  const bool open = area.open || task.shape.kind == model::ShapeKind::kOutside;
+  if (!open || task.stock.empty() || !(pieces <= kMostAirPieces) || pieces < 1.0) {
+    writer.follow(track, level.z_mm, MoveRole::kCut);
+    return;
+  }
+  const int n = static_cast<int>(pieces);
+  const double apart = length / n;
+  const auto beside = [&](int k) {
+    return level.material.clear_of(at_length(track, k * apart).point, radius_mm + kAirBeside + 0.5 * apart);
+  };
+  std::vector<bool> air(static_cast<std::size_t>(n));
+  bool before = beside(0);
+  for (int k = 0; k < n; ++k) {
+    const bool after = beside(k + 1);
+    air[static_cast<std::size_t>(k)] = before && after;
+    before = after;
+  }
+  double written = 0.0;
+  const auto write = [&](double to, MoveRole role) {
+    if (to <= written) return;
+    writer.follow(part_of(track, written, to), level.z_mm, role);
+    written = to;
+  };
+  for (int k = 0; k < n;) {
+    int end = k;
+    while (end < n && air[static_cast<std::size_t>(end)]) ++end;
+    if ((end - k) * apart > 2.0 * radius_mm) {
+      write(k * apart, MoveRole::kCut);
+      write(end == n ? length : end * apart, MoveRole::kLink);
+    }
+    k = std::max(end, k + 1);
+  }
+  if (written == 0.0) {
+    writer.follow(track, level.z_mm, MoveRole::kCut);
+  } else {
+    write(length, MoveRole::kCut);
+  }
 }
 
 std::optional<Track> LevelCutter::bend(const Level& level, const Track& track, Vec2 leave, double ahead) {

@@ -63,6 +63,9 @@ class LevelCutter {
   std::optional<Track> bend_onto(const Level& level, const Track& track, geometry::Vec2 leave);
   /// `cutting_part` of a track, asked once for the levels that have the same.
   Track part(const Track& track, geometry::Region& uncut, double cover_mm, Begun begun);
+  /// Follows a track on the level. Where the whole cutter is beside the raw piece, by kAirBeside at least, on
+  /// longer ways than its diameter, the move is a link: nothing is cut there, and its feed is that of air.
+  void follow(const Level& level, const Track& track);
   /// A straight cut on the level to p when it stays within the centres.
   bool cut_to(const Level& level, geometry::Vec2 p);
 
