@@ -210,7 +210,7 @@ TEST(Rings, RunBesideThePieceAtTheFeedOfAir) {
       if (g->path.role[i] == model::MoveRole::kCut) cut += length;
     }
     EXPECT_GT(link, 20.0) << "of the 30 mm that the ring has there";
-    EXPECT_LT(cut, 0.5 * t.cutter.cutting_diameter_mm);
+    EXPECT_LT(cut, 2.5 * std::numbers::pi) << "the quarter circles of 2.5 mm in and out, which are cuts";
     HeightMap map({-5, -5}, {100, 45}, 0.25, 0.0);
     map.only(geometry::rectangle({-5, -5}, {60, 45}));
     EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
