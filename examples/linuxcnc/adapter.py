@@ -34,6 +34,7 @@ from program import Refused
 SOCKET = 'capstan.socket'
 LOADED = 'loaded.tbl'
 SO_FAR = 'so_far.json'  # the plan with the paths that were cut
+SHOWN_S = 5.0  # within which the control shows an input: its periods are milliseconds, a busy machine holds them up. Default, unsourced
 SCREEN = 220  # characters of a message that LinuxCNC's screen takes (256 with its own words)
 
 
@@ -109,6 +110,25 @@ class Machine:
         if self.stat.spindle[0]['enabled']:
             raise Refused('the spindle turns; a workingstep is bound while it stands')
 
+    def tell_program(self, first, steps):
+        """What the running program reads with M66 E0 and E1: inputs of the control that nothing else drives.
+
+        Returns when the control's status shows both. It copies its inputs once a servo period; a program that read
+        before would take the number that a part before it left.
+        """
+        for number, value in ((0, first), (1, steps)):
+            subprocess.run(['halcmd', 'setp', f'motion.analog-in-{number:02}', str(value)], check=True,
+                           stdin=subprocess.DEVNULL)
+        until = time.monotonic() + SHOWN_S
+        while True:
+            self.stat.poll()
+            if tuple(self.stat.ain[:2]) == (first, steps):
+                return
+            if time.monotonic() > until:
+                raise Refused(f'the control does not show its inputs after {SHOWN_S:g} s; expected '
+                              f'motion.analog-in-00 {first} and -01 {steps}')
+            time.sleep(0.002)
+
     def comments(self):
         """What the tool table's file says of each tool beside its numbers: what kind of tool it is."""
         out = {}
@@ -135,13 +155,6 @@ def written(path, text):
     except OSError as error:
         pathlib.Path(temporary).unlink(missing_ok=True)
         raise Refused(f'{path} cannot be written: {error.strerror}') from error
-
-
-def tell_program(first, steps):
-    """What the running program reads with M66 E0 and E1: inputs of the control that nothing else drives."""
-    for number, value in ((0, first), (1, steps)):
-        subprocess.run(['halcmd', 'setp', f'motion.analog-in-{number:02}', str(value)], check=True,
-                       stdin=subprocess.DEVNULL)
 
 
 class Journal:
@@ -200,7 +213,7 @@ class Adapter:
         self.machine.standing()
         state = self.machine.state(self.measured)
         step, steps, plan = self.plan(n, state)
-        tell_program(first=self.next(), steps=steps)
+        self.machine.tell_program(first=self.next(), steps=steps)
         if n == 0:
             return
         programs.check_tools(step, state['tools'])

@@ -1,7 +1,9 @@
-"""What examples/linuxcnc/program.py makes of a program, and what it refuses."""
+"""What examples/linuxcnc/program.py makes of a program, and what it refuses; when the adapter says yes."""
 import pathlib
 import sys
+import types
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples' / 'linuxcnc'))
 import program  # noqa: E402
@@ -116,6 +118,39 @@ class Machines(unittest.TestCase):
         for offset, axis in (([82.0, 0.0, -74.0], 'X'), ([0.0, -119.0, -74.0], 'Y'), ([0.0, 0.0, -76.0], 'Z')):
             with self.assertRaisesRegex(program.Refused, f'^{axis} would go'):
                 program.check_travel(self.rough, offset, 80.0, LIMITS)
+
+
+class Status:
+    """The control's: it shows its inputs some polls after they were set."""
+
+    def __init__(self, *shown):
+        self.shown, self.polls, self.ain = list(shown), 0, (2.0, 2.0)
+
+    def poll(self):
+        self.polls += 1
+        if self.shown:
+            self.ain = self.shown.pop(0)
+
+
+class NumberOfTheWorkingstep(unittest.TestCase):
+    """The program reads it as soon as the adapter has answered (part.ngc, M66)."""
+
+    def told(self, status):
+        with unittest.mock.patch.dict(sys.modules, {'linuxcnc': types.ModuleType('linuxcnc')}):
+            import adapter
+        machine = adapter.Machine.__new__(adapter.Machine)
+        machine.stat = status
+        with unittest.mock.patch.object(adapter.subprocess, 'run'), unittest.mock.patch.object(adapter, 'SHOWN_S', 0.05):
+            machine.tell_program(first=1, steps=2)
+
+    def test_is_waited_for_until_the_control_shows_it(self):
+        status = Status((2.0, 2.0), (2.0, 2.0), (1.0, 2.0))
+        self.told(status)
+        self.assertEqual(status.polls, 3)
+
+    def test_that_the_control_never_shows_is_refused(self):
+        with self.assertRaisesRegex(program.Refused, 'does not show its inputs'):
+            self.told(Status())
 
 
 if __name__ == '__main__':
