@@ -128,8 +128,10 @@ TEST(LateDeadlineSeed, WhatIsCalledInTimeIsAndEveryAnswerIsCheckedOrLate) {
     ++share->binds;
     const bool said_late = session.message().find("[LATE-DEADLINE]") != std::string::npos;
     const bool over = took.wall > deadline + kOver;
-    // A whole plan that is not given up at the deadline may be refused after it: nothing is cut of it.
-    if (over && (next || code == service::Code::kDone)) {
+    // Of what is refused after the deadline nothing is cut: a plan that is not given up there, and a single
+    // step that is, of which a soak alone asks that its thread gave it up in time (its own way there is 2 to
+    // 3 ms at 1 ms).
+    if (over && (code == service::Code::kDone || (next && soaks))) {
       EXPECT_GE(took.wall - took.cpu, took.wall - (deadline + kOver)) << session.message();
       ++share->waited;
     }
