@@ -187,14 +187,14 @@ Result<Case> CaseBase::get(std::string_view id) const {
   return *std::move(c.front());
 }
 
-std::vector<CaseBase::Said> CaseBase::said_of(std::string_view id) const {
-  std::vector<Said> out;
+std::vector<CaseBase::LaterVerdict> CaseBase::later_verdicts(std::string_view id) const {
+  std::vector<LaterVerdict> out;
   const Result<std::uint32_t> entry = impl_->entry(id);
   if (!entry) return out;
   for (const Note& note : impl_->log.notes()) {
     if (note.entry != *entry) continue;
     const Remark remark = impl_->log.remark(note).value_or(Remark{"", "", "(altered: not shown)"});
-    Said said{std::nullopt, remark.by, remark.time_utc, remark.reason};
+    LaterVerdict said{std::nullopt, remark.by, remark.time_utc, remark.reason};
     if (note.kind == RowKind::kJudgement) said.verdict = note.verdict;
     out.push_back(std::move(said));
   }

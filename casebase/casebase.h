@@ -46,7 +46,7 @@ class CaseBase {
   /// and what is added waits for it (CASE-OFFLINE, a warning to `job`; store/server.h). Rows that were
   /// altered or are gone are reported to `job` (CASE-ROW) and left out; then `add` refuses (CASE-DAMAGED).
   /// When it is opened, the heads of all rows are verified; the rest of a case is when it is used: what is
-  /// found then is told by `take_faults`.
+  /// found then is reported by `take_faults`.
   ///
   /// Fails   CASE-URI no such store; CASE-OPEN missing or unreadable; CASE-SCHEMA not a case base, or of a
   ///         newer version, or with a table, index, trigger or view that is not ours; CASE-BUSY;
@@ -84,12 +84,13 @@ class CaseBase {
   [[nodiscard]] Result<std::string> find(std::string_view digits) const;
   /// The case of an id. Fails CASE-UNKNOWN, and CASE-ROW if it is not what was stored.
   [[nodiscard]] Result<Case> get(std::string_view id) const;
-  /// What was said of a case, in order: its verdicts after the recorded one, and its removal (no verdict).
-  struct Said {
+  /// What persons recorded of a case later, in order: its verdicts after the recorded one, and its removal
+  /// (no verdict).
+  struct LaterVerdict {
     std::optional<Verdict> verdict;
     std::string by, time_utc, reason;
   };
-  [[nodiscard]] std::vector<Said> said_of(std::string_view id) const;
+  [[nodiscard]] std::vector<LaterVerdict> later_verdicts(std::string_view id) const;
 
   /// The k nearest cases of the question's categories, nearest first, equal distances by id. Whatever
   /// their verdict and origin: the caller sees both. Fails CASE-INVALID on a question that cannot be.
@@ -100,7 +101,7 @@ class CaseBase {
   /// How many cases there are, without those that are removed.
   [[nodiscard]] std::size_t size() const;
   /// All of them by id, read and verified now; one that is not what was stored is left out, and `take_faults`
-  /// tells.
+  /// reports it.
   [[nodiscard]] std::vector<Case> cases() const;
   /// Those that were cut, measured or entered, with a tool of this class; else as `cases`.
   [[nodiscard]] std::vector<Case> cut_with(std::string_view tool_class) const;

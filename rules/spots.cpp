@@ -81,7 +81,7 @@ std::optional<std::vector<ProposedStep>> by_carbide(const model::FeatureShape& s
     spot.tool.point_angle_most_rad = 0.0;
     spot.depth_mm = spot.tool.depth_of_cut_mm = depth;
     say(spot, "as blunt as a carbide drill's point, whose middle meets it first");
-    say(drill, deep ? "spotted: deeper than " + most : "spotted: a zone of position is asked");
+    say(drill, deep ? "spotted: deeper than " + most : "spotted: a zone of position is required");
     return chain;
   }
   say(drill,

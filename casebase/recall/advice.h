@@ -17,7 +17,7 @@ struct Leaned {
   double distance = 0.0;
   Origin origin = Origin::kEntered;
   Verdict verdict = Verdict::kUnknown;
-  double weight = 0.0;  ///< how much it counts, 0 to 1: near, and not told before
+  double weight = 0.0;  ///< how much it counts, 0 to 1: near, and not counted before
   Values cut;
   friend bool operator==(const Leaned&, const Leaned&) = default;
 };
@@ -33,7 +33,7 @@ struct Advice {
   bool at_bottom = false;            ///< ... and at the least values it is still likelier to fail than it may
   bool held_back = false;            ///< good cuts were harder than the asked values allow to start
   Values centre;                     ///< of good cuts, before it is held back or lowered
-  int good = 0, bad = 0, unjudged = 0;  ///< near cuts, each told once
+  int good = 0, bad = 0, unjudged = 0;  ///< near cuts, each counted once
   int cut_good = 0;                     ///< of the good ones those that were not simulated
   int doubted = 0;       ///< of the unjudged ones those reported as good, but cut too hard to believe; cuts
   double nearest = 0.0;  ///< distance of the nearest

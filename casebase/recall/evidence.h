@@ -22,7 +22,7 @@ struct Blame {
 /// What one near case says of a cut.
 struct Evidence {
   std::string id;
-  std::string run;  ///< what was cut when: cases that share it are one cut told twice
+  std::string run;  ///< what was cut when: cases that share it are one cut recorded twice
   /// What was observed, word for word: likewise; empty: nothing was. Of fewer than three figures part and
   /// time are in it.
   std::string told;

@@ -105,7 +105,7 @@ class Splitter {
   SplitOptions options_;
   std::vector<Executed> done_;
   std::optional<Open> open_;
-  // The state that the log has told so far.
+  // The state that the log has stated so far.
   std::array<double, kNumbers> now_ = {};
   std::uint16_t known_ = 0;
   double last_s_ = 0.0;

@@ -36,7 +36,7 @@ class Lines {
 };
 
 /// Lines that could not be taken. A recorder that loses a line now and then is usual: they are left out and
-/// told in one warning. A log of which more than one line in a hundred cannot be read is another kind of
+/// reported in one warning. A log of which more than one line in a hundred cannot be read is another kind of
 /// file, and refused. The share, and the two lines that any log may lose, are defaults, unsourced.
 class LostLines {
  public:

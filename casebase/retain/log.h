@@ -42,7 +42,7 @@ using Sink = std::function<void(const Reading&)>;
 /// What was read.
 struct LogEnd {
   std::uint64_t lines = 0, readings = 0, lost = 0;
-  bool says_running = false;  ///< some line told whether the program runs
+  bool says_running = false;  ///< some line states whether the program runs
   bool dated = false;         ///< times are seconds since 1970-01-01 UTC
 };
 

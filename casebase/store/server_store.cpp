@@ -93,7 +93,7 @@ Status ServerStore::connect(Missing missing, Job& job) {
   if (!local) return fail(local.error());
   local_ = std::move(local->store);
   job.report(warning("CASE-OFFLINE",
-                     fmt::format("{}: its local copy of {} stands for it, what is added waits for it "
+                     fmt::format("{}: its local copy of {} is used, what is added waits for it "
                                  "({} so far)",
                                  why.message, counted(static_cast<std::size_t>(local->copied), "row", "rows"),
                                  counted(static_cast<std::size_t>(local->waiting), "row", "rows")),

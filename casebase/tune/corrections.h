@@ -60,7 +60,7 @@ struct WearReading {
 };
 /// The time after which the edge is as worn as allowed, by a curve VB = c t^b through all its readings of at
 /// least 0.05 mm: a reading scatters, so that the two around the limit tell less than all. Nothing where
-/// fewer than two can be used or none is as worn as that: no life is told beyond what was seen.
+/// fewer than two can be used or none is as worn as that: no life is given beyond what was seen.
 [[nodiscard]] std::optional<double> life_of(std::span<const WearReading> readings, double allowed_mm);
 
 /// b of VB = c t^b where readings do not tell it: wear runs in fast and goes on slower. Default, unsourced.

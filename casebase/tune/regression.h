@@ -71,7 +71,7 @@ struct Regression {
 struct LeftOut {
   double observed = 0.0, predicted = 0.0;
   double std_dev = 0.0;  ///< that the prediction states
-  double freedom = 0.0;  ///< degrees of freedom that `std_dev` is told by; 0: as good as known
+  double freedom = 0.0;  ///< degrees of freedom that `std_dev` is estimated from; 0: as good as known
   /// Whether what was observed lies within the stated interval of 90 %.
   [[nodiscard]] bool within_90() const;
 };

@@ -54,11 +54,12 @@ struct PlanOptions {
   std::function<void(std::string_view stage, double fraction)> progress = {};
   /// Ends the call early: there is a plan only where one was made by then, and no program without its check.
   std::stop_token stop = {};
-  std::string cache = {};    ///< a folder that keeps results of stages from call to call
-  std::string may = {};      ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
-  std::string time = {};     ///< of `bind_...`: when, for the plan's record; any text
-  std::string control = {};  ///< in place of the machine's own: "fanuc", "haas", "heidenhain", "linuxcnc", "siemens"
-  unsigned next = 0;         ///< of `bind_...`: so many workingsteps only; 0: the whole plan
+  std::string cache = {};  ///< a folder that keeps results of stages from call to call
+  std::string may = {};    ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
+  std::string time = {};   ///< of `bind_...`: when, for the plan's record; any text
+  std::string control =
+      {};             ///< in place of the machine's own: "fanuc", "haas", "heidenhain", "linuxcnc", "siemens"
+  unsigned next = 0;  ///< of `bind_...`: so many workingsteps only; 0: the whole plan
   unsigned from = 0;  ///< of `bind_...`: the first of them, from 1; 0: the first of which something is open
   bool stop_at_deadline =
       false;                  ///< of `bind_...`: nothing, in time, where nothing is checked by the deadline
@@ -114,9 +115,9 @@ struct CheckInput {
   std::string bytes;
 };
 
-/// Plans a part: an ISO 14649 or AP238 file, a plan as JSON, or an STL mesh, told by content. `name` is what
-/// diagnostics call it. Throws  std::logic_error and what derives from it for a fault of the library itself;
-/// std::bad_alloc.
+/// Plans a part: an ISO 14649 or AP238 file, a plan as JSON, or an STL mesh; the content says which. `name`
+/// is what diagnostics call it. Throws  std::logic_error and what derives from it for a fault of the library
+/// itself; std::bad_alloc.
 [[nodiscard]] CAPSTAN_API PlanOutput plan_bytes(std::string part, const std::string& name,
                                                 const PlanOptions& options = {});
 

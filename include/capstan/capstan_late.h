@@ -64,8 +64,8 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_prepare(capstan_late* session);
 
 /* Binds a plan (ISO 14649, AP238 or JSON, `size` bytes) before `deadline_ms` have passed since the call. Past
  * that the code is CAPSTAN_LATE_LATE, never CAPSTAN_LATE_OK. No plan uses a tool that is not in the table, or
- * whose length the table does not tell (LATE-TOOL, code 4). What the table says of a tool comes out again in
- * CAPSTAN_LATE_TOOL_TABLE number for number; offsets that count from a reference tool are told by a negative
+ * whose length the table does not state (LATE-TOOL, code 4). What the table says of a tool comes out again in
+ * CAPSTAN_LATE_TOOL_TABLE number for number; offsets that count from a reference tool show by a negative
  * one, or by `length_offsets: reference` under the machine's control. */
 CAPSTAN_LATE_API capstan_late_code capstan_late_bind(capstan_late* session, const char* plan, size_t size,
                                                      unsigned deadline_ms);
@@ -85,8 +85,8 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_bind_next(capstan_late* session,
                                                           size_t size, unsigned from, unsigned count,
                                                           unsigned deadline_ms);
 
-/* Is told during a bind how far it is: the stage's name and a fraction from 0 to 1; NULL: no more. It is
- * called from the thread that binds, or one of its workers; of its session it may call capstan_late_stop
+/* Is called during a bind with its progress: the stage's name and a fraction from 0 to 1; NULL: no more. It
+ * is called from the thread that binds, or one of its workers; of its session it may call capstan_late_stop
  * only. */
 typedef void (*capstan_late_progress)(const char* stage, double fraction, void* user);
 CAPSTAN_LATE_API void capstan_late_on_progress(capstan_late* session, capstan_late_progress progress,

@@ -256,7 +256,7 @@ void add_row(Table& table, Row row, const std::vector<std::string>& of_this_file
       std::find_if(table.rows.begin(), table.rows.end(), [&](const Row& r) { return r.id == row.id; });
   const bool here = std::find(of_this_file.begin(), of_this_file.end(), row.id) != of_this_file.end();
   if (here || (shipped && same != table.rows.end()))
-    refuse("RULE-ROW", "the id " + row.id + " stands twice", at);
+    refuse("RULE-ROW", "the id " + row.id + " occurs twice", at);
   if (same != table.rows.end()) {
     *same = std::move(row);
   } else {
@@ -292,7 +292,7 @@ void read_capabilities(const DataNode& node, RuleBase& base, bool shipped) {
     const auto it = std::find_if(base.capabilities.begin(), base.capabilities.end(),
                                  [&](const Capability& k) { return k.action == c.action; });
     if (shipped && it != base.capabilities.end())
-      refuse("RULE-ROW", "the capability of " + c.action + " stands twice", item);
+      refuse("RULE-ROW", "the capability of " + c.action + " occurs twice", item);
     if (it != base.capabilities.end()) {
       *it = std::move(c);
     } else {
@@ -379,7 +379,7 @@ Status on_file(const std::string& name, Work work) {
 Status read_text(const std::string& name, const std::string& text, std::vector<Document>& documents) {
   if (const std::uint64_t line = stray_sign(text); line != 0)
     return fail({.code = "RULE-SYNTAX",
-                 .message = "what stands here belongs to no value",
+                 .message = "this line belongs to no value",
                  .file = name,
                  .line = line,
                  .expected = "a map of table, facts and rows, or of capabilities"});
@@ -460,7 +460,7 @@ Result<RuleBase> load_rules(const std::string& extra_directory, Job& job) {
   const auto files = yaml_files(extra_directory);
   if (!files) return fail(files.error());
   if (files->empty())
-    job.warn("RULE-NONE", "no *.yaml in " + extra_directory + ": the shipped rules stand alone");
+    job.warn("RULE-NONE", "no *.yaml in " + extra_directory + ": the shipped rules are used alone");
   for (const std::string& file : *files) {
     constexpr std::size_t kTableCap = std::size_t{4} << 20;  // the shipped tables have 20 kB at most
     auto text = read_file(file, kTableCap);

@@ -101,7 +101,7 @@ Made edge_round(const Making& m) {
 Made break_edge(const Making& m) {
   using model::ShapeKind;
   const double c = m.context.edge_break_mm;
-  if (!(c > 0.0)) return no("no edges are asked to be broken");
+  if (!(c > 0.0)) return no("no edge is required to be broken");
   const auto& s0 = m.shape;
   const bool closed = (s0.kind == ShapeKind::kPocket || s0.kind == ShapeKind::kHole) && !s0.open;
   if (!closed && s0.kind != ShapeKind::kOutside)

@@ -60,7 +60,8 @@ TEST(Condemned, AnExceededLimitIsSaidWithNumbersPlaceAndWhatToDo) {
   EXPECT_EQ(text_of(plan, reasons[0]),
             "step 1 SLOT: spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1; use a smaller tool or depth");
   plan.steps[0].exceeded[0] = {"load", 0.0, 0.0, "", std::nullopt};
-  EXPECT_EQ(condemned(plan, {})[0].text, "load outside what any formula tells; use a smaller tool or depth");
+  EXPECT_EQ(condemned(plan, {})[0].text,
+            "load outside the range of every formula; use a smaller tool or depth");
 }
 
 TEST(Condemned, AnUnplannedFeatureCondemnsWhatRestsOnIt) {

@@ -237,6 +237,15 @@ TEST(Shape, AnEdgeOfNoSizeIsRefusedAndSaysWhatAndWhy) {
   EXPECT_NE(round.error().message.find("radius is 0 mm"), std::string::npos) << round.error().message;
 }
 
+TEST(Shape, AFeatureThatIsKeptVerbatimIsNamedByItsOwnKeyword) {
+  Maker k;
+  KeptInstance kept;
+  kept.keyword = "ROUND_HOLEX";
+  const auto shapes = shapes_of(k.m, Ref<ManufacturingFeature>(AnyRef(k.m.add(kept))));
+  ASSERT_FALSE(shapes);
+  EXPECT_EQ(shapes.error().message, "ROUND_HOLEX: this kind of feature is not understood");
+}
+
 TEST(Shape, AThreadInAHoleThatSaysItIsAnOuterOneIsRefused) {
   Maker k;
   RoundHole hole;

@@ -109,11 +109,11 @@ TEST(Load, RefusesAShippedRowOrCapabilityThatStandsInTwoFiles) {
   const auto twice = rules_from_texts({{"a.yaml", defined}, {"b.yaml", rows}});
   ASSERT_FALSE(twice);
   EXPECT_THAT(to_text(twice.error()), HasSubstr("b.yaml:3"));
-  EXPECT_THAT(to_text(twice.error()), HasSubstr("the id all stands twice"));
+  EXPECT_THAT(to_text(twice.error()), HasSubstr("the id all occurs twice"));
   const std::string drill = "capabilities:\n  - {action: drill, finest_grade: 11, source: \"t\"}\n";
   const auto both = rules_from_texts({{"a.yaml", drill}, {"b.yaml", drill}});
   ASSERT_FALSE(both);
-  EXPECT_THAT(to_text(both.error()), HasSubstr("the capability of drill stands twice"));
+  EXPECT_THAT(to_text(both.error()), HasSubstr("the capability of drill occurs twice"));
 }
 
 TEST(Check, NamesTheBoxOfAPlantedContradiction) {
@@ -216,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "takes no speed", 4},
         BadText{row("{id: a, source: s, cannot: x, colour: red}"), "RULE-ROW", "a row has no colour", 4},
         BadText{row("{id: a, source: s, cannot: x}\n  - {id: a, source: s, cannot: y}"), "RULE-ROW",
-                "stands twice", 5}));
+                "occurs twice", 5}));
 
 class ShopRules : public ::testing::Test {
  protected:

@@ -193,7 +193,7 @@ TEST(EdgeActions, RoundByTheCutterOfTheRadiusAndBreakByTheShopsSize) {
   EXPECT_DOUBLE_EQ(p.chains[0][0].tool.corner_radius_exact_mm, 2.0);
 
   const RuleBase edge = with_chain("pocket", kUpright, "area_rough, break_edge");
-  EXPECT_THAT(propose(edge, pocket(6.0), {}).cannot, HasSubstr("no edges are asked to be broken"));
+  EXPECT_THAT(propose(edge, pocket(6.0), {}).cannot, HasSubstr("no edge is required to be broken"));
   Context c;
   c.edge_break_mm = 0.3;
   const Proposal e = propose(edge, pocket(6.0), c);

@@ -12,7 +12,7 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "planner/physics/mechanics/stability.h"
-#include "tooling/library/cutters/shape.h"
+#include "tooling/library/cutters/edge_kind.h"
 #include "tooling/selection/limits.h"
 
 // Estimated time of a step with a cutter: rough, the same for all candidates, without any optimiser.

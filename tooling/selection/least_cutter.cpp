@@ -6,8 +6,8 @@
 #include "planner/ground/base/number.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/cutters/edge_kind.h"
 #include "tooling/library/cutters/generic.h"
-#include "tooling/library/cutters/shape.h"
 #include "tooling/selection/limits.h"
 
 namespace capstan::tooling {

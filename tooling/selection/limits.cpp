@@ -14,7 +14,7 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "tooling/library/cutters/complete.h"
-#include "tooling/library/cutters/shape.h"
+#include "tooling/library/cutters/edge_kind.h"
 #include "tooling/library/nouns/tool_material.h"
 
 namespace capstan::tooling {
@@ -317,7 +317,7 @@ std::optional<std::string> not_for_machine(const Cutter& c, const StartValues& s
   const double wanted = start.wanted_vc_m_min;
   if (start.vc_m_min > kFastestOverPreset * wanted)
     return "the spindle's least speed " + trimmed(m.spindle.rpm_min, 0) + " 1/min gives " +
-           trimmed(start.vc_m_min, 1) + " m/min, " + w.id + " bears " + trimmed(wanted, 1) +
+           trimmed(start.vc_m_min, 1) + " m/min, " + w.id + " allows " + trimmed(wanted, 1) +
            slower_gear(m, 1000.0 * wanted / (kPi * c.cutting_diameter_mm));
   const auto needed = least_torque_nm(c, start, w, p);
   const auto most = largest_torque_nm(t, start.spindle_rpm);

@@ -83,7 +83,7 @@ StartValues start_of(const Cutter& c, const WorkMaterial& material, const Machin
   out.wanted_vc_m_min = vc;
   limit_speed(rpm, 0.0, c.maximum_speed_rpm, "tool", told, text);
   limit_speed(rpm, machine.spindle.rpm_min, machine.spindle.rpm_max, "spindle", told, text);
-  const double largest = model::borne_feed_mm(c, material);
+  const double largest = model::largest_tooth_feed_mm(c, material);
   if (!tap && largest > 0.0 && fz > largest) {
     const std::string* of = told ? source_of(c, "fz_max_mm") : nullptr;
     if (told)

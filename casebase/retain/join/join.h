@@ -22,7 +22,7 @@ struct LogFrom {
   bool dated = false;           ///< the log's times are seconds since 1970-01-01 UTC
 };
 
-/// `Executed::run` of times that were summed up over a part: of no run, and told of the right program.
+/// `Executed::run` of times that were summed up over a part: of no run, and recorded of the right program.
 inline constexpr int kSummedUp = 0;
 
 /// Gives the markers of a program the ids that the plan has. Fails LOG-PROGRAM when the program has no
@@ -49,7 +49,7 @@ inline constexpr int kSummedUp = 0;
 /// with a nominal give the deviation of size, positions that of place; of several values their mean, and
 /// their spread as standard deviation. A value beyond its limits makes a bad case, a measured one within them
 /// a good one, unless the log made it bad. Rows of other parts are passed over; others that find no case are
-/// told (LOG-STEP).
+/// reported (LOG-STEP).
 void add_inspection(std::span<const Inspected> rows, std::span<const Step> steps, const LogFrom& from,
                     std::vector<Case>& cases, Job& job);
 

@@ -26,7 +26,7 @@ struct Step {
   [[nodiscard]] bool is_for(std::string_view part) const;
 };
 
-/// The steps of a plan that make cases. Others are told as notes (CASE-STEP).
+/// The steps of a plan that make cases. Others are reported as notes (CASE-STEP).
 [[nodiscard]] std::vector<Step> steps_of(const model::Plan& plan, Job& job);
 
 /// Steps of a program that was not planned here, as a table: a step per row, its columns those of the cases'

@@ -47,7 +47,7 @@ struct Change {
 /// are gone. Steps are matched by name. What `before` left open and `after` has is a change, too. A tool that
 /// is the same by its number, measured smaller, is no other tool: its new path is no decision, a new depth
 /// is.
-/// `part`: `after` has some of the steps, and the nouns of `before`; the others are not told.
+/// `part`: `after` has some of the steps, and the nouns of `before`; the others are not reported.
 [[nodiscard]] std::vector<Change> changes(const model::Plan& before, const model::Plan& after,
                                           bool part = false);
 

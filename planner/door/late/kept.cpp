@@ -60,8 +60,9 @@ bool made_for(const Plan& plan, const pipeline::Inputs& in) {
 }
 
 bool edited(const Job& job) {
-  return std::any_of(job.diagnostics().begin(), job.diagnostics().end(),
-                     [](const Diagnostic& d) { return model::edit_told_by(d) != model::EditTold::kNothing; });
+  return std::any_of(job.diagnostics().begin(), job.diagnostics().end(), [](const Diagnostic& d) {
+    return model::reported_edit_of(d) != model::ReportedEdit::kNothing;
+  });
 }
 
 /// Whether every enabled workingstep, or each of the plan's where it is a part, has its tool, path, feed and

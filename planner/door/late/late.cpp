@@ -10,8 +10,8 @@
 #include "planner/door/late/record.h"
 #include "planner/door/late/unbound.h"
 #include "planner/door/pipeline/program_check.h"
+#include "planner/ground/base/earlier_diagnostics.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/base/said_before.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/making/given/magazine.h"
@@ -363,7 +363,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
     if (!made) made = tl::unexpected(as_stopped(made.error(), policy, began, job));
     return made;
   };
-  const SaidBefore before(job);
+  const EarlierDiagnostics before(job);
   const auto as_brought = [&]() -> std::optional<LateOutcome> {
     if (!reopened->empty()) return std::nullopt;
     return stoppable(

@@ -16,7 +16,7 @@ struct LoadsAlong {
   std::vector<double> force_n, torque_nm, power_w,
       deflection_mm;    ///< expected: sharp edge, mean coefficients
   double margin = 1.0;  ///< what is compared with a limit is the expected load times this
-  /// The spindle's at the speed there, 0 where it is not known; of a force what the holding bears, of the
+  /// The spindle's at the speed there, 0 where it is not known; of a force what the holding resists, of the
   /// deflection what the tool's material does (0: not known).
   std::vector<double> torque_limit_nm, power_limit_w;
   double force_limit_n = 0.0, deflection_limit_mm = 0.0;

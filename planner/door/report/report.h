@@ -28,9 +28,10 @@ struct About {
   std::vector<std::string> condemned;                      ///< why the program must not be run
   std::vector<Line> findings;                              ///< of the check
   std::vector<std::pair<std::string, std::string>> marks;  ///< name and hash of what was planned and written
-  std::string program_name, program;         ///< its text, with a marker per workingstep; may be empty
-  std::string explained;                     ///< the decisions of the whole plan, text
-  std::vector<std::string> explained_steps;  ///< of each step, in the plan's order; empty: not told
+  std::string program_name, program;  ///< its text, with a marker per workingstep; may be empty
+  std::string explained;              ///< the decisions of the whole plan, text
+  std::vector<std::string>
+      explained_steps;  ///< of each step, in the plan's order; empty: the report has none
 };
 
 /// The page. Every text of the plan stands in it as text: no name or message is read as HTML or script.

@@ -340,10 +340,11 @@ class Check {
     bool values = false;
     auto all = job_.take_diagnostics();
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const model::EditTold told = i < before ? model::EditTold::kNothing : model::edit_told_by(all[i]);
-      values = values || told == model::EditTold::kValue;
-      if (told == model::EditTold::kDisagrees) all[i].severity = Severity::kError;
-      if (told == model::EditTold::kPart || told == model::EditTold::kDisagrees) {
+      const model::ReportedEdit told =
+          i < before ? model::ReportedEdit::kNothing : model::reported_edit_of(all[i]);
+      values = values || told == model::ReportedEdit::kValue;
+      if (told == model::ReportedEdit::kDisagrees) all[i].severity = Severity::kError;
+      if (told == model::ReportedEdit::kPart || told == model::ReportedEdit::kDisagrees) {
         model::Finding f;
         f.code = all[i].code;
         f.severity = all[i].severity;
@@ -445,7 +446,7 @@ class Check {
       shop_.machine = controls::with_control(std::move(shop_.machine), other);
       told_by = in.path;
       job_.note("APP-CONTROL", in.path + " is read as a program of " + name_of_control(other) + ", for " +
-                                   sign->text + " stands in line " + std::to_string(sign->line) + "; " +
+                                   sign->text + " is in line " + std::to_string(sign->line) + "; " +
                                    request_.sign + "control names another");
     }
     return std::nullopt;

@@ -210,7 +210,7 @@ std::vector<Option> table() {
        [](Request& r, Text t) { return r.objective = value_of(objective_words(), t), std::string(); },
        names(objective_words())},
       {"margin", Value::kWord,
-       both("how far the loads that limits are held against stand above the expected ones: careful "
+       both("how far above the expected loads the loads are that limits are held against: careful "
             "(19 of 20 cuts stay below), usual (5 of 6; the default), bold (7 of 10)"),
        [](Request& r, Text t) { return r.margin = t, std::string(); }, mechanics::margin_names()},
       {"revenue",
@@ -220,7 +220,7 @@ std::vector<Option> table() {
        {}},
       {"feeds",
        Value::kWord,
-       both("scheduled: along the path, as each cross section bears (the default); constant: one feed, "
+       both("scheduled: along the path, as each cross section allows (the default); constant: one feed, "
             "the largest that all of them bear"),
        [](Request& r, Text t) { return r.feeds = t, std::string(); },
        {"constant", "scheduled"}},

@@ -64,10 +64,11 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
     if (auto ok = judge_mesh(*mesh, name, job); !ok) return fail(ok.error());
     return plan_of_mesh(std::move(*mesh), name);
   }
-  return fail({.code = "EXC-UNKNOWN-FORMAT",
-               .message = "the file is neither a Part 21 plan nor an STL mesh",
-               .file = name,
-               .hint = "ISO 14649 begins with ISO-10303-21;"});
+  return fail(
+      {.code = "EXC-UNKNOWN-FORMAT",
+       .message = "the file is neither a Part 21 file (which begins with 'ISO-10303-21;') nor an STL mesh",
+       .file = name,
+       .hint = "give a plan (ISO 14649, AP238), a CAD part (STEP) or a mesh (STL)"});
 }
 
 }  // namespace capstan::exchange

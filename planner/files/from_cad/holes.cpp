@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/features/tip_angle.h"
 #include "planner/model/nouns/profile.h"
 
 namespace capstan::from_cad {
@@ -18,9 +19,8 @@ constexpr int kRim = 16;
 /// So far within its rim, mm and as a share of the radius: beyond the chords of the mesh.
 constexpr double kWithinMm = 0.03;
 constexpr double kWithin = 0.02;
-/// A tip_angle up to this is read as the angle of a flank, or as half of the point's (model/features/shape,
-/// holes.cpp): the full angle of a sharper tip has no word that is read back.
-constexpr double kSharpestTip = 75.0 * std::numbers::pi / 180.0;
+/// The full angle of a sharper point has no tip_angle that is read back.
+constexpr double kSharpestTip = model::kHalfTipDegrees * std::numbers::pi / 180.0;
 
 bool same(double a, double b) { return std::abs(a - b) < kLevelMm; }
 
@@ -144,7 +144,8 @@ std::optional<Sections> sections_of(const Part& part, const recognise::Feature& 
   if (out.end == HoleEnd::kRounded) last.bottom_mm = *floor;
   if (out.end == HoleEnd::kConical && out.tip_angle_rad <= kSharpestTip + 1e-6) {
     why = "its conical bottom has a point of " + trimmed(out.tip_angle_rad * 180.0 / std::numbers::pi, 2) +
-          " degrees; a tip_angle of 75 degrees or less is read as another angle";
+          " degrees; a tip_angle of " + trimmed(model::kHalfTipDegrees, 0) +
+          " degrees or less is read as another angle";
     return std::nullopt;
   }
   return out;

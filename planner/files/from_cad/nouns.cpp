@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "planner/model/nouns/placed_nouns.h"
+
 namespace capstan::from_cad {
 namespace {
 
@@ -57,27 +59,12 @@ std::optional<Rectangle> rectangle_of(const std::vector<Piece>& pieces) {
 
 }  // namespace
 
-Ref<model::CartesianPoint> Nouns::point(Vec3 p) {
-  model::CartesianPoint q;
-  q.name = "";
-  q.coordinates = {{p.x, p.y, p.z}, true};
-  return m_.add(q);
-}
+Ref<model::CartesianPoint> Nouns::point(Vec3 p) { return model::add_point(m_, p); }
 
-Ref<model::Direction> Nouns::direction(Vec3 d) {
-  model::Direction q;
-  q.name = "";
-  q.direction_ratios = {{d.x, d.y, d.z}, true};
-  return m_.add(q);
-}
+Ref<model::Direction> Nouns::direction(Vec3 d) { return model::add_direction(m_, d); }
 
 Ref<model::Axis2Placement3d> Nouns::placement(const geometry::Placement& at) {
-  model::Axis2Placement3d q;
-  q.name = "";
-  q.location = point(at.origin);
-  q.axis = direction(at.z);
-  q.ref_direction = direction(at.x);
-  return m_.add(q);
+  return model::add_placement(m_, at);
 }
 
 Ref<model::TolerancedLengthMeasure> Nouns::length(double mm) {

@@ -189,16 +189,7 @@ class SchemaWriter {
     text("description", description);
     out_.close();
   }
-  void any_reference() {
-    out_.open('{', false);
-    out_.key("type");
-    out_.open('[', false);
-    out_.text("string");
-    out_.text("null");
-    out_.close();
-    text("pattern", "^[a-z0-9_]+:[1-9][0-9]*$");
-    out_.close();
-  }
+  void any_reference() { shared("[a-z0-9_]+"); }
   void shared(std::string_view what) {
     out_.open('{', false);
     out_.key("type");

@@ -27,7 +27,7 @@ using model::TypeId;
 
 /// Columns by address: each is written once, numbered as met.
 template <class T>
-class Shared {
+class NumberedColumns {
  public:
   std::size_t index_of(const std::shared_ptr<const T>& p) {
     const auto [it, fresh] = index_.emplace(p.get(), items_.size());
@@ -203,13 +203,13 @@ class Writer {
   void shared(const std::shared_ptr<const model::SectionSeries>& p) { shared(p, sections_); }
   void shared(const std::shared_ptr<const model::FeedSchedule>& p) { shared(p, schedules_); }
   template <class T>
-  void shared(const std::shared_ptr<const T>& p, Shared<T>& all) {
+  void shared(const std::shared_ptr<const T>& p, NumberedColumns<T>& all) {
     if (!p) return out_.null();
     out_.text(shared_id(shared_name<T>(), all.index_of(p)));
   }
 
   template <class T>
-  void columns(const char* name, const Shared<T>& all) {
+  void columns(const char* name, const NumberedColumns<T>& all) {
     out_.key(name);
     out_.open('[', true);
     for (const T* item : all.items()) put(*item);
@@ -375,9 +375,9 @@ class Writer {
   const Plan& plan_;
   std::vector<std::string> ids_;
   Printer out_;
-  Shared<model::CutterPath> paths_;
-  Shared<model::SectionSeries> sections_;
-  Shared<model::FeedSchedule> schedules_;
+  NumberedColumns<model::CutterPath> paths_;
+  NumberedColumns<model::SectionSeries> sections_;
+  NumberedColumns<model::FeedSchedule> schedules_;
 };
 
 }  // namespace

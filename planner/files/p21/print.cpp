@@ -69,7 +69,7 @@ void Writer::append_id(std::uint64_t id) {
 }
 
 void Writer::begin_value() {
-  need(!open_.empty() && open_.back() != Open::kComplex, "a parameter must stand in an entity");
+  need(!open_.empty() && open_.back() != Open::kComplex, "a parameter belongs in an entity");
   if (comma_) {
     need(open_.back() != Open::kTyped, "a typed parameter holds one value");
     out_ += ',';
@@ -150,7 +150,7 @@ Writer& Writer::data(const Value& parameters) {
 }
 
 Writer& Writer::instance(std::uint64_t id, std::string_view keyword) {
-  need(place_ == Place::kData && open_.empty(), "instances stand in a data section");
+  need(place_ == Place::kData && open_.empty(), "instances belong in a data section");
   append_id(id);
   out_ += '=';
   append_keyword(keyword);
@@ -159,7 +159,7 @@ Writer& Writer::instance(std::uint64_t id, std::string_view keyword) {
 }
 
 Writer& Writer::complex(std::uint64_t id) {
-  need(place_ == Place::kData && open_.empty(), "instances stand in a data section");
+  need(place_ == Place::kData && open_.empty(), "instances belong in a data section");
   append_id(id);
   out_ += "=(";
   open_.push_back(Open::kComplex);
@@ -167,7 +167,7 @@ Writer& Writer::complex(std::uint64_t id) {
 }
 
 Writer& Writer::part(std::string_view keyword) {
-  need(!open_.empty() && open_.back() == Open::kComplex, "a part stands in a complex instance");
+  need(!open_.empty() && open_.back() == Open::kComplex, "a part belongs in a complex instance");
   append_keyword(keyword);
   open_.push_back(Open::kPart);
   return *this;

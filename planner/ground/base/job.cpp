@@ -82,9 +82,9 @@ namespace {
 
 /// One call of parallel_for, on the stack of its caller. Indices are claimed in order; after a stop no more
 /// are.
-class Shared {
+class SharedLoop {
  public:
-  Shared(std::size_t n, const std::function<void(std::size_t)>& body)
+  SharedLoop(std::size_t n, const std::function<void(std::size_t)>& body)
       : n_(n), body_(body), scope_(StopScope::innermost()) {}
 
   /// Claims and does indices until none is left. Throws nothing.
@@ -151,7 +151,7 @@ class Pool {
     }
   }
 
-  void run(Shared& shared, std::size_t helpers) {
+  void run(SharedLoop& shared, std::size_t helpers) {
     {
       const std::lock_guard lock(mutex_);
       while (threads_.size() < helpers) threads_.emplace_back([this] { serve(); });
@@ -170,8 +170,8 @@ class Pool {
   }
 
  private:
-  Shared* next() {
-    for (Shared* s : open_) {
+  SharedLoop* next() {
+    for (SharedLoop* s : open_) {
       if (s->wanted > 0) return s;
     }
     return nullptr;
@@ -183,7 +183,7 @@ class Pool {
     ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
     std::unique_lock lock(mutex_);
     for (;;) {
-      Shared* shared = nullptr;
+      SharedLoop* shared = nullptr;
       wake_.wait(lock, [&] { return ending_ || (shared = next()) != nullptr; });
       if (ending_) return;
       --shared->wanted;
@@ -199,7 +199,7 @@ class Pool {
   std::mutex mutex_;
   std::condition_variable wake_, left_;
   std::vector<std::thread> threads_;
-  std::vector<Shared*> open_;
+  std::vector<SharedLoop*> open_;
   bool ending_ = false;
 };
 
@@ -212,7 +212,7 @@ Pool& pool() {
 
 void parallel_for(const Job& job, std::size_t n, const std::function<void(std::size_t)>& body) {
   const std::size_t workers = std::min<std::size_t>(std::max(1U, job.threads), n);
-  Shared shared(n, body);
+  SharedLoop shared(n, body);
   if (workers <= 1) {
     shared.work();
   } else {

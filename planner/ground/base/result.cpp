@@ -26,8 +26,10 @@ std::string to_text(const Diagnostic& d) {
   if (d.instance != 0) out += "#" + std::to_string(d.instance) + " ";
   if (!d.path.empty()) out += d.path + ": ";
   out += d.message;
-  if (!d.expected.empty()) out += "; expected " + d.expected;
-  if (!d.hint.empty()) out += "; " + d.hint;
+  // A message may end with a question: "Did you mean 'fanuc'?"
+  const auto join = [&out] { out += out.ends_with('?') ? " " : "; "; };
+  if (!d.expected.empty()) join(), out += "expected " + d.expected;
+  if (!d.hint.empty()) join(), out += d.hint;
   if (!d.code.empty()) out += " [" + d.code + "]";
   return out;
 }

@@ -12,7 +12,7 @@ namespace capstan::geometry {
 /// leave.
 inline constexpr double kWeldMm = 1e-3;
 
-/// What a mesh bounds, told by its edges.
+/// What a mesh bounds, by its edges.
 struct MeshForm {
   enum class Kind {
     kSolid,   ///< every edge is shared by an even number of triangles: it has an inside

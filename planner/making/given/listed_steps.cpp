@@ -254,7 +254,8 @@ Result<Listed> list_steps(model::Plan plan, Reopen reopen, const std::map<AnyRef
                              : Ref<model::Setup>(setups.front());
     if (setups.empty()) {
       job.warn("PIP-SETUP",
-               "the file has no set-up; one is made in which the workpiece stands as it is drawn");
+               "the file has no set-up: one is made in which the workpiece lies as it is drawn; look at it "
+               "before clamping");
     }
     out.setups.push_back(s);
   }

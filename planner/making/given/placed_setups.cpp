@@ -13,6 +13,7 @@
 #include "planner/model/features/resolve.h"
 #include "planner/model/features/setup_place.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/nouns/placed_nouns.h"
 #include "planner/model/plan/resources/setup_position.h"
 
 namespace capstan::given {
@@ -153,21 +154,11 @@ void raise_security_plane(model::Plan& plan, SetupDraft& s, std::size_t index,
   const bool level = !turn || model::lean_rad(*turn) <= model::kUprightRad;
   const Placement plane_at = level ? Placement{.origin = {0.0, 0.0, raised}}
                                    : compose(inverse(*turn), {.origin = {0.0, 0.0, raised}});
-  model::CartesianPoint at;
-  at.name = "";
-  at.coordinates = {{plane_at.origin.x, plane_at.origin.y, plane_at.origin.z}, true};
-  model::Axis2Placement3d frame;
-  frame.name = "";
-  frame.location = m.add(at);
-  if (!level) {
-    model::Direction up;
-    up.name = "";
-    up.direction_ratios = {{plane_at.z.x, plane_at.z.y, plane_at.z.z}, true};
-    frame.axis = m.add(up);
-  }
+  const auto frame = model::add_placement_at(m, plane_at.origin);
+  if (!level) m.get<model::Axis2Placement3d>(frame)->axis = model::add_direction(m, plane_at.z);
   model::Plane plane;
   plane.name = "SECURITY PLANE";
-  plane.position = m.add(frame);
+  plane.position = frame;
   const auto made = m.add(plane);
   if (auto* setup = m.get<model::Setup>(s.setup)) setup->its_secplane = made;
   for (const StepDraft& step : steps) {
@@ -223,7 +214,7 @@ std::string leans_in_setup(const model::Plan& plan, const SetupDraft& setup, con
       model::leaning_attributes(plan.model, setup.setup, model::workpiece_of(plan.model, plan.project));
   const std::string placed =
       by.empty() ? std::string() : ": " + by + " has the workpiece " + model::turn_text({}, setup.workpiece);
-  return "the axis of " + feature + " stands " + degrees(lean) + " off the tool's in " +
+  return "the axis of " + feature + " leans " + degrees(lean) + " from the tool's in " +
          name_of(plan, setup.setup) + placed + "; a tool along Z cannot cut it so: " +
          (by.empty() ? "give the step a set-up in which that axis is up"
                      : "correct " + by + ", or give the step a set-up in which that axis is up");

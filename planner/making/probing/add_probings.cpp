@@ -9,6 +9,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/probing/touch_starts.h"
 #include "planner/making/step/middle_of_tolerance.h"
+#include "planner/model/nouns/placed_nouns.h"
 #include "planner/model/plan/measured.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -152,13 +153,6 @@ Ref<model::TouchProbe> probe_noun(Model& m, const model::Cutter* c) {
   return m.add(probe);
 }
 
-Ref<model::Direction> direction(Model& m, Vec3 v) {
-  model::Direction d;
-  d.name = "";
-  d.direction_ratios = {{v.x, v.y, v.z}, true};
-  return m.add(d);
-}
-
 Ref<model::Executable> touch_noun(model::Plan& plan, const StepDraft& next, const Measured& what,
                                   std::size_t at) {
   Model& m = plan.model;
@@ -166,14 +160,11 @@ Ref<model::Executable> touch_noun(model::Plan& plan, const StepDraft& next, cons
   const model::ProposedStep& step = wanted.chain[wanted.at];
   const Touch& touch = what.found.touches[at];
 
-  model::CartesianPoint point;
-  point.name = "";
-  point.coordinates = {{touch.start.x, touch.start.y, touch.start.z}, true};
-  model::Axis2Placement3d start;
-  start.name = "";
-  start.location = m.add(point);
-  start.axis = direction(m, touch.reference);
-  start.ref_direction = direction(m, touch.direction);
+  geometry::Placement start;
+  start.origin = touch.start;
+  start.z = touch.reference;
+  start.x = touch.direction;
+  const auto start_position = model::add_placement(m, start);
 
   model::TolerancedLengthMeasure expected;
   expected.theoretical_size = touch.distance_mm;
@@ -191,9 +182,9 @@ Ref<model::Executable> touch_noun(model::Plan& plan, const StepDraft& next, cons
   model::WorkpieceProbing p;
   p.its_id = step.name + " " + touch.side;
   p.measured_offset = m.add(result);
-  p.start_position = m.add(start);
+  p.start_position = start_position;
   if (const auto* f = m.get<model::ManufacturingFeature>(next.feature)) p.its_workpiece = f->its_workpiece;
-  p.direction = direction(m, touch.direction);
+  p.direction = model::add_direction(m, touch.direction);
   p.expected_value = m.add(expected);
   p.its_probe = probe_noun(m, wanted.probe ? &wanted.probe->cutter : nullptr);
   const auto made = m.add(p);
@@ -240,8 +231,8 @@ Added add_probings(model::Plan plan, std::vector<StepDraft> steps, const piece::
             {next.member, next.chain,
              "'" + wanted.name + "' cannot be made (" + what.found.why_not + "), and without it " +
                  (for_size(probing)
-                      ? std::string("the last cut does not hold what is asked")
-                      : "nothing holds what is asked: " + wanted.why.text + " [" + wanted.why.id +
+                      ? std::string("the last cut does not hold the tolerance")
+                      : "nothing holds the requirement: " + wanted.why.text + " [" + wanted.why.id +
                             "]; give the tolerance a datum or a wall that a probe reaches, or "
                             "measure the piece on another machine and take the tolerance out "
                             "of this plan")});

@@ -21,15 +21,15 @@ constexpr double kLikelierToFail = 0.5;
 enum class Known { kProven, kNothing, kFailed };
 
 /// A chain with what is known of it.
-struct Judged {
+struct KnownChain {
   std::vector<model::ProposedStep> chain;
   Known known = Known::kNothing;
   std::string words;
 };
 
-Judged judge(const Choice& choice, std::vector<model::ProposedStep> chain, model::AnyRef feature,
-             const model::FeatureShape& shape) {
-  Judged out{std::move(chain), Known::kNothing, {}};
+KnownChain judge(const Choice& choice, std::vector<model::ProposedStep> chain, model::AnyRef feature,
+                 const model::FeatureShape& shape) {
+  KnownChain out{std::move(chain), Known::kNothing, {}};
   const model::Plan& plan = choice.piece.plan;
   std::vector<model::Selection> tools;
   bool proven = true;
@@ -60,18 +60,18 @@ Judged judge(const Choice& choice, std::vector<model::ProposedStep> chain, model
 model::Proposal by_cases(const Choice& choice, model::Proposal proposal, model::AnyRef feature,
                          const model::FeatureShape& shape) {
   if (choice.cases == nullptr || proposal.chains.size() < 2) return proposal;
-  std::vector<Judged> all;
+  std::vector<KnownChain> all;
   for (auto& chain : proposal.chains) all.push_back(judge(choice, std::move(chain), feature, shape));
   const std::string was_first = draft::key_of(all.front().chain);
   std::stable_sort(all.begin(), all.end(),
-                   [](const Judged& a, const Judged& b) { return a.known < b.known; });
-  Judged& first = all.front();
+                   [](const KnownChain& a, const KnownChain& b) { return a.known < b.known; });
+  KnownChain& first = all.front();
   if (draft::key_of(first.chain) != was_first && first.known == Known::kProven) {
     for (model::ProposedStep& step : first.chain)
       step.why.text += "; taken before the rules' first choice, for it went well before: " + first.words;
   }
   proposal.chains.clear();
-  for (Judged& j : all) {
+  for (KnownChain& j : all) {
     proposal.failed_before += j.known == Known::kFailed ? 1 : 0;
     const bool fell = &j != &first && draft::key_of(j.chain) == was_first;
     if (j.known == Known::kFailed)

@@ -34,9 +34,9 @@ const Candidate* own(const StepDraft& s) {
   return nullptr;
 }
 
-class Sharer {
+class ToolSharing {
  public:
-  Sharer(model::Plan& plan, std::vector<StepDraft>& steps, const Sharing& how)
+  ToolSharing(model::Plan& plan, std::vector<StepDraft>& steps, const Sharing& how)
       : plan_(plan), steps_(steps), how_(how) {}
 
   std::vector<std::string> run() {
@@ -230,7 +230,7 @@ bool magazine_known(const std::vector<model::Cutter>& cutters) {
 }
 
 std::vector<std::string> share_tools(model::Plan& plan, std::vector<StepDraft>& steps, const Sharing& how) {
-  return Sharer(plan, steps, how).run();
+  return ToolSharing(plan, steps, how).run();
 }
 
 }  // namespace capstan::propose

@@ -8,6 +8,14 @@
 
 #include "planner/making/sequence/precedence.h"
 
+// Steps are ordered by a list schedule. A step is ready when all that precede it are done; ready steps wait
+// in one pool for each side and tool. Of the sides with a ready step, one that waits for no other comes
+// first, then those that were asked for, then the one with most steps left. On a side the tool in the spindle
+// goes on as long as it has a ready step; then comes a tool that is not needed again, then the one with most
+// to do in one go. Where a wish between sides makes a side come twice, the schedule is made again without
+// such wishes. The order is good and not proven the best: the least number of tool changes under precedences
+// is a hard problem.
+
 namespace capstan::sequence {
 namespace {
 

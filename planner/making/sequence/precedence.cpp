@@ -5,6 +5,11 @@
 #include <cmath>
 #include <set>
 
+// What must precede what. Each feature is seen from its side: heights along the side's axis, a box across it.
+// Pairs whose boxes meet are compared by kind and height (`precedes`), and then by their areas, which cost
+// more. The chain of a feature's own operations and what the caller gives are added; wishes, at last, only
+// where they close no circle.
+
 namespace capstan::sequence {
 namespace {
 

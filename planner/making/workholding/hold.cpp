@@ -9,6 +9,7 @@
 #include "planner/making/workholding/place.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/features/setup_place.h"
+#include "planner/model/nouns/placed_nouns.h"
 #include "planner/model/plan/resources/setup_position.h"
 #include "tooling/shop/data/tree.h"
 #include "tooling/shop/fixtures/fixtures.h"
@@ -359,26 +360,14 @@ void write_nouns(model::Plan& plan, const std::vector<SetupDraft>& setups, std::
   const SetupDraft& s = setups[at];
   auto* setup = m.get<model::Setup>(s.setup);
   if (setup == nullptr) return;
-  const auto point = [&](Vec3 v) {
-    model::CartesianPoint q;
-    q.name = "";
-    q.coordinates = {{v.x, v.y, v.z}, true};
-    return m.add(q);
-  };
-  const auto frame = [&](Vec3 v) {
-    model::Axis2Placement3d q;
-    q.name = "";
-    q.location = point(v);
-    return m.add(q);
-  };
   model::SetupInstruction told;
   told.description = instruction(setups, at);
   const auto instruction_ref = m.add(told);
   model::FixtureUsage usage;
   usage.its_id = s.holding.id;
   usage.description = s.holding.description;
-  usage.mount_reference = frame({0, 0, 0});
-  usage.workpiece_reference = frame(s.holding.pickup);
+  usage.mount_reference = model::add_placement_at(m, {0, 0, 0});
+  usage.workpiece_reference = model::add_placement_at(m, s.holding.pickup);
   const auto usage_ref = m.add(usage);
   m.at<model::Setup>(s.setup).its_fixture_usage = usage_ref;
   // Of several workpieces in the set-up it holds the one that the project makes.
@@ -408,7 +397,7 @@ void write_nouns(model::Plan& plan, const std::vector<SetupDraft>& setups, std::
     const auto b = geometry::bounds(geometry::Region{{only->outline}});
     model::Block block;
     block.name = only->id;
-    block.position = frame({b.lo.x, b.lo.y, only->bottom_mm});
+    block.position = model::add_placement_at(m, {b.lo.x, b.lo.y, only->bottom_mm});
     block.x = b.hi.x - b.lo.x;
     block.y = b.hi.y - b.lo.y;
     block.z = only->top_mm - only->bottom_mm;

@@ -25,7 +25,7 @@ class Attribution {
   explicit Attribution(const Model& model);
 
   /// The features that a tolerance, texture, location dimension or datum is about, each once, in the model's
-  /// order. Empty: none can be told, or it is about the whole part.
+  /// order. Empty: none is known, or it is about the whole part.
   [[nodiscard]] const std::vector<AnyRef>& features(AnyRef requirement) const;
   /// What is stated of a feature, and of what it is made of, in the model's order.
   [[nodiscard]] std::vector<AnyRef> requirements(AnyRef feature) const;

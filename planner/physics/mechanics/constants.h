@@ -23,13 +23,13 @@ inline constexpr double kHssYoungsModulusNMm2 = 200e3;
 /// four-flute end mills".
 inline constexpr double kFluteEquivalentDiameterRatio = 0.8;
 
-/// Bending stress that a milling cutter bears for the millions of bites of its life, N/mm2.
+/// Bending stress that a milling cutter endures for the millions of bites of its life, N/mm2.
 /// Source: carbide: the rod grade H10F (10 % Co, 0.8 um) has a transverse rupture strength of 4300 N/mm2
-/// (Sandvik's figure, by langsuncarbide.com, carbide rod grades); what hardmetal bears 10^7 times is 70 % of that (Nakajima et
-/// al. 2007, Materials Science Forum 534-536, 1201). A third of it is taken, for flutes are notches, a tool is
-/// larger than a test bar and grades differ: default, unsourced. High-speed steel: 1.43
-/// (HV + 120) / sqrt(area)^(1/6) of a hard steel with a defect at its surface (Murakami), 800 HV, a carbide
-/// of 50 um: 685.
+/// (Sandvik's figure, by langsuncarbide.com, carbide rod grades); what hardmetal endures 10^7 times is 70 %
+/// of that (Nakajima et al. 2007, Materials Science Forum 534-536, 1201). A third of it is taken, for flutes
+/// are notches, a tool is larger than a test bar and grades differ: default, unsourced. High-speed
+/// steel: 1.43 (HV + 120) / sqrt(area)^(1/6) of a hard steel with a defect at its surface (Murakami), 800 HV,
+/// a carbide of 50 um: 685.
 inline constexpr double kCarbideEnduranceNMm2 = 1000.0;
 inline constexpr double kHssEnduranceNMm2 = 685.0;
 

@@ -55,8 +55,8 @@ void Findings::unproved(Severity severity, int property, std::string code, Where
   add(severity, property, std::move(code), std::move(where), std::move(message), 0.0, true);
 }
 
-void Findings::repeat(const std::vector<Said>& said, std::size_t order, const std::string& step) {
-  for (const Said& s : said)
+void Findings::repeat(const std::vector<Reported>& said, std::size_t order, const std::string& step) {
+  for (const Reported& s : said)
     add(s.severity, s.property, s.code, {order, step, s.move}, s.message, s.badness, s.unproved);
 }
 

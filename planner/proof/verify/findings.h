@@ -28,7 +28,7 @@ class Findings {
   void unproved(Severity severity, int property, std::string code, Where where, std::string message);
 
   /// One call of the above, but for the step that it is about.
-  struct Said {
+  struct Reported {
     Severity severity = Severity::kError;
     int property = 0;
     std::string code;
@@ -38,11 +38,13 @@ class Findings {
     bool unproved = false;
   };
   /// Says again what was said of a step, in the same order: the findings are as if it had been found anew.
-  void repeat(const std::vector<Said>& said, std::size_t order, const std::string& step);
+  void repeat(const std::vector<Reported>& said, std::size_t order, const std::string& step);
   /// While this lives, what is said goes to the tape as well. A stop leaves by an exception.
   class Recording {
    public:
-    Recording(Findings& findings, std::vector<Said>& tape) : findings_(findings) { findings.tape_ = &tape; }
+    Recording(Findings& findings, std::vector<Reported>& tape) : findings_(findings) {
+      findings.tape_ = &tape;
+    }
     ~Recording() { findings_.tape_ = nullptr; }
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
@@ -63,7 +65,7 @@ class Findings {
   void add(Severity severity, int property, std::string code, Where where, std::string message,
            double badness, bool unproved = false);
   std::vector<Item> items_;
-  std::vector<Said>* tape_ = nullptr;
+  std::vector<Reported>* tape_ = nullptr;
 };
 
 }  // namespace capstan::verify

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 

@@ -4,7 +4,7 @@
 #include "planner/model/plan/resources/material.h"
 
 // What presets of a tool state for a material, read by the check's own code: planning looks them up apart
-// (model/plan/borne_feed.h, of which only the words in a preset's source and the shares are shared).
+// (model/plan/preset_feeds.h, of which only the words in a preset's source and the shares are shared).
 
 namespace capstan::verify {
 
@@ -14,7 +14,7 @@ inline constexpr double kMeasured = 1.1;
 /// Bending of a roughing tool's tip. Default, unsourced.
 inline constexpr double kMostBentMm = 0.2;
 
-/// What a preset is asked for.
+/// Which number of a preset is wanted.
 enum class Wanted { kSpeed, kFeed };
 
 /// The tool's own preset for a material, or (`of_its_like`) one taken from a cutter like it, that states what

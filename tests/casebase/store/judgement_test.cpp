@@ -33,7 +33,7 @@ TEST_F(Judgement, SupersedesTheVerdictAndKeepsTheId) {
     EXPECT_EQ(c.observed.verdict, Verdict::kBad);
     EXPECT_EQ(c.id, sample().id);
     EXPECT_FALSE(advise(evidence_near(*base, sample().asked).value(), {}).leads);
-    const auto said = base->said_of(ids[0]);
+    const auto said = base->later_verdicts(ids[0]);
     ASSERT_EQ(said.size(), 1u);
     EXPECT_EQ(said[0].verdict, Verdict::kBad);
     EXPECT_EQ(said[0].by, "A. Smith");
@@ -45,7 +45,7 @@ TEST_F(Judgement, IsSaidOnce) {
   ASSERT_TRUE(base_.add(sample()).has_value());
   const std::vector<std::string> ids = {sample().id};
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(base_.judge(ids, Verdict::kBad, kSaid).has_value());
-  EXPECT_EQ(reopened().said_of(ids[0]).size(), 1u);
+  EXPECT_EQ(reopened().later_verdicts(ids[0]).size(), 1u);
   ASSERT_TRUE(base_.judge(ids, Verdict::kGood, kSaid).has_value());
   EXPECT_EQ(reopened().get(ids[0])->observed.verdict, Verdict::kGood);
 }
@@ -69,7 +69,7 @@ TEST_F(Judgement, ARemovedCaseCountsNoMoreAndStaysAwayWhenItIsAddedAgain) {
   const CaseBase again = reopened();
   EXPECT_EQ(again.cases(), std::vector{sample(10.5)});
   EXPECT_EQ(again.nearest(sample().asked, 5)->size(), 1u);
-  EXPECT_FALSE(again.said_of(ids[0]).at(0).verdict.has_value());
+  EXPECT_FALSE(again.later_verdicts(ids[0]).at(0).verdict.has_value());
 }
 
 TEST_F(Judgement, FindsAnIdByItsFirstDigits) {

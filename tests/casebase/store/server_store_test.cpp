@@ -87,8 +87,8 @@ TEST_F(ServerStore, KeepsInTheOutboxWhatIsAddedMeanwhileAndSendsItAtTheNextOpeni
   EXPECT_THAT(job_.diagnostics()[0].message, HasSubstr("6 rows"));
   EXPECT_EQ(base.cases(), away);
   EXPECT_EQ(base.metric(), learned);
-  ASSERT_EQ(base.said_of(judged).size(), 1u);
-  EXPECT_EQ(base.said_of(judged)[0].reason, "chatter");
+  ASSERT_EQ(base.later_verdicts(judged).size(), 1u);
+  EXPECT_EQ(base.later_verdicts(judged)[0].reason, "chatter");
   EXPECT_FALSE(std::filesystem::exists(files().outbox));
   EXPECT_EQ(place_->sql("SELECT count(*) FROM capstan.head"), "8");
   (void)open();
@@ -116,7 +116,7 @@ TEST_F(ServerStore, SendsAnOutboxTwiceWithoutCountingTwice) {
   EXPECT_THAT(job_.diagnostics().at(0).message, HasSubstr("0 of them new"));
   EXPECT_EQ(base.size(), 2u);
   EXPECT_EQ(base.get(sample(10.0).id)->observed.verdict, Verdict::kGood);
-  EXPECT_EQ(base.said_of(sample(10.0).id).size(), 2u);
+  EXPECT_EQ(base.later_verdicts(sample(10.0).id).size(), 2u);
 }
 
 TEST_F(ServerStore, LosesNothingWhenTheServerIsKilledBeneathAWriter) {

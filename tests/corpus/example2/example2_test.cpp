@@ -114,15 +114,18 @@ TEST(CorpusExample2, AsPrintedIsReadAndEachWrongReferenceIsReported) {
   EXPECT_THAT(
       faults,
       ElementsAre(
-          "113 #110 ROUND_HOLE.bottom_condition points to #216, a OPEN_SLOT_END_TYPE; taken as missing, "
+          "113 #110 ROUND_HOLE.bottom_condition points to #216, which is OPEN_SLOT_END_TYPE; taken as "
+          "missing, "
           "not HOLE_BOTTOM_CONDITION",
           "190 #187 TOLERANCED_LENGTH_MEASURE.theoretical_size is -50, not how far a path goes; what "
           "needs it has no shape",
-          "317 #314 CUTTING_COMPONENT.its_material points to #226, a MILLING_CUTTING_TOOL; taken as "
+          "317 #314 CUTTING_COMPONENT.its_material points to #226, which is MILLING_CUTTING_TOOL; taken as "
           "missing, not MATERIAL",
-          "322 #319 CUTTING_COMPONENT.its_material points to #230, a MILLING_MACHINE_FUNCTIONS; taken as "
+          "322 #319 CUTTING_COMPONENT.its_material points to #230, which is MILLING_MACHINE_FUNCTIONS; taken "
+          "as "
           "missing, not MATERIAL",
-          "327 #324 CUTTING_COMPONENT.its_material points to #230, a MILLING_MACHINE_FUNCTIONS; taken as "
+          "327 #324 CUTTING_COMPONENT.its_material points to #230, which is MILLING_MACHINE_FUNCTIONS; taken "
+          "as "
           "missing, not MATERIAL"));
 }
 

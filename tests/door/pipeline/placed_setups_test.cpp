@@ -235,8 +235,8 @@ TEST(PlacedSetups, StepsOfAFileInATiltedSetUpAreNotMadeAndSayWhy) {
       };
       for (const char* id : {"BLIND", "POCKET"}) {
         EXPECT_FALSE(made_of(id)) << id;
-        EXPECT_TRUE(told(made.said, std::string("the axis of feature '") + id + "' stands " +
-                                        (over ? "180" : "10") + " degrees off the tool's in SETUP 'SETUP1'"))
+        EXPECT_TRUE(told(made.said, std::string("the axis of feature '") + id + "' leans " +
+                                        (over ? "180" : "10") + " degrees from the tool's in SETUP 'SETUP1'"))
             << made.said;
       }
       EXPECT_TRUE(

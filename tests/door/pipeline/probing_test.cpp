@@ -133,7 +133,7 @@ TEST(Probing, AFeatureWhosePlaceNobodyCanMeasureIsNotPlanned) {
   EXPECT_EQ(p.plan.unplanned.front().feature, feature(p.plan, "H1"));
   EXPECT_THAT(p.plan.unplanned.front().reason,
               HasSubstr("'H1 probe_feature' cannot be made (along x and y there are no two walls"));
-  EXPECT_THAT(p.plan.unplanned.front().reason, HasSubstr("nothing holds what is asked"));
+  EXPECT_THAT(p.plan.unplanned.front().reason, HasSubstr("nothing holds the requirement"));
 }
 
 TEST(Measuring, AChainThatLeansOnItIsNotUsedWhereNothingCanBeMeasured) {

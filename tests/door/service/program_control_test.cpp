@@ -36,7 +36,7 @@ bool told(const std::string& text, const std::string& what) { return text.find(w
 TEST(ProgramControl, AProgramOfAnotherControlIsReadAsThatOnesAndItIsTold) {
   const Said said = checked(pipeline::kAsksNothing, {{"x.nc", kFanuc}});
   EXPECT_EQ(said.code, "");
-  EXPECT_TRUE(told(said.notes, "read as a program of Fanuc, for O0001, a program number stands in line 2"))
+  EXPECT_TRUE(told(said.notes, "read as a program of Fanuc, for O0001, a program number is in line 2"))
       << said.notes;
   EXPECT_FALSE(told(said.findings, "O-words, parameters")) << said.findings;
 }

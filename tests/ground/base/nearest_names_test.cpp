@@ -34,7 +34,7 @@ TEST(UnknownName, SaysTheNearestAndHowToListThem) {
   const Diagnostic d = unknown_name("material", "steeel", {"mild steel", "brass"}, "capstan materials list");
   EXPECT_EQ(
       to_text(d),
-      "error: unknown material 'steeel'. Did you mean 'mild steel'?; `capstan materials list` shows all "
+      "error: unknown material 'steeel'. Did you mean 'mild steel'? `capstan materials list` shows all "
       "[NAME-UNKNOWN]");
   EXPECT_EQ(unknown_name("machine", "lathe", {"mill"}, "capstan machines list").message,
             "unknown machine 'lathe'");

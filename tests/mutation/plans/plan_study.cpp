@@ -4,7 +4,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "tests/support/shop.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"
@@ -13,6 +12,7 @@
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/mutation/emitted.h"
+#include "tests/support/shop.h"
 
 namespace capstan::mutation {
 namespace {
@@ -56,7 +56,7 @@ Words words(const std::vector<model::Finding>& findings) {
 bool stops(const model::Plan& plan, const Job& reader) {
   const auto& all = reader.diagnostics();
   const bool disagrees = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
-    return model::edit_told_by(d) == model::EditTold::kDisagrees;
+    return model::reported_edit_of(d) == model::ReportedEdit::kDisagrees;
   });
   return disagrees || !model::condemned(plan, {}).empty();
 }

@@ -100,7 +100,7 @@ TEST(CheckSetups, ALeanIsAnErrorOfEachStepWithPlacementAngleAndWhatToDo) {
     });
     EXPECT_EQ(leans, 2) << errors(k.plan);
     const std::string text = errors(k.plan);
-    EXPECT_TRUE(told(text, "feature 'P' stands 10 degrees off the tool's in SETUP 'setup'")) << text;
+    EXPECT_TRUE(told(text, "feature 'P' leans 10 degrees from the tool's in SETUP 'setup'")) << text;
     EXPECT_TRUE(told(text, of_setup ? "(SETUP.its_origin leans by 10 degrees)"
                                     : "(WORKPIECE_SETUP.its_origin leans by 10 degrees)"))
         << text;
@@ -113,7 +113,7 @@ TEST(CheckSetups, AWorkpieceThatIsTurnedOverIsAnError) {
     PlanMaker k = testing::good_plan();
     const auto frame = placed(k, {0, 100, -50}, {0, 0, -1}, {1, 0, 0});
     (of_setup ? setup(k).its_origin : piece(k).its_origin) = frame;
-    EXPECT_TRUE(told(errors(k.plan), "stands 180 degrees off the tool's")) << errors(k.plan);
+    EXPECT_TRUE(told(errors(k.plan), "leans 180 degrees from the tool's")) << errors(k.plan);
   }
 }
 

@@ -9,8 +9,8 @@
 
 #include "planner/model/nouns/tool.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/cutters/edge_kind.h"
 #include "tooling/library/cutters/generic.h"
-#include "tooling/library/cutters/shape.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/nouns/nouns.h"
 #include "tooling/selection/select.h"

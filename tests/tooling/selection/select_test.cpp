@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "tests/tooling/selection/shipped.h"
 #include "tooling/library/cutters/complete.h"
 

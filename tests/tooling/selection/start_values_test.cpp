@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "tests/tooling/selection/shipped.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/selection/select.h"
@@ -24,7 +24,7 @@ TEST(StartValues, OfTheShopAreLoweredByNothingThatNobodyStated) {
   complete(c, library());
   // A generic cutter of 8 mm bears 0.08 mm; this one was said to run at 0.12.
   EXPECT_DOUBLE_EQ(c.fz_max_mm, 0.08);
-  EXPECT_DOUBLE_EQ(model::borne_feed_mm(c, material("low_alloy_steel")), 0.18);
+  EXPECT_DOUBLE_EQ(model::largest_tooth_feed_mm(c, material("low_alloy_steel")), 0.18);
   const auto start = start_values(c, material("low_alloy_steel"), machine());
   EXPECT_DOUBLE_EQ(start.fz_mm, 0.12);
   EXPECT_NEAR(start.vc_m_min, 140.0, 1e-9);
@@ -46,20 +46,20 @@ TEST(StartValues, OfOneMaterialSayNothingOfWhatTheCutterBearsInAnother) {
   c.presets = {{"N", 300.0, 0.2, "stated: the shop"}};
   complete(c, library());
   // 1.5 x 0.2 in aluminium; in steel what a generic cutter of 8 mm bears, 0.08.
-  EXPECT_NEAR(model::borne_feed_mm(c, material("wrought_aluminium")), 0.3, 1e-12);
-  EXPECT_DOUBLE_EQ(model::borne_feed_mm(c, material("c45")), 0.08);
+  EXPECT_NEAR(model::largest_tooth_feed_mm(c, material("wrought_aluminium")), 0.3, 1e-12);
+  EXPECT_DOUBLE_EQ(model::largest_tooth_feed_mm(c, material("c45")), 0.08);
   // A preset for a material of the group says what the group bears and no more, and nothing of others.
   Cutter d = c;
   d.presets = {{"en_aw_2024", 200.0, 0.24, "stated: the maker"}};
   d.fz_max_mm = 0.0;
   d.sources.clear();
   complete(d, library());
-  EXPECT_NEAR(model::borne_feed_mm(d, material("wrought_aluminium")), 0.24, 1e-12);
-  EXPECT_NEAR(model::borne_feed_mm(d, material("en_aw_2024")), 0.36, 1e-12);
-  EXPECT_DOUBLE_EQ(model::borne_feed_mm(d, material("c45")), 0.08);
+  EXPECT_NEAR(model::largest_tooth_feed_mm(d, material("wrought_aluminium")), 0.24, 1e-12);
+  EXPECT_NEAR(model::largest_tooth_feed_mm(d, material("en_aw_2024")), 0.36, 1e-12);
+  EXPECT_DOUBLE_EQ(model::largest_tooth_feed_mm(d, material("c45")), 0.08);
   // Of a preset for the group and one for the material itself, that of the material counts.
   c.presets.insert(c.presets.begin(), {"c45", 100.0, 0.06, "stated: the shop"});
-  EXPECT_NEAR(model::borne_feed_mm(c, material("c45")), 0.09, 1e-12);
+  EXPECT_NEAR(model::largest_tooth_feed_mm(c, material("c45")), 0.09, 1e-12);
 }
 
 TEST(StartValues, OfAGroupDoNotMakeHssCutWhatTheCardSaysItDoesNot) {

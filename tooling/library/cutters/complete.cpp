@@ -6,9 +6,9 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/thread_mill.h"
+#include "tooling/library/cutters/edge_kind.h"
 #include "tooling/library/cutters/edges.h"
 #include "tooling/library/cutters/generic.h"
-#include "tooling/library/cutters/shape.h"
 #include "tooling/shop/material/material.h"
 
 namespace capstan::tooling {
@@ -227,7 +227,7 @@ void fill_feeds(Cutter& c, const Cutter& g, const std::vector<Cutter>& generic, 
     if (c.fz_min_mm == 0.0 && c.fz_max_mm == 0.0)
       c.fz_min_mm = c.fz_max_mm = c.thread_pitch_mm / std::max(c.teeth, 1);
   } else {
-    // A start value of its own that is higher applies to that material only: model::borne_feed.
+    // A start value of its own that is higher applies to that material only: model::preset_feeds.
     double least = 0.0;
     for (const model::CuttingPreset& p : c.presets) {
       if (borrowed(p) || !(p.fz_mm > 0.0)) continue;

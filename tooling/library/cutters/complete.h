@@ -3,9 +3,9 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/model/plan/borne_feed.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/cutter/ramp.h"
+#include "planner/model/plan/preset_feeds.h"
 
 namespace capstan::tooling {
 

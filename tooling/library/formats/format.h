@@ -12,11 +12,11 @@
 
 namespace capstan::tooling {
 
-/// So many entries of a library are told one by one, then their number: what a person still reads. Default,
-/// unsourced.
+/// So many entries of a library are reported one by one, then their number: what a person still reads.
+/// Default, unsourced.
 inline constexpr std::size_t kEntriesShown = 20;
 
-/// What reading or writing a format may need to be told.
+/// What reading or writing a format may need beside the file.
 struct FormatOptions {
   /// For formats that do not state their unit (LinuxCNC tables, some CSV): 1 or 25.4.
   std::optional<double> mm_per_unit;

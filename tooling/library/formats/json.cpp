@@ -96,7 +96,7 @@ class Parser {
     }
     if (!empty) {
       if (peek() != ',') {
-        refuse(std::string("'") + peek() + "' stands where the next element should be",
+        refuse(std::string("'") + peek() + "' where the next element should be",
                std::string("',' or '") + close + "'");
         return false;
       }
@@ -113,7 +113,7 @@ class Parser {
 
   bool key(Open& top) {
     if (peek() != '"') {
-      refuse(std::string("'") + peek() + "' stands where a key should be", "a key in double quotes");
+      refuse(std::string("'") + peek() + "' where a key should be", "a key in double quotes");
       return false;
     }
     std::string name = string();

@@ -9,7 +9,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "tooling/library/cutters/complete.h"
-#include "tooling/library/cutters/shape.h"
+#include "tooling/library/cutters/edge_kind.h"
 
 namespace capstan::tooling {
 namespace {

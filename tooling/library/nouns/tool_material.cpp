@@ -4,7 +4,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/assumed_tool_material.h"
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "tooling/library/cutters/complete.h"
 #include "tooling/library/cutters/generic.h"
 
@@ -48,7 +48,7 @@ std::optional<ToolMaterial> by_speed(const ToolMaterialHints& hints) {
   if (v > kOverCard * kCoatedCarbideOverBare * carbide) return std::nullopt;
   return ToolMaterial{
       Substrate::kCarbide,
-      assumed_source(Substrate::kCarbide, in_file + " is more than HSS bears (" + speed(hss) +
+      assumed_source(Substrate::kCarbide, in_file + " is more than HSS allows (" + speed(hss) +
                                               "), and a speed of carbide (" + speed(carbide) + ")")};
 }
 

@@ -24,8 +24,8 @@ struct ToolMaterial {
 };
 
 /// Chooses for a tool whose file states no tool material; class and diameter have to be set. What is settled
-/// holds. Else it is what alone bears, by the card of the work material, the speed that the file gives; else
-/// today's practice for the class and size. A speed that HSS bears keeps HSS: carbide in its place would be
+/// holds. Else it is what alone allows, by the card of the work material, the speed that the file gives; else
+/// today's practice for the class and size. A speed that HSS allows keeps HSS: carbide in its place would be
 /// run several times as fast, and a tool of HSS burns then. Nothing is taken for carbide only because HSS
 /// does not cut the material.
 [[nodiscard]] ToolMaterial likely_material(const model::Cutter& c, const ToolMaterialHints& hints);

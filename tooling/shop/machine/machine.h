@@ -31,7 +31,7 @@ inline constexpr std::string_view kDefaultMachine = "generic_vmc";
 [[nodiscard]] Result<model::Machine> in_gear(model::Machine m, std::string_view id);
 
 /// A LinuxCNC configuration: travel, velocities and accelerations of [AXIS_*]; an inch machine in mm. What it
-/// does not state (spindle, magazine) is a default, warned as MACHINE-DEFAULT and told in `sources`.
+/// does not state (spindle, magazine) is a default, warned as MACHINE-DEFAULT and recorded in `sources`.
 /// Fails  MACHINE-INI, and as `read_machine`.
 [[nodiscard]] Result<model::Machine> read_linuxcnc_ini(std::string_view text, const std::string& file,
                                                        Job& job);

@@ -91,9 +91,9 @@ bool unstated(State state, const WorkMaterial& card, const std::optional<StatedH
 
 }  // namespace
 
-Result<Judged> as_stated(const WorkMaterial& material, const std::string& named, const Beside& beside,
-                         const std::vector<WorkMaterial>& materials) {
-  Judged out{material, false};
+Result<ChosenCard> as_stated(const WorkMaterial& material, const std::string& named, const Beside& beside,
+                             const std::vector<WorkMaterial>& materials) {
+  ChosenCard out{material, false};
   const auto stated = hardest(beside.hardness, material);
   if (stated) {
     const auto& table = shipped_material_table();
@@ -129,7 +129,7 @@ Result<Judged> as_stated(const WorkMaterial& material, const std::string& named,
   return out;
 }
 
-bool is_used(const StatedHardness& stated, const Judged& judged) {
+bool is_used(const StatedHardness& stated, const ChosenCard& judged) {
   return judged.by_hardness && converts(stated.scale, judged.material.iso_group);
 }
 

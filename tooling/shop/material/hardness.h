@@ -16,7 +16,7 @@ struct Beside {
   std::vector<StatedState> states;
 };
 
-struct Judged {
+struct ChosenCard {
   model::WorkMaterial material;
   bool by_hardness = false;  ///< its card was chosen by a hardness, or held against one
 };
@@ -29,12 +29,12 @@ struct Judged {
 ///
 /// named   what the texts call the material, for messages
 /// Fails  MATERIAL-HARDNESS when the piece is harder than every card; MATERIAL-STATE for such a state.
-[[nodiscard]] Result<Judged> as_stated(const model::WorkMaterial& material, const std::string& named,
-                                       const Beside& beside,
-                                       const std::vector<model::WorkMaterial>& materials);
+[[nodiscard]] Result<ChosenCard> as_stated(const model::WorkMaterial& material, const std::string& named,
+                                           const Beside& beside,
+                                           const std::vector<model::WorkMaterial>& materials);
 
 /// Whether the hardness says something of this material: there is a conversion for its group, and a card to
 /// hold it against.
-[[nodiscard]] bool is_used(const StatedHardness& stated, const Judged& judged);
+[[nodiscard]] bool is_used(const StatedHardness& stated, const ChosenCard& judged);
 
 }  // namespace capstan::tooling

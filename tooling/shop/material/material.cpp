@@ -190,9 +190,9 @@ void add(const StatedWords& said, Beside& to) {
 }
 
 /// The card for the piece, and a warning for each hardness of its names that is not used.
-Result<Judged> judged(const WorkMaterial& m, const std::string& named, Beside of_names,
-                      const std::vector<std::string>& properties, const std::vector<WorkMaterial>& materials,
-                      Job& job) {
+Result<ChosenCard> judged(const WorkMaterial& m, const std::string& named, Beside of_names,
+                          const std::vector<std::string>& properties,
+                          const std::vector<WorkMaterial>& materials, Job& job) {
   const std::vector<StatedHardness> in_names = of_names.hardness;
   for (const std::string& p : properties) add(stated_words(p), of_names);
   auto out = as_stated(m, named, of_names, materials);

@@ -54,7 +54,7 @@ struct ChosenMaterial {
 /// WorkMaterial::sources then has "chosen": why it was taken; its measured sets are those of the alloy named.
 /// Fails  NAME-UNKNOWN for a name that nobody knows: it is never guessed. MATERIAL-NONE when `materials` is
 ///        empty. MATERIAL-HARDNESS for one that is harder than its cards, MATERIAL-STATE for a state that is.
-///        With `kRefused` it fails so for a family's word, too: who can choose a name is asked to.
+///        With `kRefused` it fails so for a family's word, too: whoever can choose a name must choose one.
 ///
 /// properties   what the part says of its material beside the name: "tensile strength = 900 N/mm2"
 [[nodiscard]] Result<ChosenMaterial> choose_material(const std::vector<std::string>& texts,

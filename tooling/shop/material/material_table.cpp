@@ -233,7 +233,7 @@ void cite(std::string& source, const Citations& citations, Fields& top) {
     const auto it = citations.find(name);
     if (it == citations.end())
       top.fault("DATA-SOURCE", "'@" + name + "' is no citation of this table", "citations",
-                top.line_of("citations"), "a name that stands under 'citations'");
+                top.line_of("citations"), "a name listed under 'citations'");
     out += it == citations.end() ? name : it->second;
     i = end;
   }

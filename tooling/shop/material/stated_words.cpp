@@ -268,40 +268,40 @@ constexpr std::array<std::string_view, 6> kOfAge = {"AGE", "PRECIPITATION", "DIS
 constexpr std::array<std::string_view, 5> kNot = {"UN", "NOT", "NON", "NICHT", "KEIN"};
 constexpr std::array<std::string_view, 3> kBeforehand = {"PRE", "VOR", "VORAB"};
 
-struct Said {
+struct StateInWords {
   State state;
   std::size_t first = 0, last = 0;  ///< words
 };
 
 /// The state that a word says with its neighbours.
-std::optional<Said> state_at(const std::vector<Word>& words, std::size_t i, const std::string& t) {
+std::optional<StateInWords> state_at(const std::vector<Word>& words, std::size_t i, const std::string& t) {
   const std::string_view w = words[i].text;
   const auto at = [&](std::size_t k) { return k < words.size() ? words[k].text : std::string_view(); };
   const std::string_view previous = i > 0 ? words[i - 1].text : std::string_view();
   const auto follows_number = [&] { return words[i].end < t.size() && digit(t[words[i].end]); };
-  if (w == "QT" && !follows_number()) return Said{State::kTempered, i, i};
-  if (w == "SOFT" || w == "WEICH") return Said{State::kSoft, i, i};
+  if (w == "QT" && !follows_number()) return StateInWords{State::kTempered, i, i};
+  if (w == "SOFT" || w == "WEICH") return StateInWords{State::kSoft, i, i};
   if (w == "Q" && (at(i + 1) == "T" || (at(i + 1) == "AND" && at(i + 2) == "T"))) {
     const std::size_t last = at(i + 1) == "T" ? i + 1 : i + 2;
     if (words[last].begin - words[i].end <= 5 &&
         (last == i + 2 || t.find_first_of("&+", words[i].end) < words[last].begin))
-      return Said{State::kTempered, i, last};
+      return StateInWords{State::kTempered, i, last};
   }
   if (w == "HEAT" && at(i + 1) == "TREATED")
-    return Said{previous == "SOLUTION" ? State::kSoft : State::kTempered, i, i + 1};
-  if (w == "HEATTREATED") return Said{State::kTempered, i, i};
+    return StateInWords{previous == "SOLUTION" ? State::kSoft : State::kTempered, i, i + 1};
+  if (w == "HEATTREATED") return StateInWords{State::kTempered, i, i};
   if (w == "H" && (i == 0 || words[i].begin == 0 || (!digit(t[words[i].begin - 1])))) {
     // ASTM A564: the conditions H900 and H925 of 17-4PH are harder than its card.
     for (const std::string_view condition : {"900", "925"}) {
       const std::size_t end = words[i].end + condition.size();
       if (t.compare(words[i].end, condition.size(), condition) == 0 && (end >= t.size() || !digit(t[end])))
-        return Said{State::kAged, i, i};
+        return StateInWords{State::kAged, i, i};
     }
   }
   for (const Stem& stem : kStems) {
     const auto p = w.rfind(stem.text);
     if (p == std::string_view::npos || w.size() - p - stem.text.size() > 2) continue;
-    Said out{stem.state, i, i};
+    StateInWords out{stem.state, i, i};
     if (stem.state == State::kSoft) {
       if (one_of(previous, kNot)) return std::nullopt;
       return out;

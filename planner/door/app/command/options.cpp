@@ -91,7 +91,7 @@ class CommandLine {
         ->excludes(quiet);
     app_.add_option(
             "--progress", raw_.progress,
-            "how progress is told: auto (a bar on a terminal), json (a line every half second) or none")
+            "how progress is shown: auto (a bar on a terminal), json (a line every half second) or none")
         ->check(CLI::IsMember(std::vector<std::string>{"auto", "json", "none"}));
     for (const service::Option& o : service::options()) {
       if (o.of_all_commands) option(&app_, o, service::Verb::kPlan);
@@ -115,14 +115,11 @@ class CommandLine {
       std::ostringstream text;
       const int code = app_.exit(e, text, text);
       if (code == 0) return {std::nullopt, {kDone, text.str(), {}}};
-      return wrong_usage(text.str(), e.what(), argc, argv);
+      return wrong_usage(e.what(), argc, argv);
     }
     std::string wrong = empty_value(app_);
     if (wrong.empty()) wrong = understand(raw_, out_);
-    if (!wrong.empty())
-      return {
-          std::nullopt,
-          {kUsage, wrong + "\nRun with --help for more information.\n", {.code = "USAGE", .message = wrong}}};
+    if (!wrong.empty()) return refused({.code = "USAGE", .message = wrong, .hint = see_help()});
     return {std::move(out_), {}};
   }
 
@@ -137,12 +134,24 @@ class CommandLine {
     app.footer(notes.empty() ? shown : notes + "\n\n" + shown);
     for (CLI::App* sub : app.get_subcommands({})) examples(*sub, called + " " + sub->get_name());
   }
-  Parsed wrong_usage(const std::string& text, std::string said, int argc, const char* const* argv) {
+  static Parsed refused(Diagnostic d) {
+    std::string text = "capstan: " + to_text(d) + "\n";
+    return {std::nullopt, {kUsage, std::move(text), std::move(d)}};
+  }
+  /// "`capstan plan --help` shows how", of the command that was named.
+  [[nodiscard]] std::string see_help() const {
+    std::string called = "capstan";
+    for (const CLI::App* at = &app_; !at->get_subcommands().empty();) {
+      at = at->get_subcommands().front();
+      called += " " + at->get_name();
+    }
+    return "`" + called + " --help` shows how";
+  }
+  Parsed wrong_usage(std::string said, int argc, const char* const* argv) {
     const std::span<const char* const> words{argv + std::min(argc, 1), argv + argc};
-    if (auto d = mistyped(command_reference(), words))
-      return {std::nullopt, {kUsage, "capstan: " + to_text(*d) + "\n", *d}};
+    if (auto d = mistyped(command_reference(), words)) return refused(*std::move(d));
     if (const auto end = said.find('\n'); end != std::string::npos) said.resize(end);
-    return {std::nullopt, {kUsage, text, {.code = "USAGE", .message = std::move(said)}}};
+    return refused({.code = "USAGE", .message = std::move(said), .hint = see_help()});
   }
 
   CLI::App* command(CLI::App& in, const std::string& name, const std::string& help, Command c) {
@@ -159,7 +168,7 @@ class CommandLine {
   }
   void outputs(CLI::App* sub, bool required) {
     auto* o = sub->add_option("-o,--output", out_.outputs,
-                              "a file to write, its kind told by its ending: " + service::written_text() +
+                              "a file to write, its ending says which kind: " + service::written_text() +
                                   "; or - for JSON on standard output; may be repeated");
     // One value each, so that a positional may follow.
     o->expected(1)->take_all();
@@ -310,7 +319,7 @@ class CommandLine {
     option(out, "shop", "the shop's settings: a file, or none");
     for (auto* sub : {import, convert, out}) {
       auto* o = sub->add_option("-o,--output", out_.outputs,
-                                "a file to write, its format told by its ending; may be repeated");
+                                "a file to write, its ending says which format; may be repeated");
       o->expected(1)->take_all();
       if (sub != import) o->required();
       force(sub);

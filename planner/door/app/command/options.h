@@ -87,7 +87,7 @@ struct ToolsOptions {
   bool report = false;               ///< every line of the loss report
 };
 
-/// What `serve` is told beside the options of `bind`.
+/// The options of `serve` beside those of `bind`.
 struct ServeOptions {
   std::string socket, tcp;
   std::vector<std::uint32_t> users;  ///< user ids
@@ -108,8 +108,8 @@ struct Options {
   bool json_diagnostics = false;     ///< one JSON object per line on standard error
   bool quiet = false;                ///< errors only, and the last line where not all is well
   bool verbose = false;              ///< each diagnostic, none folded
-  ProgressTold progress = ProgressTold::kAuto;
-  std::vector<std::string> words;    ///< tools: a filter, an id; cases: ids, a filter
+  ProgressForm progress = ProgressForm::kAuto;
+  std::vector<std::string> words;  ///< tools: a filter, an id; cases: ids, a filter
   ToolsOptions tools;
   std::string today;      ///< cases tune: a date
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`

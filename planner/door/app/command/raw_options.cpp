@@ -29,9 +29,9 @@ std::string understand(const RawOptions& raw, Options& out) {
   if (std::string wrong = service::contradiction(request); !wrong.empty()) return wrong;
   request.backends = optimise::all_backends();
   out.json_diagnostics = raw.diagnostics == "json";
-  out.progress = raw.progress == "json"   ? ProgressTold::kJson
-                 : raw.progress == "none" ? ProgressTold::kNone
-                                          : ProgressTold::kAuto;
+  out.progress = raw.progress == "json"   ? ProgressForm::kJson
+                 : raw.progress == "none" ? ProgressForm::kNone
+                                          : ProgressForm::kAuto;
   return {};
 }
 

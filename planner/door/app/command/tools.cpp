@@ -192,7 +192,7 @@ class Tools {
             (known.empty() ? "" : ", ") + std::string(f.name) + " (" + std::string(f.endings.front()) + ")";
       }
       return s_.end({.code = "APP-FORMAT",
-                     .message = wanted.empty() ? "the ending tells no format of tool libraries"
+                     .message = wanted.empty() ? "no format of tool libraries has this ending"
                                                : "'" + wanted + "' is no format that can be written",
                      .file = path,
                      .expected = known},

@@ -98,13 +98,15 @@ Result<std::optional<Node>> step_into(const Model& m, const Node& from, const Qu
   if (!at.set()) {
     if (mapped) return std::nullopt;
     if (list_size(m, from))
-      return fault(q, step, "'" + name + "' is asked of a list", "an index [0], or [*] for all of it");
+      return fault(q, step, "'" + name + "' is an attribute, and this is a list",
+                   "an index [0], or [*] for all of it");
     const std::string what = node_text(m, from);
     if (what == "absent")
       return fault(q, step,
-                   "'" + name + "' is asked of " + std::string(from.attribute->name) +
+                   "'" + name + "' is an attribute of " + std::string(from.attribute->name) +
                        ", which is absent on " + label(m, from.object));
-    return fault(q, step, "'" + name + "' is asked of a value (" + what + "), which has no attributes");
+    return fault(q, step,
+                 "'" + name + "' is an attribute, and this is a value (" + what + "), which has none");
   }
   if (m.holds<model::KeptInstance>(at)) {
     if (mapped) return std::nullopt;
@@ -125,7 +127,7 @@ Result<std::vector<Node>> index_into(const Model& m, const Node& from, const Que
   const auto size = list_size(m, from);
   if (!size) {
     if (mapped) return std::vector<Node>{};
-    return fault(q, step, "'" + step.name + "' is asked of what is no list: " + node_text(m, from));
+    return fault(q, step, "'" + step.name + "' needs a list; this is none: " + node_text(m, from));
   }
   if (step.kind == QueryStep::Kind::kAll) {
     std::vector<Node> out;
@@ -158,7 +160,7 @@ std::vector<AnyRef> objects_in(const Model& m, const Node& node) {
 Result<Node> filtered(const Model& m, const Node& from, const Query& q, const QueryStep& step, bool mapped) {
   const auto all = objects_in(m, from);
   if (all.empty() && !mapped && !from.is_list && !list_size(m, from))
-    return fault(q, step, "a condition is asked of what is no object and no list: " + node_text(m, from));
+    return fault(q, step, "a condition needs an object or a list; this is neither: " + node_text(m, from));
   auto passing = objects_where(m, all, q, step.condition);
   if (!passing) return tl::unexpected(passing.error());
   return objects_node(*std::move(passing));

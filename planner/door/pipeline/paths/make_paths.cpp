@@ -319,7 +319,7 @@ class PathMaker {
   step::Means means_;
   TryCutter cutter_;
   Learned learned_;
-  step::CasesTold told_;
+  step::CaseTally told_;
   std::set<std::string> further_;  ///< cutters that were taken in place of those in `used_`
   std::set<AnyRef> failed_;        ///< features with a step that failed in this try
   std::set<AnyRef> resting_;       ///< features that rest on those

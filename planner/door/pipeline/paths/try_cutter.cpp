@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/ground/base/earlier_diagnostics.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/base/said_before.h"
 #include "planner/making/step/cut/ranking.h"
 #include "planner/making/step/record/results.h"
 #include "planner/model/plan/decision/condemned.h"
@@ -78,7 +78,7 @@ Result<step::MeasuredCut> TryCutter::with_cutter(StepDraft& step, std::size_t i)
   const auto other = step::constant_cut(p_, step, candidate, means_);
   const bool inwards = step::rings_inwards(p_, step, means_);
   if (!other && !inwards) return with_strategy(step, i);
-  const SaidBefore before(means_.job);
+  const EarlierDiagnostics before(means_.job);
   return quickest_way(step, i, inwards, other);
 }
 

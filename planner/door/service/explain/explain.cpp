@@ -329,7 +329,7 @@ void overview_head(const Plan& plan, std::string& out) {
     for (const auto& a : assumed)
       tools += (tools.empty() ? "" : ", ") + ("'" + a.tool) + "' " + std::string(model::to_text(a.substrate));
     line("tools   ", "made of what nobody states, and taken as: " + tools +
-                         "; the reasons stand below; --assume tool-material=carbide or =hss settles it");
+                         "; the reasons are below; --assume tool-material=carbide or =hss settles it");
   }
   for (const model::CornerRest& r : model::corner_rests(plan))
     line("rest    ", "a radius of " + trimmed(r.radius_mm, 4) + " mm stays in the corners of '" + r.feature +

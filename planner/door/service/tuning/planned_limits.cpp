@@ -12,7 +12,7 @@
 #include "planner/model/features/quality.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/life/life.h"
@@ -93,7 +93,7 @@ optimise::CutQuestion question_of(const model::Plan& plan, const model::StepResu
   q.depth_mm = step.axial_depth_mm;
   q.width_mm = step.radial_depth_mm;
   // The most that a tooth may take is what the cutter bears; where nobody says what that is, the start value.
-  const double borne = model::borne_feed_mm(cutter, plan.material);
+  const double borne = model::largest_tooth_feed_mm(cutter, plan.material);
   q.fz_start_mm = borne > 0.0 ? borne / optimise::feed_override(q)
                               : tooling::start_values(cutter, plan.material, plan.machine).fz_mm;
   if (finishes && !(asked.bound.allowance_side_mm > 0.0 && asked.bound.allowance_bottom_mm > 0.0))

@@ -9,10 +9,10 @@ namespace capstan::service {
 /// A step of a plan as tuning sees it: its question, what is expected of it, and the planner's own limits.
 ///
 /// Held     peak force against the holding, power and torque of the spindle, bending of tip and wall,
-///          roughness asked, the chip that the cutter bears, speeds of spindle and cutter, feeds of the axes,
+///          roughness asked, the largest chip of the cutter, speeds of spindle and cutter, feeds of the axes,
 ///          chatter where the machine states modes; by the largest load of the planned path.
 /// Not held the start values of speed and feed, which are what tuning is for (a feed is, where nobody says
-///          what the cutter bears), and an edge's life, which tuning watches as wear.
+///          the largest of the cutter), and an edge's life, which tuning watches as wear.
 ///
 /// /// Fails   CASE-STEP as casebase::case_of.
 [[nodiscard]] Result<casebase::tune::PlannedStep> planned_step(const model::Plan& plan,

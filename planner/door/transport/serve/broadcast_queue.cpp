@@ -31,9 +31,9 @@ void BroadcastQueue::plan_changed(bool bound) {
   fresh_ = fresh_ || !bound;
 }
 
-Result<BroadcastQueue::Told> BroadcastQueue::tell(const service::ControlEvent& event, bool over,
-                                                  std::size_t most, std::chrono::milliseconds patience,
-                                                  const Make& make) {
+Result<BroadcastQueue::Queued> BroadcastQueue::tell(const service::ControlEvent& event, bool over,
+                                                    std::size_t most, std::chrono::milliseconds patience,
+                                                    const Make& make) {
   const std::lock_guard lock(mutex_);
   if (stale_) {
     if (auto made = make(otherwise_)) {
@@ -46,7 +46,7 @@ Result<BroadcastQueue::Told> BroadcastQueue::tell(const service::ControlEvent& e
     return fail({.code = "BROADCAST-PLAN",
                  .message = "there is no plan whose broadcasts could be sent, or it is being bound",
                  .hint = "bring a plan first"});
-  Told told;
+  Queued told;
   if (over) {
     told.lines = broadcasts_->finish(event);
   } else {

@@ -35,7 +35,7 @@ class BroadcastQueue {
 
   using Make = std::function<std::optional<service::Broadcasts>(
       const std::optional<service::DefaultContent>& otherwise)>;
-  struct Told {
+  struct Queued {
     std::vector<service::BroadcastLine> lines;
     std::string
         warning;  ///< why the file did not get them, or lines that no reader took were dropped; a line
@@ -43,8 +43,8 @@ class BroadcastQueue {
   /// The lines that an event makes due (`over`: the run is); they are queued, at most `most`. `make` gives
   /// the broadcasts of the plan at hand, or nothing while they cannot be had: then those from before count.
   /// Fails  as Broadcasts; BROADCAST-PLAN: no plan is there.
-  [[nodiscard]] Result<Told> tell(const service::ControlEvent& event, bool over, std::size_t most,
-                                  std::chrono::milliseconds patience, const Make& make);
+  [[nodiscard]] Result<Queued> tell(const service::ControlEvent& event, bool over, std::size_t most,
+                                    std::chrono::milliseconds patience, const Make& make);
   /// Whether all of these lines that wait were replied to in time.
   [[nodiscard]] bool replied(const std::vector<service::BroadcastLine>& lines,
                              std::chrono::steady_clock::time_point until);

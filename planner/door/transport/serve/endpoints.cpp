@@ -103,7 +103,8 @@ Endpoints::Found Endpoints::find(const HttpRequest& request) {
     methods += (methods.empty() ? "" : ", ") + std::string(e.method);
   }
   if (!methods.empty())
-    return {nullptr, {}, refused(405, "SERVE-METHOD", "this path is asked otherwise", "use " + methods)};
+    return {
+        nullptr, {}, refused(405, "SERVE-METHOD", "this path does not answer this method", "use " + methods)};
   return {nullptr, {}, refused(404, "SERVE-PATH", "there is no such path", "docs/serve.md has all")};
 }
 

@@ -11,22 +11,23 @@ using service::Code;
 
 namespace {
 
-struct Said {
+struct ReplyStatus {
   Code code;
   std::string_view status;
   unsigned http;
 };
-constexpr std::array kSaid{
-    Said{Code::kDone, "OK", 200},
-    Said{Code::kUsage, "USAGE", 400},
-    Said{Code::kUnreadable, "UNREADABLE", 422},
-    Said{Code::kImpossible, "IMPOSSIBLE", 409},
-    Said{Code::kLate, "LATE", 504},
-    Said{Code::kFault, "FAULT", 500},
+constexpr std::array kStatuses{
+    ReplyStatus{Code::kDone, "OK", 200},
+    ReplyStatus{Code::kUsage, "USAGE", 400},
+    ReplyStatus{Code::kUnreadable, "UNREADABLE", 422},
+    ReplyStatus{Code::kImpossible, "IMPOSSIBLE", 409},
+    ReplyStatus{Code::kLate, "LATE", 504},
+    ReplyStatus{Code::kFault, "FAULT", 500},
 };
-const Said& said(Code code) {
-  const auto* at = std::find_if(kSaid.begin(), kSaid.end(), [&](const Said& s) { return s.code == code; });
-  return at == kSaid.end() ? kSaid.back() : *at;
+const ReplyStatus& reply_of(Code code) {
+  const auto* at =
+      std::find_if(kStatuses.begin(), kStatuses.end(), [&](const ReplyStatus& s) { return s.code == code; });
+  return at == kStatuses.end() ? kStatuses.back() : *at;
 }
 
 std::string spelled(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -37,7 +38,7 @@ std::string json_of(const std::string& text) { return spelled(text); }
 std::string json_of(double value) { return spelled(value); }
 std::string json_of(const std::vector<std::string>& texts) { return spelled(texts); }
 
-std::string_view status_of(Code code) { return said(code).status; }
+std::string_view status_of(Code code) { return reply_of(code).status; }
 
 HttpReply object_reply(unsigned status, const Members& members) {
   std::string body;
@@ -47,10 +48,10 @@ HttpReply object_reply(unsigned status, const Members& members) {
 
 HttpReply of_call(Code code, const std::string& message, const Members& more, unsigned status) {
   Members members = {{"code", std::to_string(static_cast<int>(code))},
-                     {"status", json_of(std::string(said(code).status))},
+                     {"status", json_of(std::string(reply_of(code).status))},
                      {"message", json_of(message)}};
   members.insert(members.end(), more.begin(), more.end());
-  return object_reply(status == 0 ? said(code).http : status, members);
+  return object_reply(status == 0 ? reply_of(code).http : status, members);
 }
 
 HttpReply refused(unsigned status, const Diagnostic& what) {

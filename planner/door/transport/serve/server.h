@@ -11,7 +11,7 @@
 
 namespace capstan::transport {
 
-/// What `capstan serve` is told.
+/// The options of `capstan serve`.
 struct ServeSettings {
   std::string socket;                ///< path of the UNIX socket
   std::vector<std::uint32_t> users;  ///< who may connect beside the server's own user

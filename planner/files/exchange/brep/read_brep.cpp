@@ -35,8 +35,8 @@ std::vector<std::string> places() {
   };
   std::error_code none;
   beside(fs::read_symlink("/proc/self/exe", none));
-  // In a library that another program links: beside that. Of a program the loader gives the name by which it was
-  // called, which says nothing of its folder: no file of the working folder may be run.
+  // In a library that another program links: beside that. Of a program the loader gives the name by which it
+  // was called, which says nothing of its folder: no file of the working folder may be run.
   Dl_info library{};
   if (::dladdr(reinterpret_cast<const void*>(&places), &library) != 0 && library.dli_fname != nullptr &&
       fs::path(library.dli_fname).is_absolute())
@@ -141,7 +141,7 @@ void join(const p21::File& file, Brep& brep, Job& job) {
   job.report(
       {.code = "BREP-ID",
        .severity = Severity::kWarning,
-       .message = counted(wrong, "face", "faces") + " of the shape cannot be told from the file's instances",
+       .message = counted(wrong, "face", "faces") + " of the shape cannot be traced to the file's instances",
        .file = file.name()});
 }
 

@@ -10,9 +10,9 @@ using model::AnyRef;
 
 namespace {
 
-class Opening {
+class OpenDecisions {
  public:
-  Opening(model::Plan& plan, Reporter& reporter) : plan_(plan), m_(plan.model), reporter_(reporter) {}
+  OpenDecisions(model::Plan& plan, Reporter& reporter) : plan_(plan), m_(plan.model), reporter_(reporter) {}
 
   void run(const Marks& reached) {
     std::vector<AnyRef> technologies;
@@ -87,7 +87,7 @@ class Opening {
 }  // namespace
 
 void open_what_is_left_out(model::Plan& plan, const Marks& reached, Reporter& reporter) {
-  Opening(plan, reporter).run(reached);
+  OpenDecisions(plan, reporter).run(reached);
 }
 
 }  // namespace capstan::exchange

@@ -38,7 +38,13 @@ class Reporter {
     report(std::move(d));
   }
   [[nodiscard]] std::size_t errors() const { return errors_; }
-  [[nodiscard]] const std::string& first_error() const { return first_error_; }
+  /// The failure of a reader that has reported errors: how many, and the first. Needs  errors() > 0.
+  [[nodiscard]] Diagnostic failure(std::string code) const {
+    return {.code = std::move(code),
+            .message = std::to_string(errors_) + (errors_ == 1 ? " fault" : " faults") +
+                       " in the plan; the first: " + first_error_,
+            .file = file_};
+  }
   /// Says how many were left out.
   void finish() {
     for (const auto& [code, n] : count_) {

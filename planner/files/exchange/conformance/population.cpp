@@ -42,7 +42,7 @@ std::uint32_t Population::simple(const p21::Instance& i) {
     layout.known.push_back(true);
     if (dictionary_.abstract(entity))
       layout.faults.push_back({"SCH-COMPLEX",
-                               std::string(keyword) + " is abstract and cannot stand alone",
+                               std::string(keyword) + " is abstract and cannot be instantiated alone",
                                {},
                                "an instance of one of its subtypes"});
     return at;

@@ -121,7 +121,8 @@ class Checker {
       slot_ = &slots[i];
       const Value v = record.parameters[i];
       if (slot_->derived) {
-        if (!v.is(Kind::kDerived)) fault("SCH-DERIVED", spelled(v) + " stands for what is derived", "*");
+        if (!v.is(Kind::kDerived))
+          fault("SCH-DERIVED", spelled(v) + " is written where the value is derived", "*");
       } else if (v.is(Kind::kOmitted)) {
         if (!slot_->optional) fault("SCH-MANDATORY", "a mandatory value is missing", describe(*slot_->type));
       } else {
@@ -138,9 +139,9 @@ class Checker {
 
   void value(const Type& named, const Value& v, int depth) {
     if (depth > kMaxDepth) return fault("SCH-TYPE", "values are nested too deeply");
-    if (v.is(Kind::kOmitted)) return fault("SCH-MANDATORY", "$ stands inside a value", describe(named));
+    if (v.is(Kind::kOmitted)) return fault("SCH-MANDATORY", "$ is inside a value", describe(named));
     if (v.is(Kind::kDerived))
-      return fault("SCH-DERIVED", "* stands for what is not derived", describe(named));
+      return fault("SCH-DERIVED", "* is written where nothing is derived", describe(named));
     const Type& type = behind(named);
     switch (type.kind) {
       case TypeKind::kInteger:

@@ -252,7 +252,7 @@ class Conversion {
         object_,
         {.code = "EXC-REFERENCE",
          .severity = told ? Severity::kWarning : Severity::kError,
-         .message = name() + " points to #" + std::to_string(v.reference()) + ", a " +
+         .message = name() + " points to #" + std::to_string(v.reference()) + ", which is " +
                     std::string(model::noun_type(target.type).keyword) + (told ? "; taken as missing" : ""),
          .expected = expected},
         a_.name == "its_material" && told ? std::string_view{} : a_.name);

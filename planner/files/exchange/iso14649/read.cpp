@@ -93,13 +93,7 @@ Result<model::Plan> read_iso14649(const p21::File& file, Job& job, bool strict) 
     settle_written(file, seal, "the file's header", plan, reporter);
   }
   reporter.finish();
-  if (reporter.errors() != 0) {
-    return fail({.code = "EXC-ISO14649",
-                 .message = std::to_string(reporter.errors()) + " fault" +
-                            (reporter.errors() == 1 ? "" : "s") +
-                            " in the plan; the first: " + reporter.first_error(),
-                 .file = file.name()});
-  }
+  if (reporter.errors() != 0) return fail(reporter.failure("EXC-ISO14649"));
   return plan;
 }
 

@@ -28,7 +28,7 @@ using namespace path_columns;
 
 /// Each once, numbered from 1 as met.
 template <class T>
-class Shared {
+class NumberedColumns {
  public:
   std::size_t number(const std::shared_ptr<const T>& p) {
     if (!p) return 0;
@@ -242,9 +242,9 @@ class Writing {
   const model::Plan& plan_;
   const model::Model& written_;
   const FileName& name_of_;
-  Shared<CutterPath> paths_;
-  Shared<model::FeedSchedule> schedules_;
-  Shared<model::SectionSeries> sections_;
+  NumberedColumns<CutterPath> paths_;
+  NumberedColumns<model::FeedSchedule> schedules_;
+  NumberedColumns<model::SectionSeries> sections_;
   std::map<AnyRef, bool> told_;
 };
 

@@ -241,12 +241,12 @@ class StepBuilder {
     if (m_.holds<model::DisplayMessage>(at)) return {};
     if (m_.holds<model::NcFunction>(at)) {
       return bad(at, "the function " + std::string(model::noun_type(at.type).keyword) +
-                         " stands among toolpaths, where it is not carried out");
+                         " is among toolpaths, where it is not carried out");
     }
     const auto* t = m_.get<model::Toolpath>(at);
     if (t == nullptr) return bad(at, "a toolpath of an unknown kind");
     if (const auto* stop = m_.get<model::Feedstop>(at)) {
-      if (out_.path.size() == 0) return bad(at, "a feedstop stands before the first move");
+      if (out_.path.size() == 0) return bad(at, "a feedstop comes before the first move");
       out_.path.dwell();
       return settle(at, *t, stop);
     }

@@ -10,6 +10,7 @@
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/nouns/placed_nouns.h"
 
 namespace capstan::exchange {
 
@@ -21,20 +22,6 @@ using model::MoveKind;
 using model::MoveRole;
 
 namespace {
-
-model::Ref<model::CartesianPoint> add_point(model::Model& m, Vec3 p) {
-  model::CartesianPoint noun;
-  noun.name = "";
-  noun.coordinates = {{p.x + 0.0, p.y + 0.0, p.z + 0.0}, true};
-  return m.add(std::move(noun));
-}
-
-model::Ref<model::Direction> add_direction(model::Model& m, Vec3 d) {
-  model::Direction noun;
-  noun.name = "";
-  noun.direction_ratios = {{d.x + 0.0, d.y + 0.0, d.z + 0.0}, true};
-  return m.add(std::move(noun));
-}
 
 /// Curves for moves first..last of a path, in the frame's local coordinates.
 class CurveWriter {
@@ -105,18 +92,17 @@ class CurveWriter {
   model::Ref<model::BoundedCurve> polyline(const std::vector<Vec3>& points, std::string name = "") {
     model::Polyline c;
     c.name = std::move(name);
-    for (const Vec3 p : points) c.points.push_back(add_point(m_, p));
+    for (const Vec3 p : points) c.points.push_back(model::add_point(m_, p));
     return m_.add(std::move(c));
   }
 
   model::Ref<model::BoundedCurve> arc(std::size_t i) {
     const Vec3 a = p_.point(i - 1), b = p_.point(i);
-    model::Axis2Placement3d place;
-    place.name = "";
-    place.location = add_point(m_, f_.to_local({p_.cx[i], p_.cy[i], b.z}));
-    place.axis = add_direction(m_, f_.direction_to_local({0.0, 0.0, 1.0}));
-    place.ref_direction = add_direction(m_, f_.direction_to_local({1.0, 0.0, 0.0}));
-    const auto position = m_.add(std::move(place));
+    Placement centre;
+    centre.origin = f_.to_local({p_.cx[i], p_.cy[i], b.z});
+    centre.z = f_.direction_to_local({0.0, 0.0, 1.0});
+    centre.x = f_.direction_to_local({1.0, 0.0, 0.0});
+    const auto position = model::add_placement(m_, centre);
     const double radius = std::hypot(b.x - p_.cx[i], b.y - p_.cy[i]);
     model::TrimmedCurve c;
     c.name = "";
@@ -144,7 +130,7 @@ class CurveWriter {
   model::SelectList trim(Vec3 p) {
     model::SelectList out;
     out.given = true;
-    out.items.push_back({.ref = add_point(m_, f_.to_local(p)), .type = {}, .real = {}, .text = {}});
+    out.items.push_back({.ref = model::add_point(m_, f_.to_local(p)), .type = {}, .real = {}, .text = {}});
     return out;
   }
 

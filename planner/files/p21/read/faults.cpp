@@ -53,14 +53,15 @@ Status Parser::summary() {
   }
   if (errors_ == 0) return {};
   const std::string count = errors_ == 1 ? "1 fault" : std::to_string(errors_) + " faults";
-  return fail({.code = first_error_.code,
-               .message = "is not a readable Part 21 file: " + count +
-                          (errors_ >= limits_.faults ? ", where reading stopped" : "") +
-                          ", the first being: " + first_error_.message,
-               .file = store_.name,
-               .line = first_error_.line,
-               .instance = first_error_.instance,
-               .hint = "correct the faults reported, or export the file anew"});
+  return fail(
+      {.code = first_error_.code,
+       .message = "the file cannot be read as Part 21: " + count +
+                  (errors_ >= limits_.faults ? ", where reading stopped" : "") + "; the first: " +
+                  (first_error_.instance != 0 ? "#" + std::to_string(first_error_.instance) + " " : "") +
+                  first_error_.message,
+       .file = store_.name,
+       .line = first_error_.line,
+       .hint = "correct the faults reported, or export the file anew"});
 }
 
 }  // namespace capstan::p21::detail

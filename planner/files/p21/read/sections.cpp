@@ -139,7 +139,7 @@ void Parser::check_header() {
       if (keyword != r.keyword) continue;
       at_.line = store_.header[i].line;
       if (++r.seen == 2) {
-        fault({.code = "P21-STRUCTURE", .message = std::string(keyword) + " stands twice in the header"});
+        fault({.code = "P21-STRUCTURE", .message = std::string(keyword) + " occurs twice in the header"});
       }
       const std::size_t count = length_of(part.parameters);
       if (count != r.parameters) {
@@ -281,7 +281,7 @@ void Parser::after_the_end() {
     skip();
     if (at_end()) return;
     if (!peek_word("SIGNATURE")) {
-      warn("P21-STRUCTURE", "what stands behind END-ISO-10303-21; is not read");
+      warn("P21-STRUCTURE", "what follows END-ISO-10303-21; is not read");
       return;
     }
     signature_section(offset(at_.p), at_.line);

@@ -14,7 +14,7 @@ struct TextIssue {
 };
 struct TextIssues {
   TextIssue warning;  ///< readable, not as the standard says
-  TextIssue error;    ///< what was meant cannot be told
+  TextIssue error;    ///< what was meant is not known
 };
 
 /// Appends the UTF-8 of what stands between the quotes of a Part 21 string.

@@ -13,7 +13,7 @@
 namespace capstan::given {
 
 /// Why no program of this machine can have a feed, speed or depth that a person sets, as a clause with the
-/// limit: "above the 10000 mm/min of the axes of 'generic_vmc'"; nothing: it can. What a cut bears of it the
+/// limit: "above the 10000 mm/min of the axes of 'generic_vmc'"; nothing: it can. What a cut allows of it the
 /// check of the plan says.
 ///
 /// Feed   no more than the fastest linear axis, no less than a feed word of the control can say.

@@ -14,6 +14,13 @@
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/mechanics/constants.h"
 
+// The cut of a step. Depths are whole numbers of equal levels: the fewest that are allowed, then more, as
+// long as they get better. At one depth the search (search.h) runs over speed, feed and width of cut. Limits
+// with corners cut its range into pieces that are smooth inside; each piece is solved, and the best solution
+// counts. Where the machine states its modes, slower speeds are tried one by one until a lobe is deep enough.
+// The answer is rounded to what is programmed and measured anew. Each limit that holds it is eased by a
+// tenth, to say what that would save.
+
 namespace capstan::optimise {
 namespace {
 

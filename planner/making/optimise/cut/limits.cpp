@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/life/arc_speed.h"
@@ -71,7 +71,7 @@ std::optional<mechanics::SpindleCurve> curve_of(const CutQuestion& q) {
 double largest_fz(const CutQuestion& q) {
   double fz = q.fz_start_mm;
   // The start value is what is planned for; the cutter's largest must hold with the override, too.
-  if (const double most = model::borne_feed_mm(q.cutter, q.material); most > 0.0)
+  if (const double most = model::largest_tooth_feed_mm(q.cutter, q.material); most > 0.0)
     fz = std::min(fz, most / feed_override(q));
   return fz;
 }

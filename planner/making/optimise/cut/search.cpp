@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/force/immersion.h"
 
 namespace capstan::optimise {
@@ -80,7 +80,7 @@ void Search::add_feed() {
     double most = largest * (is_milling(q_.kind) ? kMostThinning : 1.0);
     // What a cutter bears is a chip, stated as the feed of a wide cut. Where the width is kept, its own limit
     // holds the chip.
-    const double borne = model::borne_feed_mm(q_.cutter, q_.material);
+    const double borne = model::largest_tooth_feed_mm(q_.cutter, q_.material);
     if (borne > 0.0 && !q_.constant_engagement) most = std::min(most, borne / feed_override(q_));
     most *= ease_of(q_, kFeed);
     const double ratio = q_.least_feed_ratio > 1e-3 && q_.least_feed_ratio <= 1.0 ? q_.least_feed_ratio : 0.1;

@@ -12,7 +12,7 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/making/step/record/results.h"
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 
 namespace capstan::step {
 namespace {
@@ -124,7 +124,7 @@ std::optional<FromCases> start_from_cases(const PlanSoFar& p, const StepDraft& s
   if (near) take_proven(out, *near, heaviest(table, q), least_fz_mm);
   if (!out.bind()) return out;
   Values& start = out.advice.start;
-  if (const double borne = model::borne_feed_mm(q.cutter, q.material); borne > 0.0)
+  if (const double borne = model::largest_tooth_feed_mm(q.cutter, q.material); borne > 0.0)
     start.fz_mm = std::min(start.fz_mm, borne);
   q.vc_start_m_min = start.vc_m_min;
   q.fz_start_mm = start.fz_mm;
@@ -173,7 +173,7 @@ model::Reason reason_of(const FromCases& from) {
     text = "starts from the middle of " + std::string(to_text(a.origin)) +
            " cuts that went well: " + words_of({a.centre.vc_m_min, a.centre.fz_mm, 0.0, 0.0});
     if (a.held_back)
-      text += ", held at what the table bears (" + trimmed(casebase::kCaseReach, 2) +
+      text += ", held at the largest value of the table (" + trimmed(casebase::kCaseReach, 2) +
               " times its values after " + std::to_string(casebase::kRepeats) + " repeats, before that once)";
     if (a.centre.fz_mm < from.table_fz_mm && !a.lowered && a.start.fz_mm >= from.table_fz_mm)
       text += ", with the table's chip, which their paths may have had in corners";

@@ -57,7 +57,7 @@ struct FromCases {
 
 /// What cutting with this cutter at its start values came to, near this step. Simulated cases do not count.
 struct Experience {
-  int good = 0, bad = 0;  ///< cuts, each told once
+  int good = 0, bad = 0;  ///< cuts, each counted once
   double success = 0.0;   ///< probability, of the start values
   /// By what its estimated time is to be taken: longer where failed cuts lower its values, and by the cuts
   /// that are made in vain, 1 / success, against those of a cutter of which nothing is known.

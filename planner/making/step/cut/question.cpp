@@ -13,13 +13,13 @@
 #include "planner/making/toolpath/region/form/undercut.h"
 #include "planner/model/features/fit/general.h"
 #include "planner/model/features/raw_piece.h"
-#include "planner/model/plan/borne_feed.h"
 #include "planner/model/plan/cutter/ramp.h"
 #include "planner/model/plan/decision/by_planning.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/holding_constants.h"
 #include "planner/physics/mechanics/stability.h"
-#include "tooling/library/cutters/shape.h"
+#include "tooling/library/cutters/edge_kind.h"
 #include "tooling/selection/select.h"
 
 namespace capstan::step {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/ground/base/earlier_diagnostics.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/base/said_before.h"
 #include "planner/ground/memo/remembered.h"
 #include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/step/cut/question.h"
@@ -72,7 +72,7 @@ Result<toolpath::GeneratedPath> generated(const toolpath::PathJob& task, const M
   if (means.memo == nullptr) return toolpath::generate(task, means.job);
   const auto make = [&]() -> Result<Generated> {
     Generated out;
-    const SaidBefore before(means.job);
+    const EarlierDiagnostics before(means.job);
     auto path = toolpath::generate(task, means.job);
     out.said = means.job.take_diagnostics();
     if (path) {

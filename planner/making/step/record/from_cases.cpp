@@ -53,7 +53,7 @@ model::Decision* decision_of(model::Plan& plan, const StepDraft& step) {
 
 /// The cut by the table, and about how long it would take.
 void tell_without(model::Plan& plan, const StepDraft& step, const PathWithCut& made,
-                  const optimise::FeedQuestion& asked, Cuts& cuts, CasesTold& told) {
+                  const optimise::FeedQuestion& asked, Cuts& cuts, CaseTally& told) {
   const FromCases& from = *made.cases;
   std::string what = "the table without cases: " +
                      words_of({from.table_vc_m_min, from.table_fz_mm, from.table_ap_most_mm, 0.0});
@@ -87,7 +87,7 @@ std::string failed_text(const casebase::Advice& a) {
 }
 
 /// Chains and cutters that failed cuts put behind what the step has.
-void tell_behind(const model::Plan& plan, const StepDraft& step, CasesTold& told, Job& job) {
+void tell_behind(const model::Plan& plan, const StepDraft& step, CaseTally& told, Job& job) {
   std::vector<model::Rejected> all = step.rejected_tools;
   if (const auto* d = plan.ledger.find(step.step, "its_operation"); d != nullptr)
     all.insert(all.end(), d->rejected.begin(), d->rejected.end());
@@ -110,7 +110,7 @@ constexpr const char* kWhatToDo =
 }  // namespace
 
 void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, const PathWithCut& made,
-                const optimise::FeedQuestion& asked, Cuts& cuts, CasesTold& told, Job& job) {
+                const optimise::FeedQuestion& asked, Cuts& cuts, CaseTally& told, Job& job) {
   if (p.wishes.cases == nullptr || step.shapes.empty() || plan.steps.empty()) return;
   tell_behind(plan, step, told, job);
   if (made.cases && !made.cases->why_unasked.empty())
@@ -155,7 +155,7 @@ void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, co
               .hint = std::string("re-open the technology (--reopen), or ") + kWhatToDo});
 }
 
-void tell_all_cases(const CasesTold& told, Job& job) {
+void tell_all_cases(const CaseTally& told, Job& job) {
   const int all = told.leaning + told.weighed + told.none;
   if (all == 0) return;
   std::string text = std::to_string(told.leaning) + " of " +

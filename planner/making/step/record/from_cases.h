@@ -8,12 +8,12 @@
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/step/path/attempt.h"
 
-// What is said of the cases that a step's cut leans on.
+// What the plan reports of the cases that a step's cut leans on.
 
 namespace capstan::step {
 
-/// What cases came to in a plan, for one line at its end.
-struct CasesTold {
+/// Counts of what cases changed in a plan, for one line at its end.
+struct CaseTally {
   int leaning = 0;  ///< steps that start from near cases
   int proven = 0;   ///< of these, from tuned values
   int lowered = 0;  ///< of these, below failed ones
@@ -32,9 +32,9 @@ struct CasesTold {
 /// makes no question. `asked`: what the step's feeds were scheduled by. Adds to `told`. Nothing where there
 /// is no case base.
 void tell_cases(model::Plan& plan, const PlanSoFar& p, const draft::StepDraft& step, const PathWithCut& made,
-                const optimise::FeedQuestion& asked, Cuts& cuts, CasesTold& told, Job& job);
+                const optimise::FeedQuestion& asked, Cuts& cuts, CaseTally& told, Job& job);
 
 /// One line for the plan (CASE-USED); nothing where no step was asked.
-void tell_all_cases(const CasesTold& told, Job& job);
+void tell_all_cases(const CaseTally& told, Job& job);
 
 }  // namespace capstan::step

@@ -3,6 +3,10 @@
 
 #include "planner/making/toolpath/region/patterns.h"
 
+// Parallel passes. Scan lines a step-over apart are cut by the boundary of the centres into passes. From the
+// end of a pass the cutter goes along the boundary, the shorter way, to a pass on the next line that is not
+// cut yet, until none is left there; then the next chain begins.
+
 namespace capstan::toolpath {
 
 using geometry::Loop;

@@ -99,7 +99,7 @@ class SectionCutter {
   [[nodiscard]] tl::unexpected<Diagnostic> no_fit() const {
     return fail({.code = "TPA-NO-FIT",
                  .message = "cutter " + task_.cutter.id + " (" + trimmed(2.0 * tip_.radius_mm, 3) +
-                            " mm) is wider than " + task_.shape.name + " at every height",
+                            " mm) is wider than its slot at every height",
                  .path = task_.shape.name,
                  .hint = "use a smaller cutter"});
   }
@@ -147,8 +147,8 @@ class SectionCutter {
     const double lowest = std::max(drop(section_, thick, 0.0) + rise, bottom);
     if (tell && lowest > bottom + side + kTellRest) {
       cutter_.warn("TPA-REST", "cutter " + task_.cutter.id + " (" + trimmed(2.0 * tip_.radius_mm, 3) +
-                                   " mm) is wider than " + task_.shape.name + " at its bottom: " +
-                                   trimmed(lowest, 3) + " mm remain; use a narrower cutter");
+                                   " mm) is wider than its slot at the bottom: " + trimmed(lowest, 3) +
+                                   " mm remain; use a narrower cutter");
     }
     const double end = zero_z_ + lowest;
     // What roughing leaves for a round cutter is even: levels as deep as may be where the wall is steep.

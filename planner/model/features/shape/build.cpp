@@ -9,6 +9,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/features/curve_points.h"
 #include "planner/model/features/resolve.h"
+#include "planner/model/nouns/arena/kept.h"
 #include "planner/model/nouns/arena/standing.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
@@ -22,7 +23,8 @@ using geometry::Vec3;
 
 std::string label(const Model& m, AnyRef feature) {
   const auto* f = m.get<ManufacturingFeature>(feature);
-  std::string name(noun_type(feature.type).keyword);
+  const auto* kept = m.get<KeptInstance>(feature);
+  std::string name(kept != nullptr ? kept->keyword : noun_type(feature.type).keyword);
   if (f != nullptr && f->its_id && !f->its_id->empty()) name += " '" + *f->its_id + "'";
   return name;
 }
@@ -291,7 +293,7 @@ Result<Shapes> plain(const Model& m, AnyRef feature) {
   }();
   for (TypeId t = feature.type; t != TypeId::kNone; t = noun_type(t).parent)
     if (const auto it = kNouns.find(t); it != kNouns.end()) return it->second.build(m, feature);
-  return unsupported(m, feature, "is a kind of feature that is not understood");
+  return unsupported(m, feature, "this kind of feature is not understood");
 }
 
 }  // namespace

@@ -1,22 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/ground/geometry/open_line.h"
 #include "planner/model/features/shape.h"
 
 namespace capstan::model {
 namespace {
 
 using geometry::Vec2;
-
-double distance_to_line(const std::vector<Vec2>& line, Vec2 p) {
-  double best = 1e300;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Vec2 d = line[i + 1] - line[i];
-    const double t = std::clamp(dot(p - line[i], d) / dot(d, d), 0.0, 1.0);
-    best = std::min(best, norm(p - (line[i] + t * d)));
-  }
-  return best;
-}
 
 std::optional<double> hole_floor(const FeatureShape& s, double r) {
   const double top = 0.5 * s.diameter.nominal_mm;
@@ -46,7 +37,7 @@ std::optional<double> slot_floor(const FeatureShape& s, Vec2 p) {
   if (!geometry::contains(s.area, p)) return std::nullopt;
   if (s.slot_profile.empty()) return -s.depth_mm;
   // What is seen from above: the lowest height whose half width, and that of all above it, reaches p.
-  const double d = distance_to_line(s.spine, p);
+  const double d = geometry::distance_to_line(s.spine, p);
   const auto& q = s.slot_profile;
   for (std::size_t i = q.size(); i-- > 0;) {
     if (q[i].y + 1e-9 >= d) continue;

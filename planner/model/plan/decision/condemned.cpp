@@ -85,7 +85,7 @@ std::string text_of(const ExceededLimit& l) {
   const std::string value = number(l.value, l.limit), limit = number(l.limit, l.value);
   std::string out = limit_words(l.name);
   if (l.value == 0.0 && l.limit == 0.0) {
-    out += " outside what any formula tells";
+    out += " outside the range of every formula";
   } else if (l.name.ends_with(kLeast)) {
     out.resize(out.size() - kLeast.size());
     out += " " + limit + unit + ", at least " + value + unit;

@@ -168,10 +168,10 @@ std::optional<std::uint64_t> hash_from_text(std::string_view text) {
   return out;
 }
 
-EditTold edit_told_by(const Diagnostic& d) {
-  if (d.code == kDisagreesCode) return EditTold::kDisagrees;
-  if (d.code != kEditedCode && d.code != kEditedJsonCode) return EditTold::kNothing;
-  return d.severity == Severity::kNote ? EditTold::kValue : EditTold::kPart;
+ReportedEdit reported_edit_of(const Diagnostic& d) {
+  if (d.code == kDisagreesCode) return ReportedEdit::kDisagrees;
+  if (d.code != kEditedCode && d.code != kEditedJsonCode) return ReportedEdit::kNothing;
+  return d.severity == Severity::kNote ? ReportedEdit::kValue : ReportedEdit::kPart;
 }
 
 Diagnostic steps_disagree(const std::string& how, std::string file) {
@@ -193,7 +193,7 @@ Diagnostic parts_edited(std::string code, const std::vector<std::string>& parts,
           .file = std::move(file),
           .hint =
               "`capstan plan` chooses anew what was chosen from the old values; `check` and `explain` "
-              "take all of it as it stands"};
+              "take all of it as it is"};
 }
 
 }  // namespace capstan::model

@@ -64,13 +64,13 @@ template <class Seal>
 inline constexpr std::string_view kEditedCode = "EXC-EDITED", kEditedJsonCode = "JSON-EDITED",
                                   kDisagreesCode = "EXC-ORDER";
 /// What a diagnostic tells of edits. This is the one place that knows.
-enum class EditTold {
+enum class ReportedEdit {
   kNothing,
   kValue,     ///< decided before, and given now: what follows from it is computed again
   kPart,      ///< what was computed before does not follow from the file any more
   kDisagrees  ///< the file says it twice, and otherwise
 };
-[[nodiscard]] EditTold edit_told_by(const Diagnostic& d);
+[[nodiscard]] ReportedEdit reported_edit_of(const Diagnostic& d);
 /// The warning that the list of steps is not as the workplan says (workplan_order.h).
 [[nodiscard]] Diagnostic steps_disagree(const std::string& how, std::string file = {});
 

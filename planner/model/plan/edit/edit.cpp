@@ -60,10 +60,10 @@ auto no_edit(EditKind kind, std::string_view text, std::string what) {
                .expected = kForms.at(static_cast<std::size_t>(kind))});
 }
 
-constexpr const char* kNotClosed = "its quoted name is empty, or more stands behind it, or it has no end";
+constexpr const char* kNotClosed = "its quoted name is empty, or more text follows it, or it has no end";
 constexpr char kQuote = '"', kEscape = '\\';
 constexpr const char* kQuoting =
-    "a name that holds = or <, or begins with a quote, stands in double quotes: \"A=B\"/feed=900";
+    "a name that holds = or <, or begins with a quote, goes into double quotes: \"A=B\"/feed=900";
 
 /// Takes the double-quoted name that a text begins with off it; a backslash stands before a quote and before
 /// a backslash within. Nothing: the quote is not closed, or holds nothing.
@@ -103,7 +103,7 @@ Result<const Row*> take_attribute(EditKind kind, std::string_view left, std::str
   if (slash != std::string_view::npos) {
     into.where = trimmed_text(left.substr(0, slash));
     name = trimmed_text(left.substr(slash + 1));
-    if (into.where.empty()) return no_edit(kind, left, "nothing stands before the '/'");
+    if (into.where.empty()) return no_edit(kind, left, "nothing precedes the '/'");
   }
   std::vector<std::string> known;
   for (const Row& r : kRows) {
@@ -191,7 +191,7 @@ Result<Edit> parse_edit(EditKind kind, std::string_view text, std::string from) 
   if (is_quoted(text)) {
     auto name = take_quoted(text);
     if (!name) return no_edit(kind, all, kNotClosed);
-    if (!text.starts_with('/')) return no_edit(kind, all, "no '/' stands behind its quoted name");
+    if (!text.starts_with('/')) return no_edit(kind, all, "no '/' follows its quoted name");
     text = trimmed_text(text.substr(1));
     if (text.find('/') < text.find_first_of("=<>"))
       return no_edit(kind, all, "its name is quoted in part; quote all of it");

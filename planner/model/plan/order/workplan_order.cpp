@@ -84,7 +84,7 @@ std::string follow_workplan(Plan& plan) {
   const auto broken = std::is_sorted_until(number.begin(), number.end());
   if (broken != number.end()) {
     const auto i = static_cast<std::size_t>(broken - number.begin());
-    out = "step '" + step_id(plan, plan.steps[i - 1]) + "' stands before '" + step_id(plan, plan.steps[i]) +
+    out = "step '" + step_id(plan, plan.steps[i - 1]) + "' comes before '" + step_id(plan, plan.steps[i]) +
           "' in the list of steps, and behind it in the workplan";
     std::vector<std::size_t> order(number.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

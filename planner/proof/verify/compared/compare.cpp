@@ -111,15 +111,15 @@ class Own {
       items_.push_back({&s, there, area != nullptr && (area->around || area->only_mm > 0.0)});
     }
   }
-  [[nodiscard]] Said at(Vec3 p) const {
-    Said out = Said::kStays;
+  [[nodiscard]] PointState at(Vec3 p) const {
+    PointState out = PointState::kStays;
     for (const auto& [s, b, wide] : items_) {
       if (!wide &&
           (p.x < b.lo.x || p.x > b.hi.x || p.y < b.lo.y || p.y > b.hi.y || p.z < b.lo.z || p.z > b.hi.z))
         continue;
-      const Said said = s->at(s->frame.to_local(p));
-      if (said == Said::kRemoved) return said;
-      if (said == Said::kNotSaid) out = said;
+      const PointState said = s->at(s->frame.to_local(p));
+      if (said == PointState::kRemoved) return said;
+      if (said == PointState::kNotStated) out = said;
     }
     return out;
   }
@@ -286,9 +286,9 @@ std::optional<Disagreement> disagreement(const Reading& own, const std::vector<F
     if (!raw.empty() && (p.x < raw.lo.x || p.x > raw.hi.x || p.y < raw.lo.y || p.y > raw.hi.y ||
                          p.z < raw.lo.z || p.z > raw.hi.z))
       return std::nullopt;
-    const Said said = mine.at(p);
-    if (said == Said::kNotSaid) return std::nullopt;
-    const bool removed = said == Said::kRemoved;
+    const PointState said = mine.at(p);
+    if (said == PointState::kNotStated) return std::nullopt;
+    const bool removed = said == PointState::kRemoved;
     if (theirs.remove(p) == removed) return std::nullopt;
     for (const Vec3 q : round_about(p, tolerance)) {
       if (mine.at(q) != said) return std::nullopt;

@@ -65,7 +65,7 @@ void check_overlap(const model::Workholding& h, const Findings::Where& at, Findi
       const double deep = overlap(a, b);
       if (deep > kTouchMm)
         findings.error(31, "CHK-HOLD-OVERLAP", at,
-                       "'" + a.id + "' and '" + b.id + "' of '" + h.id + "' stand in the same place, " +
+                       "'" + a.id + "' and '" + b.id + "' of '" + h.id + "' are in the same place, " +
                            mm(deep) + " into each other: move one of them",
                        deep);
     }

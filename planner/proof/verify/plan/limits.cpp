@@ -36,7 +36,7 @@ void check_speed(const StepMoves& step, const Move& m, const model::Machine& mac
   if (step.cutter != nullptr && step.cutter->maximum_speed_rpm > 0.0 &&
       n > step.cutter->maximum_speed_rpm * (1.0 + 1e-9)) {
     findings.error(16, "CHK-SPEED-TOOL", at,
-                   plain(n) + " 1/min; tool " + step.cutter->id + " bears at most " +
+                   plain(n) + " 1/min; tool " + step.cutter->id + " allows at most " +
                        plain(step.cutter->maximum_speed_rpm),
                    n);
   }
@@ -63,7 +63,8 @@ void check_feed(const StepMoves& step, const Move& m, const model::Machine& mach
     if (most > 0.0 && m.feed_mm_min * share[a] > most * 1.0005) {
       findings.error(18, "CHK-FEED-AXIS", at,
                      "axis " + machine.axes[static_cast<std::size_t>(a)].name + " would feed at " +
-                         plain(m.feed_mm_min * share[a]) + " mm/min; its limit is " + plain(most),
+                         plain(m.feed_mm_min * share[a]) + " mm/min; its limit is " + plain(most) +
+                         ": feed slower",
                      m.feed_mm_min * share[a] / most);
     }
   }

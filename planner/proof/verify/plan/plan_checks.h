@@ -31,7 +31,7 @@ void check_twice(const model::Plan& plan, Findings& findings);
 /// Units, offsets, tools, changes, ends: 3, 4, 5, 6, 7, 32.
 void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings);
 
-/// What tools are taken to be made of though nobody states it: carbide that is assumed is told, 16.
+/// What tools are taken to be made of though nobody states it: carbide that is assumed is reported, 16.
 void check_tool_materials(const model::Plan& plan, Findings& findings);
 
 /// Limits that need no stock: 16, 18, 20, 22, 23, 24.

@@ -258,14 +258,14 @@ class Speed {
                        plan_.material.id + ", at most " + speed_text(kFaster * ref.vc_m_min) + " (" +
                        plain(kFaster) + " times " + ref.source + ", " + speed_text(ref.vc_m_min) + ")";
     if (assumed && vc_ <= kFaster * carbide->vc_m_min) {
-      text += "; that the tool is hss is only assumed, and carbide bears " + speed_text(carbide->vc_m_min) +
+      text += "; that the tool is hss is only assumed, and carbide allows " + speed_text(carbide->vc_m_min) +
               ": " + state();
       return out_.warn(16, "CHK-SPEED-MATERIAL", at(), text, vc_);
     }
     if (assumed)
-      text += "; that the tool is hss is only assumed, but carbide bears no more than " +
+      text += "; that the tool is hss is only assumed, but carbide allows no more than " +
               speed_text(carbide->vc_m_min);
-    text += "; lower the spindle to " + plain(rpm) + " 1/min, or use a tool that bears more";
+    text += "; lower the spindle to " + plain(rpm) + " 1/min, or use a tool that allows more";
     if (too_short(by))
       out_.error(30, "CHK-EDGE-LIFE", at(), text, vc_);
     else
@@ -445,8 +445,8 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
                   bent);
   else if (tires.stress_n_mm2 > kMeasured * endurance(c))
     findings.warn(21, "CHK-BENDING", at,
-                  "tool " + c.id + " bears a stress of " + trimmed(tires.stress_n_mm2, 0) + " N/mm2 in its " +
-                      tires.part + load + "; for all the bites of its life it bears " +
+                  "tool " + c.id + " has a stress of " + trimmed(tires.stress_n_mm2, 0) + " N/mm2 in its " +
+                      tires.part + load + "; the limit for all the bites of its life is " +
                       trimmed(endurance(c), 0) + stiffer,
                   tires.stress_n_mm2);
 }

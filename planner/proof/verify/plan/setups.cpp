@@ -93,8 +93,8 @@ void check_setups(const model::Plan& plan, const PartShapes& part, Findings& fin
     }
     if (any) continue;
     findings.error(11, "CHK-SETUP-LEANS", at,
-                   "the axis of feature '" + e->shapes.front().name + "' stands " + trimmed(least, 4) +
-                       " degrees off the tool's in " + name_of(*s) + placed_by(plan, *s) +
+                   "the axis of feature '" + e->shapes.front().name + "' leans " + trimmed(least, 4) +
+                       " degrees from the tool's in " + name_of(*s) + placed_by(plan, *s) +
                        ": a tool along Z cannot cut it so; correct the placement, or cut it in a set-up in "
                        "which that axis is up",
                    least);

@@ -21,6 +21,15 @@ constexpr double kLeastOfHalfTurn = 0.01;
 
 }  // namespace
 
+Program too_large_program() {
+  Program out;
+  out.faults.push_back({33, "CHK-TOO-LARGE", 0,
+                        "the program is larger than " + std::to_string(kProgramCap >> 20U) +
+                            " MiB and was not read; split it by set-up",
+                        true});
+  return out;
+}
+
 void BlockState::fault(int property, std::string code, std::string message, bool undecided) {
   if (out_.faults.size() < kFaultCap)
     out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});

@@ -19,12 +19,15 @@ struct BlockSaid {
   [[nodiscard]] double of(char c) const { return value[c - 'A']; }
 };
 
+/// What a reader gives for a text above kProgramCap: the one finding that it was not read.
+[[nodiscard]] Program too_large_program();
+
 /// The state of a control that the readers of RS-274 dialects share, and the moves that blocks make of it:
 /// straight ones, arcs in the XY plane, dwells. What codes and words mean is each reader's own.
 class BlockState {
  protected:
   void fault(int property, std::string code, std::string message, bool undecided = false);
-  /// The spindle is told to turn: 1 as M3, -1 as M4.
+  /// Starts the spindle: 1 as M3, -1 as M4.
   void start(int way);
   /// G17, G18 or G19.
   void plane(int code);

@@ -67,7 +67,7 @@ void compare(const ProgramCase& c, Findings& findings) {
     }
     if (step <= last)
       findings.error(33, "CHK-TEXT-ORDER", at,
-                     step == last ? "the step stands twice in the text"
+                     step == last ? "the step occurs twice in the text"
                                   : "the step comes later in the text than in the plan");
     last = std::max(last, step);
     const auto i = static_cast<std::size_t>(step);

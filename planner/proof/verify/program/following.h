@@ -9,7 +9,7 @@
 namespace capstan::verify {
 
 /// Follows the text of one step beside the plan's path: the way to its start, its moves, and that nothing but
-/// a retract comes behind. The first departure is told, as the step's finding.
+/// a retract comes behind. The first departure becomes the step's finding.
 ///
 /// What the text may write otherwise than the path: coordinates, feeds and speeds rounded to the control's
 /// decimals; arcs in pieces, and lines for pieces that are flat after rounding; rapids one axis after the

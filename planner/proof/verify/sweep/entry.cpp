@@ -88,7 +88,9 @@ void StepChecks::entry(const Move& m, const Bite& bite) {
   if (least > most + 1e-4) {
     out_.error(14, "CHK-RAMP", at(m),
                "a ramp of " + plain(angle * degrees) + " degrees; the tool may " +
-                   (most > 0.0 ? "ramp at " + plain(most * degrees) + " degrees at most" : "not ramp"),
+                   (most > 0.0 ? "ramp at " + plain(most * degrees) +
+                                     " degrees at most: ramp over a longer way, or use a tool that allows it"
+                               : "not ramp: use one that cuts to its centre, or drill a hole to enter by"),
                angle);
   } else if (ramp && ramp_chosen_) {
     chosen_ramp(m, least);
@@ -121,12 +123,13 @@ void StepChecks::chosen_ramp(const Move& m, double angle) {
   const double slow =
       std::max(kHalf * std::max(feed_limit_.mm, step_.planned->fz_mm), least_chip_mm_) * (1.0 + kWritten);
   if (states_ramp(cutter_) && fz <= slow) return;
-  out_.error(14, "CHK-RAMP", at(m),
-             "a ramp of " + plain(angle * degrees) + " degrees at " + mm(fz) + " per tooth; in " +
-                 plan_.material.id + " one of more than " + plain(usual * degrees) + " degrees is " +
-                 (states_ramp(cutter_) ? "fed at " + mm(slow) + " at most"
-                                       : "for cutters of which it is stated that they bear it"),
-             angle);
+  out_.error(
+      14, "CHK-RAMP", at(m),
+      "a ramp of " + plain(angle * degrees) + " degrees at " + mm(fz) + " per tooth; in " +
+          plan_.material.id + " one of more than " + plain(usual * degrees) + " degrees is " +
+          (states_ramp(cutter_) ? "fed at " + mm(slow) + " at most" : "for cutters whose data allow it") +
+          ": ramp flatter, feed slower, or state the tool's largest ramp angle",
+      angle);
 }
 
 }  // namespace capstan::verify

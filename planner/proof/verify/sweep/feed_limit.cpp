@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 #include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/stated_values.h"
 #include "planner/proof/verify/sweep/step_checks.h"

@@ -92,7 +92,7 @@ void StepChecks::planned_section() {
     if (!told) {
       return out_.error(20, code, where,
                         text + "; " +
-                            (stated > 0.0 ? "what force that asks for cannot be told"
+                            (stated > 0.0 ? "the force that this needs is not known"
                                           : "the plan states no force for the step") +
                             ", so that nothing shows that its limits were held there; rough it first",
                         amount);
@@ -203,7 +203,7 @@ void StepChecks::axial_feed(double fz) {
   out_.error(18, "CHK-FEED-TOOL", {step_.order + 1, step_.id, sum_.where},
              "a feed of " + mm(feed) + (limit.per_revolution ? " per revolution" : " per tooth") +
                  " along the axis; at most " + mm(limit.mm) + " (" + limit.source + ", diameter " +
-                 mm(cutter_.cutting_diameter_mm) + ")",
+                 mm(cutter_.cutting_diameter_mm) + "): feed slower, or use a tool that allows more",
              feed);
 }
 
@@ -248,7 +248,8 @@ void StepChecks::chip(const Move& m, double thickest_mm, double fz, Vec2 where) 
   out_.error(18, "CHK-FEED-TOOL", at(m),
              "chips of up to " + mm(thickest_mm) + " at (" + plain(where.x) + ", " + plain(where.y) +
                  ") (feed per tooth " + mm(fz) + "); at most " + mm(limit.mm) + " (" + limit.source +
-                 ", diameter " + mm(cutter_.cutting_diameter_mm) + ")",
+                 ", diameter " + mm(cutter_.cutting_diameter_mm) +
+                 "): feed slower there, or use a tool that allows more",
              thickest_mm);
 }
 
@@ -270,21 +271,22 @@ void StepChecks::power(double volume, double minutes, double chip_mm) {
   const double turned_up = (1.0 - w.mc) * std::log(override_most());
   const double worn = std::log(mechanics::kWearForceFactor);
   const double up = std::exp(std::hypot(worn, turned_up) - worn);
-  const auto judge = [&](const char* code, const char* unit, double asked, double gives) {
+  const auto judge = [&](const char* code, const char* what, const char* unit, double asked, double gives) {
     if (!(gives > 0.0)) return;
     const double most = gives * efficiency;
     if (up * asked <= kMeasured * most) return;
     const bool written = asked > kMeasured * most;
-    const std::string text = std::string("cutting asks for ") + plain(written ? asked : up * asked) + unit +
-                             " of " + plain(most) + unit + " at " + plain(sum_.rpm) + " rpm" + how +
-                             (written ? "" : ", the operator's feed override at its most");
+    const std::string text = std::string("spindle ") + what + " " + plain(written ? asked : up * asked) +
+                             " of " + plain(most) + " " + unit + " at " + plain(sum_.rpm) + " 1/min" + how +
+                             (written ? "" : ", the operator's feed override at its most") +
+                             "; use a smaller tool or a smaller depth, or feed slower";
     if (written)
       out_.error(17, code, where, text, asked);
     else
       out_.warn(17, code + std::string("-OVERRIDE"), where, text, asked);
   };
-  judge("CHK-POWER", " W", power_w, limit.power_w);
-  judge("CHK-TORQUE", " Nm", torque_nm, limit.torque_nm);
+  judge("CHK-POWER", "power", "W", power_w, limit.power_w);
+  judge("CHK-TORQUE", "torque", "Nm", torque_nm, limit.torque_nm);
   deflection(up * torque_nm);
 }
 
@@ -305,7 +307,8 @@ void StepChecks::deflection(double torque_nm) {
   if (force * per_n <= kMeasured * kMostBentMm) return;
   out_.error(21, "CHK-DEFLECTION", {step_.order + 1, step_.id, sum_.where},
              "a mean force of " + plain(force) + " N (worn edge, feed override) bends the tip by " +
-                 mm(force * per_n) + "; at most " + mm(kMostBentMm),
+                 mm(force * per_n) + "; at most " + mm(kMostBentMm) +
+                 ": cut less deep or less wide, feed slower, or use a stiffer or shorter cutter",
              force * per_n);
 }
 

@@ -341,14 +341,15 @@ void StepChecks::contact(const Move& m, const Bite& bite) {
   // Above a ring of teeth is its neck, which was judged.
   const double cuts_to = before_ != nullptr ? cutter_.neck_length_mm : flutes;
   if (bite.contact_mm > cuts_to + kSlackMm) {
-    out_.error(
-        13, "CHK-FLUTE", at(m),
-        "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) + " long",
-        bite.contact_mm);
+    out_.error(13, "CHK-FLUTE", at(m),
+               "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) +
+                   " long: cut it in more steps of depth, or use a tool with longer flutes",
+               bite.contact_mm);
   }
   if (is_mill(cutter_) && bite.thickest_mm > flutes + kSlackMm) {
     out_.error(20, "CHK-DEPTH", at(m),
-               "depth of cut " + mm(bite.thickest_mm) + "; the tool's largest is " + mm(flutes),
+               "depth of cut " + mm(bite.thickest_mm) + "; the tool's largest is " + mm(flutes) +
+                   ": cut it in more steps of depth, or use a tool with longer flutes",
                bite.thickest_mm);
   }
 }
@@ -435,10 +436,11 @@ void StepChecks::tapping(const Move& m) {
   const model::SpindlePoint limit = spindle_at(plan_.machine.spindle, n);
   if (limit.torque_nm > 0.0 &&
       torque > limit.torque_nm * mechanics::spindle_efficiency(plan_.machine.spindle.efficiency)) {
-    out_.error(17, "CHK-TORQUE", at(m),
-               "tapping asks for " + plain(torque) + " Nm; the spindle gives " + plain(limit.torque_nm) +
-                   " Nm at " + plain(n) + " rpm",
-               torque);
+    out_.error(
+        17, "CHK-TORQUE", at(m),
+        "spindle torque " + plain(torque) + " of " + plain(limit.torque_nm) + " Nm at " + plain(n) +
+            " 1/min for tapping; turn at a speed at which the spindle has more torque, or mill the thread",
+        torque);
   }
 }
 

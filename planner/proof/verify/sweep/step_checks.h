@@ -113,7 +113,7 @@ class StepChecks {
     bool axial = false;
     long where = -1;
   } sum_;
-  bool arcs_count_ = false;                                     ///< a short arc of contact bears more speed
+  bool arcs_count_ = false;                                     ///< a short arc of contact allows more speed
   double heated_min_ = 0.0, heated_ = 0.0, fastest_rpm_ = 0.0;  ///< minutes; times speed to 1 / n; 1/min
   double widest_rpm_ = 0.0;                                     ///< the fastest of cuts half as wide as it is
   Account left_;  ///< the same for a diameter's way: against what the step was planned to take

@@ -20,7 +20,7 @@ struct Reading {
 
   /// What is said of a place of the workpiece: removed by one of the solids, else not said by one, else it
   /// stays.
-  [[nodiscard]] Said at(geometry::Vec3 p) const;
+  [[nodiscard]] PointState at(geometry::Vec3 p) const;
 };
 
 /// What readings need of a file, worked out once.

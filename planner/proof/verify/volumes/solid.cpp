@@ -34,75 +34,77 @@ bool past_the_end(const Outline& o, const Near& n, Vec2 q) {
   return next.open && std::abs(dot(e.along(n.share), q - e.at(n.share))) > 1e-6;
 }
 
-Said in_area(const Area& a, const Solid& s, Vec3 p) {
+PointState in_area(const Area& a, const Solid& s, Vec3 p) {
   const Vec2 q = xy(p);
   const double height = p.z + s.depth_mm;
-  if (height < -kHair && !s.through) return Said::kStays;
+  if (height < -kHair && !s.through) return PointState::kStays;
   if (q.x < a.outline.lo.x - kSaidBeside || q.x > a.outline.hi.x + kSaidBeside ||
       q.y < a.outline.lo.y - kSaidBeside || q.y > a.outline.hi.y + kSaidBeside)
-    return a.around ? Said::kNotSaid : Said::kStays;
+    return a.around ? PointState::kNotStated : PointState::kStays;
   const bool taken = inside(a.outline, q) != a.around;
   const bool radiused = a.foot_radius_mm > 0.0 && height < a.foot_radius_mm;
-  if (!taken && !(a.leaning_mm > 0.0 || a.only_mm > 0.0)) return Said::kStays;
+  if (!taken && !(a.leaning_mm > 0.0 || a.only_mm > 0.0)) return PointState::kStays;
   if (a.leaning_mm > 0.0 || a.only_mm > 0.0 || radiused) {
     const Near near = nearest(a.outline, q, true);
     if (a.only_mm > 0.0 && (near.distance_mm > a.only_mm || past_the_end(a.outline, near, q)))
-      return taken ? Said::kNotSaid : a.around ? Said::kNotSaid : Said::kStays;
-    if (a.leaning_mm > 0.0 && near.distance_mm < a.leaning_mm) return Said::kNotSaid;
-    if (!taken) return Said::kStays;
-    if (radiused && near.distance_mm < fillet(a.foot_radius_mm, height)) return Said::kStays;
+      return taken ? PointState::kNotStated : a.around ? PointState::kNotStated : PointState::kStays;
+    if (a.leaning_mm > 0.0 && near.distance_mm < a.leaning_mm) return PointState::kNotStated;
+    if (!taken) return PointState::kStays;
+    if (radiused && near.distance_mm < fillet(a.foot_radius_mm, height)) return PointState::kStays;
   }
   for (const Standing& b : a.standing) {
     if (p.z > b.top_mm) continue;
-    if (inside(b.outline, q)) return Said::kStays;
+    if (inside(b.outline, q)) return PointState::kStays;
     const double open = std::max(b.leaning_mm, height < b.foot_radius_mm ? b.foot_radius_mm : 0.0);
-    if (open > 0.0 && nearest(b.outline, q).distance_mm < open) return Said::kNotSaid;
+    if (open > 0.0 && nearest(b.outline, q).distance_mm < open) return PointState::kNotStated;
   }
-  if (p.z > 0.0) return a.overhead ? Said::kNotSaid : Said::kStays;
-  return Said::kRemoved;
+  if (p.z > 0.0) return a.overhead ? PointState::kNotStated : PointState::kStays;
+  return PointState::kRemoved;
 }
 
-Said in_bore(const Bore& b, const Solid& s, Vec3 p) {
+PointState in_bore(const Bore& b, const Solid& s, Vec3 p) {
   const double r = std::hypot(p.x, p.y);
   const double below = -p.z - s.depth_mm;
   if (below <= 0.0) {
     const double share = s.depth_mm > 0.0 ? std::clamp(-p.z / s.depth_mm, 0.0, 1.0) : 0.0;
     const double wide = b.top_radius_mm + share * (b.bottom_radius_mm - b.top_radius_mm);
-    if (r > wide || p.z > 0.0) return Said::kStays;
-    if (b.bottom == Bore::Bottom::kRounded && r > wide - fillet(b.radius_mm, -below)) return Said::kStays;
+    if (r > wide || p.z > 0.0) return PointState::kStays;
+    if (b.bottom == Bore::Bottom::kRounded && r > wide - fillet(b.radius_mm, -below))
+      return PointState::kStays;
     if (b.bottom == Bore::Bottom::kBall) {
       // Whether the depth is that of the ball's lowest place or of its middle plane nobody says.
       const double up = b.radius_mm + below;  // of the lowest place's centre above p
-      if (up > 0.0 && r * r + up * up > b.radius_mm * b.radius_mm) return Said::kNotSaid;
+      if (up > 0.0 && r * r + up * up > b.radius_mm * b.radius_mm) return PointState::kNotStated;
     }
-    return Said::kRemoved;
+    return PointState::kRemoved;
   }
-  if (r > b.bottom_radius_mm) return Said::kStays;
+  if (r > b.bottom_radius_mm) return PointState::kStays;
   switch (b.bottom) {
     case Bore::Bottom::kThrough:
-      return Said::kRemoved;
+      return PointState::kRemoved;
     case Bore::Bottom::kCone: {
-      if (!(b.tip_mm > 0.0)) return below < 4.0 * b.bottom_radius_mm ? Said::kNotSaid : Said::kStays;
-      if (r < b.blunt_mm && below < b.tip_mm) return Said::kNotSaid;
-      return below < b.tip_mm * (1.0 - r / b.bottom_radius_mm) ? Said::kRemoved : Said::kStays;
+      if (!(b.tip_mm > 0.0))
+        return below < 4.0 * b.bottom_radius_mm ? PointState::kNotStated : PointState::kStays;
+      if (r < b.blunt_mm && below < b.tip_mm) return PointState::kNotStated;
+      return below < b.tip_mm * (1.0 - r / b.bottom_radius_mm) ? PointState::kRemoved : PointState::kStays;
     }
     case Bore::Bottom::kBall:
-      return below < b.radius_mm ? Said::kNotSaid : Said::kStays;
+      return below < b.radius_mm ? PointState::kNotStated : PointState::kStays;
     default:
-      return Said::kStays;
+      return PointState::kStays;
   }
 }
 
-Said in_groove(const Groove& g, const Solid& s, Vec3 p) {
+PointState in_groove(const Groove& g, const Solid& s, Vec3 p) {
   const double height = p.z + s.depth_mm;
-  if (height < 0.0 || p.z > 0.0) return Said::kStays;
+  if (height < 0.0 || p.z > 0.0) return PointState::kStays;
   const Vec2 q = xy(p);
   const double far = g.half_mm + 1.0;
   if (q.x < g.course.lo.x - far || q.x > g.course.hi.x + far || q.y < g.course.lo.y - far ||
       q.y > g.course.hi.y + far)
-    return Said::kStays;
+    return PointState::kStays;
   const Near near = nearest(g.course, q);
-  if (near.distance_mm > g.half_mm) return Said::kStays;
+  if (near.distance_mm > g.half_mm) return PointState::kStays;
   const std::size_t last = g.course.edges.size() - 1;
   const Edge& e = g.course.edges[near.edge];
   const Vec2 along = e.along(near.share);
@@ -118,46 +120,49 @@ Said in_groove(const Groove& g, const Solid& s, Vec3 p) {
     const double past = end == 0 ? -beyond : beyond;
     const double way = share * e.length();  // before the end
     if (share <= 0.0 && past > kHair) {
-      if (g.rising_mm[end] > 0.0) return Said::kNotSaid;
+      if (g.rising_mm[end] > 0.0) return PointState::kNotStated;
       switch (g.ends[end]) {
         case Groove::End::kFlat:
-          return Said::kStays;
+          return PointState::kStays;
         case Groove::End::kHalfRound:
           // A profile that is not the same on both sides has no half round that is said.
-          return inside(g.section, {-across, height}) == held ? (held ? Said::kRemoved : Said::kStays)
-                                                              : Said::kNotSaid;
+          return inside(g.section, {-across, height}) == held
+                     ? (held ? PointState::kRemoved : PointState::kStays)
+                     : PointState::kNotStated;
         default:
-          return Said::kNotSaid;
+          return PointState::kNotStated;
       }
     }
-    if (way < g.rising_mm[end]) return Said::kNotSaid;
-    if (way < g.corner_mm[end] && g.half_mm - near.distance_mm < g.corner_mm[end]) return Said::kNotSaid;
+    if (way < g.rising_mm[end]) return PointState::kNotStated;
+    if (way < g.corner_mm[end] && g.half_mm - near.distance_mm < g.corner_mm[end])
+      return PointState::kNotStated;
   }
   // In the outer corner of a course with a kink nobody says whether the slot is round or sharp.
   const bool at_vertex = (near.share <= 0.0 || near.share >= 1.0) && std::abs(beyond) > 1e-6;
-  if (at_vertex && !held) return Said::kStays;
-  if (at_vertex) return Said::kNotSaid;
-  if (height < g.unsaid_height_mm && near.distance_mm > g.unsaid_half_mm) return Said::kNotSaid;
+  if (at_vertex && !held) return PointState::kStays;
+  if (at_vertex) return PointState::kNotStated;
+  if (height < g.unsaid_height_mm && near.distance_mm > g.unsaid_half_mm) return PointState::kNotStated;
   if (g.foot_radius_mm > 0.0 && height < g.foot_radius_mm && g.half_mm - near.distance_mm < g.foot_radius_mm)
-    return Said::kNotSaid;
-  return held ? Said::kRemoved : Said::kStays;
+    return PointState::kNotStated;
+  return held ? PointState::kRemoved : PointState::kStays;
 }
 
-Said in_bevel(const Bevel& b, Vec3 p) {
+PointState in_bevel(const Bevel& b, Vec3 p) {
   const Vec2 q = xy(p);
-  if (p.z > 0.0) return Said::kStays;
-  if (inside(b.outline, q) != b.within) return Said::kStays;
+  if (p.z > 0.0) return PointState::kStays;
+  if (inside(b.outline, q) != b.within) return PointState::kStays;
   const double d = nearest(b.outline, q).distance_mm;
   if (b.round) {
-    if (d >= b.width_mm || -p.z >= b.width_mm) return Said::kStays;
-    return std::hypot(b.width_mm - d, b.width_mm + p.z) > b.width_mm ? Said::kRemoved : Said::kStays;
+    if (d >= b.width_mm || -p.z >= b.width_mm) return PointState::kStays;
+    return std::hypot(b.width_mm - d, b.width_mm + p.z) > b.width_mm ? PointState::kRemoved
+                                                                     : PointState::kStays;
   }
   const auto holds = [&](double width, double depth) {
     return d < width && -p.z < depth * (1.0 - d / width);
   };
   const bool one = holds(b.width_mm, b.depth_mm), other = holds(b.other_width_mm, b.other_depth_mm);
-  if (one != other) return Said::kNotSaid;
-  return one ? Said::kRemoved : Said::kStays;
+  if (one != other) return PointState::kNotStated;
+  return one ? PointState::kRemoved : PointState::kStays;
 }
 
 void grow(Box3& box, Vec2 lo, Vec2 hi, double by) {
@@ -169,7 +174,7 @@ void grow(Box3& box, Vec2 lo, Vec2 hi, double by) {
 
 }  // namespace
 
-Said Solid::at(Vec3 p) const {
+PointState Solid::at(Vec3 p) const {
   tick();
   if (const auto* a = std::get_if<Area>(&form)) return in_area(*a, *this, p);
   if (const auto* b = std::get_if<Bore>(&form)) return in_bore(*b, *this, p);

@@ -11,8 +11,8 @@
 
 namespace capstan::verify::volumes {
 
-/// What the text of a file says of a place. kNotSaid: the standard, or the file, leaves it open.
-enum class Said : std::uint8_t { kStays, kRemoved, kNotSaid };
+/// What the text of a file says of a place. kNotStated: the standard, or the file, leaves it open.
+enum class PointState : std::uint8_t { kStays, kRemoved, kNotStated };
 
 /// A boss in an area that is cut around it, from `top_mm` downwards.
 struct Standing {
@@ -80,7 +80,7 @@ struct Solid {
   std::variant<Area, Bore, Groove, Bevel> form;
 
   /// What it says of a place, given in its frame.
-  [[nodiscard]] Said at(geometry::Vec3 p) const;
+  [[nodiscard]] PointState at(geometry::Vec3 p) const;
   /// The box that holds all it may take away or leaves open, its frame. Unbounded areas are cut off.
   [[nodiscard]] geometry::Box3 box() const;
 };

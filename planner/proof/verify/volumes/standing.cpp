@@ -126,12 +126,12 @@ void stand_everywhere(const Source& source, AnyRef boss, std::vector<Solid>& out
 
 }  // namespace
 
-Said Reading::at(Vec3 p) const {
-  Said out = Said::kStays;
+PointState Reading::at(Vec3 p) const {
+  PointState out = PointState::kStays;
   for (const Solid& s : solids) {
-    const Said said = s.at(s.frame.to_local(p));
-    if (said == Said::kRemoved) return said;
-    if (said == Said::kNotSaid) out = said;
+    const PointState said = s.at(s.frame.to_local(p));
+    if (said == PointState::kRemoved) return said;
+    if (said == PointState::kNotStated) out = said;
   }
   return out;
 }

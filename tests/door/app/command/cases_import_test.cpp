@@ -67,7 +67,7 @@ TEST_F(CasesImport, ReportsByStepToolAndFeatureWithAPicture) {
   ASSERT_EQ(told.code, 0) << told.err;
   EXPECT_THAT(told.out, HasSubstr("by workingstep"));
   EXPECT_THAT(told.out, HasSubstr("carbide/endmill D4"));
-  EXPECT_THAT(told.out, HasSubstr("one case tells nothing"));
+  EXPECT_THAT(told.out, HasSubstr("one case proves nothing"));
   EXPECT_THAT(slurp(folder_ / "report.svg"), StartsWith("<svg"));
   EXPECT_THAT(run("cases report base.db --json").out, HasSubstr("\"workingsteps\": ["));
 }

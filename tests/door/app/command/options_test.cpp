@@ -32,6 +32,17 @@ std::string refused(std::vector<const char*> more) {
   return parsed.options ? std::string() : parsed.ending.text;
 }
 
+TEST(Options, WrongUsageSaysWhatIsWrongAndWhereToLook) {
+  const char* bare[] = {"capstan", "plan", "part.p21"};
+  const auto parsed = parse_command_line(static_cast<int>(std::size(bare)), bare);
+  ASSERT_FALSE(parsed.options);
+  EXPECT_EQ(parsed.ending.text,
+            "capstan: error: --output is required; `capstan plan --help` shows how [USAGE]\n");
+  const std::string stock = refused({"--stock", "blob"});
+  EXPECT_THAT(stock, testing::StartsWith("capstan: error: --stock: 'blob' is neither"));
+  EXPECT_THAT(stock, testing::EndsWith("; `capstan plan --help` shows how [USAGE]\n"));
+}
+
 TEST(Options, ProfitNeedsARevenueAndNothingElseDoes) {
   EXPECT_EQ(refused({"--objective", "profit", "--revenue", "12.5"}), "");
   EXPECT_NE(refused({"--objective", "profit"}).find("needs --revenue"), std::string::npos);

@@ -63,10 +63,10 @@ TEST(Inspect, NamesTheSegmentThatIsNotThereAndWhatIs) {
 TEST(Inspect, SaysWhereAPathRunsIntoNothing) {
   EXPECT_THAT(at("/project/its_workpieces[0]/its_rawpiece/its_id"),
               HasSubstr("its_rawpiece, which is absent"));
-  EXPECT_THAT(at("/project/its_id/more"), HasSubstr("which has no attributes"));
+  EXPECT_THAT(at("/project/its_id/more"), HasSubstr("which has none"));
   EXPECT_THAT(at("/project/its_workpieces[7]"), HasSubstr("expected [0] to [0]"));
-  EXPECT_THAT(at("/project/its_workpieces/its_id"), HasSubstr("asked of a list"));
-  EXPECT_THAT(at("/project/its_id[0]"), HasSubstr("what is no list"));
+  EXPECT_THAT(at("/project/its_workpieces/its_id"), HasSubstr("is an attribute, and this is a list"));
+  EXPECT_THAT(at("/project/its_id[0]"), HasSubstr("needs a list; this is none"));
   EXPECT_THAT(at("#9999"), HasSubstr("there is no instance #9999"));
   EXPECT_THAT(at("/projekt"), HasSubstr("there is no 'projekt' at the top"));
 }

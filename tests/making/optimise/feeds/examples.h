@@ -5,6 +5,7 @@
 #include <random>
 
 #include "planner/making/optimise/feeds.h"
+#include "planner/physics/motion/time.h"
 
 /// Questions and cuts for the tests of feeds.
 namespace capstan::optimise::examples {
@@ -44,6 +45,20 @@ inline FeedQuestion question() {
   q.n_rpm = 4000.0;
   q.feed_mm_min = 800.0;
   return q;
+}
+
+/// One cut along X.
+inline model::CutterPath straight(double length_mm = 100.0) {
+  model::CutterPath p;
+  p.start({0, 0, 0});
+  p.line({length_mm, 0, 0}, model::MoveRole::kCut);
+  return p;
+}
+
+/// The time that a path takes at feed by a schedule, s; -1 where it has none.
+inline double cutting_s(const FeedQuestion& q, const model::CutterPath& p, const model::FeedSchedule& s) {
+  const auto t = motion::time_of(p, s, q.cut.machine);
+  return t ? t->cutting_s : -1.0;
 }
 
 /// A straight pass in down milling: the arc ends at pi.

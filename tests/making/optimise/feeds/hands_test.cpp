@@ -20,16 +20,10 @@ namespace {
 
 using examples::cut_along;
 using examples::question;
+using examples::straight;
 using model::CutterPath;
 using model::MoveRole;
 using std::numbers::pi;
-
-CutterPath straight(double length_mm = 100.0) {
-  CutterPath p;
-  p.start({0, 0, 0});
-  p.line({length_mm, 0, 0}, MoveRole::kCut);
-  return p;
-}
 
 CutterPath down(MoveRole role) {
   CutterPath p;

@@ -16,8 +16,8 @@ namespace {
 std::string said(const Reading& r, const std::vector<Vec3>& places) {
   std::string out = r.unread.empty() ? "" : "unread: " + r.unread;
   for (const Vec3 p : places) {
-    const Said s = r.at(p);
-    out += s == Said::kRemoved ? 'R' : s == Said::kStays ? '-' : '?';
+    const PointState s = r.at(p);
+    out += s == PointState::kRemoved ? 'R' : s == PointState::kStays ? '-' : '?';
   }
   return out;
 }

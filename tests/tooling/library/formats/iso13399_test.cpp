@@ -9,7 +9,7 @@
 #include "tests/support/corpus.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/import.h"
-#include "tooling/library/formats/item/symbols.h"
+#include "tooling/library/formats/item/iso_names.h"
 #include "tooling/library/formats/values.h"
 #include "tooling/library/formats/zip.h"
 

@@ -2,8 +2,8 @@
 
 #include "planner/ground/base/number.h"
 #include "tooling/library/formats/all.h"
+#include "tooling/library/formats/item/iso_names.h"
 #include "tooling/library/formats/item/item.h"
-#include "tooling/library/formats/item/symbols.h"
 #include "tooling/library/formats/xml.h"
 #include "tooling/library/words/comment_words.h"
 

@@ -88,7 +88,7 @@ class Reader {
     if (!re || *re >= kSharpMm) return;
     std::erase_if(item.properties, [](const Property& p) { return p.symbol == "RE"; });
     out_.report.dropped.push_back(
-        {item.id, "RE", "a corner radius of " + shortest(*re) + " mm stands for a sharp corner"});
+        {item.id, "RE", "a corner radius of " + shortest(*re) + " mm is how it writes a sharp corner"});
   }
 
   void grade(CatalogueItem& item) {

@@ -442,7 +442,7 @@ class Reader {
   void finish() {
     for (const CatalogueItem& i : out_.library.items)
       if (!i.cutter_class)
-        out_.report.dropped.push_back({i.id, "class", "'" + i.kind + "' tells no kind of cutter"});
+        out_.report.dropped.push_back({i.id, "class", "'" + i.kind + "' names no kind of cutter"});
   }
 
   const std::string& file_;

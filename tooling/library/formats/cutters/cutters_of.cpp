@@ -367,7 +367,7 @@ class Maker {
   }
 
   /// A least feed that we assume gives way to what the library's presets say; a largest one does by material
-  /// (model::borne_feed).
+  /// (model::preset_feeds).
   static void widen_feeds(Cutter& c) {
     const std::string* least = source_of(c, "fz_min_mm");
     const bool lower = least != nullptr && least->starts_with("default");

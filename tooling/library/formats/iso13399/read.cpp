@@ -4,8 +4,8 @@
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/iso13399/iso13399.h"
 #include "tooling/library/formats/iso13399/stated_items.h"
+#include "tooling/library/formats/item/iso_names.h"
 #include "tooling/library/formats/item/item.h"
-#include "tooling/library/formats/item/symbols.h"
 #include "tooling/library/words/comment_words.h"
 
 namespace capstan::tooling {

@@ -2,8 +2,8 @@
 #include "planner/files/p21/read/text.h"
 #include "planner/ground/base/number.h"
 #include "tooling/library/formats/iso13399/iso13399.h"
+#include "tooling/library/formats/item/iso_names.h"
 #include "tooling/library/formats/item/item.h"
-#include "tooling/library/formats/item/symbols.h"
 
 namespace capstan::tooling {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/ground/base/text.h"
-#include "tooling/library/formats/item/symbols.h"
+#include "tooling/library/formats/item/iso_names.h"
 
 namespace capstan::tooling {
 namespace {

@@ -208,9 +208,9 @@ class Reader {
     };
     if (!item.cutter_class) {
       out_.report.dropped.push_back(
-          {name, "class", "no word of its comment '" + e.comment + "' tells what kind of tool it is"});
+          {name, "class", "no word of its comment '" + e.comment + "' names a kind of tool"});
       item.kept.emplace_back("left out", "no word of its comment '" + e.comment +
-                                             "' tells what kind of tool it is (end mill, drill, tap, ...)");
+                                             "' names a kind of tool (end mill, drill, tap, ...)");
     } else {
       const CommentWords w = words_of_comment(e.comment, *item.cutter_class, diameter, mm_per_unit_);
       derived(text_property("CLASS", model::to_text(*item.cutter_class), ""), kOfComment);

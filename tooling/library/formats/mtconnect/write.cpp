@@ -128,7 +128,7 @@ class Writer {
     x_.close();
     x_.close();
     report_.derived.push_back(
-        {"", "timestamp", "none is known: " + std::string(kUnknownTime) + " stands for that"});
+        {"", "timestamp", "none is known: " + std::string(kUnknownTime) + " is written for that"});
     report_.tools = assets_.size();
     return std::move(x_.text_);
   }
@@ -175,7 +175,7 @@ class Writer {
   void asset(const Asset& a) {
     const std::string tool_id = token(a.item->id);
     if (tool_id != a.item->id)
-      report_.derived.push_back({a.item->id, "toolId", "a name token is asked for: " + tool_id});
+      report_.derived.push_back({a.item->id, "toolId", "MTConnect wants a name token: " + tool_id});
     std::string makers = a.item->manufacturer;
     if (a.holder != nullptr && !a.holder->manufacturer.empty())
       makers += (makers.empty() ? "" : ",") + a.holder->manufacturer;

@@ -19,7 +19,7 @@ Result<std::vector<casebase::Case>> cases_of(const std::string& path, Job& job) 
   if (path.find("://") != std::string::npos) {  // it may hold a password, so that it is not repeated
     return fail(Diagnostic{.code = "CASE-URI",
                            .message = "'" + casebase::name_of(path) + "' is no file of cases",
-                           .hint = "the case base stands first"});
+                           .hint = "name the case base first"});
   }
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());

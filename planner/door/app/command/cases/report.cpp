@@ -44,7 +44,7 @@ std::string partings_text(const std::vector<report::Group>& steps) {
       rows.push_back({g.name, std::string(p.quantity->name), std::to_string(p.count), trimmed(p.ratio, 3),
                       p.count > 1 ? "x/ " + trimmed(std::exp(p.ln_std_dev), 3) : std::string("-"),
                       p.apart        ? "apart: " + std::string(p.quantity->model)
-                      : p.count == 1 ? std::string("one case tells nothing")
+                      : p.count == 1 ? std::string("one case proves nothing")
                                      : std::string("as predicted, within chance")});
     }
   }

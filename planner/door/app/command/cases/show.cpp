@@ -40,7 +40,7 @@ int run_cases_show(Session& s) {
     for (const casebase::Field& f : casebase::fields()) {
       if (!is_default(f, *c)) rows.push_back({std::string(f.name), value_text(f, *c)});
     }
-    for (const auto& said : base->said_of(*id)) {
+    for (const auto& said : base->later_verdicts(*id)) {
       const std::string what =
           said.verdict ? "judged " + std::string(to_text(*said.verdict)) : std::string("removed");
       rows.push_back(

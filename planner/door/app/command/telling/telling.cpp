@@ -68,11 +68,11 @@ class Lines {
 
 }  // namespace
 
-std::function<void(std::string_view, double)> progress_teller(ProgressTold told, bool on_terminal) {
-  if (told == ProgressTold::kJson) {
+std::function<void(std::string_view, double)> progress_teller(ProgressForm told, bool on_terminal) {
+  if (told == ProgressForm::kJson) {
     return [lines = std::make_shared<Lines>()](std::string_view stage, double f) { lines->show(stage, f); };
   }
-  if (told == ProgressTold::kNone || !on_terminal) return nullptr;
+  if (told == ProgressForm::kNone || !on_terminal) return nullptr;
   return [](std::string_view stage, double f) { bar().show(stage, f); };
 }
 

@@ -11,21 +11,21 @@
 
 namespace capstan::app {
 
-/// How progress is told.
-enum class ProgressTold : std::uint8_t {
+/// How the command shows progress.
+enum class ProgressForm : std::uint8_t {
   kAuto,  ///< a bar on a terminal, once the work takes more than a second
   kJson,  ///< a line of JSON every half second, on a terminal or not
   kNone,
 };
 
-/// Tells progress as `told` says; null: nothing is told. `bar`: standard error is a terminal and is read by a
-/// person.
-[[nodiscard]] std::function<void(std::string_view stage, double fraction)> progress_teller(ProgressTold told,
+/// Shows progress in the form `told`; null: it shows none. `bar`: standard error is a terminal and is read by
+/// a person.
+[[nodiscard]] std::function<void(std::string_view stage, double fraction)> progress_teller(ProgressForm told,
                                                                                            bool bar);
 /// Takes the bar off the terminal.
 void end_progress();
 
-/// Whether colours are told: standard error is a terminal that has them, and NO_COLOR (no-color.org) is not
+/// Whether lines are coloured: standard error is a terminal that has them, and NO_COLOR (no-color.org) is not
 /// set.
 [[nodiscard]] bool in_colour();
 /// `to_text` in one line, its severity coloured where `colour`.

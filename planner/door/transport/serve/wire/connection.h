@@ -18,7 +18,7 @@ class Connection {
   Connection& operator=(const Connection&) = delete;
   ~Connection();
 
-  /// User id of the peer, as the kernel has it; nothing: it cannot be told.
+  /// User id of the peer, as the kernel has it; nothing: the kernel does not say.
   [[nodiscard]] bool peer(std::uint32_t& user) const;
 
   enum class Read : std::uint8_t { kBytes, kEnd, kTime, kStop };

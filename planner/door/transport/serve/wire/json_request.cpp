@@ -89,7 +89,7 @@ Result<JsonRequest> read_json_request(const std::string& body, const std::vector
   };
   const Json json = Json::parse(body, seen, false);
   if (json.is_discarded()) return wrong("the body is no JSON", "an object with " + names_of(members));
-  if (!twice.empty()) return wrong("a name stands twice in one object: '" + twice + "'", "each once");
+  if (!twice.empty()) return wrong("a name occurs twice in one object: '" + twice + "'", "each once");
   if (!json.is_object()) return wrong("the JSON is no object", "an object with " + names_of(members));
   for (const auto& [name, value] : json.items()) {
     const auto member =

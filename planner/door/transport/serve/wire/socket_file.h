@@ -8,7 +8,7 @@ namespace capstan::transport {
 
 /// A listening UNIX socket at a path, for as long as this lives; the path is removed then.
 ///
-/// A socket that a dead server left is taken over; that it is dead is told by its lock (PATH.lock, held by
+/// A socket that a dead server left is taken over; its lock says that it is dead (PATH.lock, held by
 /// a server for its life) and by a connection that is refused. Whatever else is there stays.
 class SocketFile {
  public:

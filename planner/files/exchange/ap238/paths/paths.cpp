@@ -20,6 +20,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/nouns/placed_nouns.h"
 
 namespace capstan::exchange::ap238 {
 
@@ -388,21 +389,6 @@ bool same_place(const Placement& a, const Placement& b) {
          norm(a.z - b.z) <= kSamePlace;
 }
 
-model::Ref<model::Axis2Placement3d> copied(model::Model& m, const Placement& p) {
-  const auto direction = [&](Vec3 d) {
-    model::Direction out;
-    out.name = "";
-    out.direction_ratios = {{d.x + 0.0, d.y + 0.0, d.z + 0.0}, true};
-    return m.add(std::move(out));
-  };
-  model::Axis2Placement3d out;
-  out.name = "";
-  out.location = add_point(m, {p.origin.x, p.origin.y, p.origin.z});
-  out.axis = direction(p.z);
-  out.ref_direction = direction(p.x);
-  return m.add(std::move(out));
-}
-
 }  // namespace
 
 namespace {
@@ -468,7 +454,7 @@ void state_frames(model::Plan& plan) {
     if (m.at<model::Workingstep>(step).toolpath_orientation || !has_curves(m, step)) continue;
     const auto at = feature_frame(m, step);
     if (!at || same_place(*at, Placement{})) continue;
-    const auto stated = copied(m, *at);
+    const auto stated = model::add_placement(m, *at);
     m.at<model::Workingstep>(step).toolpath_orientation = stated;
   }
 }

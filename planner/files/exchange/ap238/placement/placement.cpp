@@ -7,6 +7,7 @@
 #include "planner/files/exchange/ap238/placement/locations.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/nouns/placed_nouns.h"
 
 namespace capstan::exchange::ap238 {
 
@@ -20,24 +21,11 @@ using model::TypeId;
 namespace frames {
 
 Ref<model::Direction> direction(Model& m, Vec3 d, std::string_view name) {
-  model::Direction out;
-  out.name = std::string(name);
-  out.direction_ratios.given = true;
-  out.direction_ratios.items = {d.x, d.y, d.z};
-  return m.add(std::move(out));
+  return model::add_direction(m, d, name);
 }
 
 PlacementRef placement(Model& m, const Placement& at, std::string_view name) {
-  model::CartesianPoint p;
-  p.name = "";
-  p.coordinates.given = true;
-  p.coordinates.items = {at.origin.x, at.origin.y, at.origin.z};
-  model::Axis2Placement3d out;
-  out.name = std::string(name);
-  out.location = m.add(std::move(p));
-  out.axis = direction(m, at.z);
-  out.ref_direction = direction(m, at.x);
-  return m.add(std::move(out));
+  return model::add_placement(m, at, name);
 }
 
 Ref<model::ElementarySurface> plane(Model& m, const Placement& at, std::string_view name) {

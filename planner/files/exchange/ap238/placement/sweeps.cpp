@@ -266,8 +266,9 @@ void sweep_to_ap238(model::Plan& plan, AnyRef feature, std::vector<std::string>&
     state(plan, shape, context, kDepth, f.depth);
   }
   if (f.depth && !depth_mm) {
-    losses.push_back(feature_name(m, feature) +
-                     ": its depth is not one along its axis; it has no limit in AP238, and stands on top");
+    losses.push_back(
+        feature_name(m, feature) +
+        ": its depth is not one along its axis; it has no limit in AP238, and begins at the top");
   }
   if (auto* own = m.get<model::LinearPath>(own_path)) {
     own->its_direction = direction(m, {0.0, 0.0, 1.0});

@@ -56,13 +56,7 @@ Result<model::Plan> read_ap238(const p21::File& file, Job& job, bool strict) {
     settle_written(file, seal, "the file's records", plan, reporter);
   }
   reporter.finish();
-  if (reporter.errors() != 0) {
-    return fail({.code = "EXC-AP238",
-                 .message = std::to_string(reporter.errors()) + " fault" +
-                            (reporter.errors() == 1 ? "" : "s") +
-                            " in the plan; the first: " + reporter.first_error(),
-                 .file = file.name()});
-  }
+  if (reporter.errors() != 0) return fail(reporter.failure("EXC-AP238"));
   return plan;
 }
 

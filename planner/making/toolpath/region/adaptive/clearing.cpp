@@ -45,10 +45,6 @@ struct Front {
   double length_mm = 0.0;
 };
 
-struct Aim {
-  Vec2 at, heading;
-};
-
 class Clearing {
  public:
   Clearing(const Region& centres, const Bite& bite, const Region& cleared)
@@ -149,7 +145,7 @@ class Clearing {
   void grow(const Track& t) { grow(points_of(t, bite_.chord_mm)); }
 
   /// Cuts from the aim on; false: it met nothing.
-  bool pass(const Aim& aim) {
+  bool pass(const ClearingStart& aim) {
     const double before = geometry::area(ground_);
     Tracer tracer(walls_, bite_, aim.at, aim.heading);
     std::size_t swept = 0;
@@ -252,7 +248,7 @@ class Clearing {
   }
 
   /// Begins before the front, so that the curl to it ends where it begins; later on it, when that failed.
-  [[nodiscard]] Aim aim_at(const Region& done, const Front& f, int tried) const {
+  [[nodiscard]] ClearingStart aim_at(const Region& done, const Front& f, int tried) const {
     const auto& loop = done.loops[f.loop];
     const std::size_t n = loop.size();
     std::size_t i = f.first;
@@ -294,7 +290,7 @@ class Clearing {
         const auto tried = static_cast<int>(std::count_if(
             failed_.begin(), failed_.end(), [&](Vec2 p) { return norm(p - begin) < 0.1 * bite_.radius_mm; }));
         if (tried > 1) break;
-        Aim aim = aim_at(done, f, tried);
+        ClearingStart aim = aim_at(done, f, tried);
         aim.at = stand(free, aim.at);
         if (pass(aim)) return true;
         failed_.push_back(begin);

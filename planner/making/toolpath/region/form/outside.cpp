@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/geometry/open_line.h"
 #include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/region/region_paths.h"
@@ -110,16 +111,6 @@ struct OpenSide {
   std::vector<Vec2> line;
 };
 
-double distance_to(const std::vector<Vec2>& line, Vec2 p) {
-  double best = 1e300;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Vec2 d = line[i + 1] - line[i];
-    const double t = std::clamp(dot(p - line[i], d) / dot(d, d), 0.0, 1.0);
-    best = std::min(best, norm(p - (line[i] + t * d)));
-  }
-  return best;
-}
-
 /// The track at a distance from an open line: the boundary of the removed area, offset inwards, without the
 /// parts that do not belong to the line. The removed area lies on the line's left. Empty if the distance
 /// leaves no track.
@@ -129,7 +120,7 @@ std::vector<Vec2> line_at(const OpenSide& side, double d) {
   for (const auto& loop : inset(side.removed, d, kWallChord).loops) {
     const std::size_t n = loop.size();
     const auto belongs = [&](std::size_t i) {
-      return distance_to(side.line, 0.5 * (loop[i] + loop[(i + 1) % n])) < d + kBeside;
+      return geometry::distance_to_line(side.line, 0.5 * (loop[i] + loop[(i + 1) % n])) < d + kBeside;
     };
     std::size_t first = 0;
     while (first < n && belongs(first)) ++first;

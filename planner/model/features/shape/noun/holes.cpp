@@ -5,6 +5,7 @@
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/features/shape/build.h"
+#include "planner/model/features/tip_angle.h"
 #include "planner/model/nouns/geometric_item.h"
 #include "planner/model/nouns/support.h"
 
@@ -51,17 +52,13 @@ Result<Shapes> hole(const Model& m, AnyRef self, const RoundHole& f) {
     s->through = true;
   } else if (const auto* c = m.get<ConicalHoleBottom>(f.bottom_condition)) {
     s->bottom = HoleBottom::kConical;
-    // tip_angle is the full angle of the tip. Files also give the flank's angle against the plane (20 degrees
-    // for a 140 degree point; example 2 of ISO 14649-11: 30 for 120) or half of the point's (70 for 140).
-    // Points of drills have 90 to 150 degrees: what lies at or below 45 is a flank's, up to 75 half of a
-    // point.
     const double tip = c->tip_angle.value_or(0.0);
     if (!(tip > 0.0 && tip < std::numbers::pi))
       return unsupported(m, self, "its conical bottom has no tip_angle between 0 and 180 degrees");
     constexpr double kHair = 1e-6;
     const double degrees = tip * 180.0 / std::numbers::pi;
-    const bool flank = degrees <= 45.0 + kHair;
-    const bool half = !flank && degrees <= 75.0 + kHair;
+    const bool flank = degrees <= kFlankTipDegrees + kHair;
+    const bool half = !flank && degrees <= kHalfTipDegrees + kHair;
     if (const auto round = length(m, c->tip_radius)) s->bottom_hole_radius_mm = round->nominal_mm;
     s->bottom_angle_rad = flank ? tip : half ? 0.5 * std::numbers::pi - tip : 0.5 * (std::numbers::pi - tip);
     if (flank || half) {

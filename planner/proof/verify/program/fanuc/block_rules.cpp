@@ -158,8 +158,7 @@ void Interpreter::code_rules(const BlockWords& s) {
   if (s.code(40)) {
     if (!s.is('P') && !s.is('X')) fault(33, "CHK-WORD", "G4 has neither P nor X, the time that it waits");
     if (s.is('Y') || s.is('Z') || s.is('R') || groups[1] || groups[9] || (s.is('X') && s.is('P')))
-      fault(33, "CHK-WORD",
-            "G4 stands with a motion or words of axes in one block; its motion is not followed");
+      fault(33, "CHK-WORD", "G4 is with a motion or words of axes in one block; its motion is not followed");
   }
   if (s.code(530) && !absolute_ && !s.code(900))
     fault(33, "CHK-WORD", "G53 in incremental mode (G91) is passed over; state G90 before it");

@@ -63,7 +63,7 @@ bool Interpreter::frame(const Line& l) {
     return l.words.empty() && !closed_;
   }
   if (!l.words.empty() && !opened_ && !any_)
-    fault(32, "CHK-END", "the program does not begin with %: what stands before the first % is not read");
+    fault(32, "CHK-END", "the program does not begin with %: what precedes the first % is not read");
   any_ = any_ || !l.words.empty();
   return true;
 }
@@ -91,7 +91,7 @@ bool Interpreter::gather(const Line& l, BlockWords& s) {
     }
     const int i = w.letter - 'A';
     if (s.has[i])
-      fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " stands twice in one block");
+      fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " occurs twice in one block");
     s.has[i] = true;
     s.value[i] = w.value;
     s.point[i] = w.point;
@@ -315,12 +315,7 @@ Program Interpreter::finish(long lines) {
 }
 
 Program read_program(std::string_view text, const model::Machine& machine) {
-  if (text.size() > kProgramCap) {
-    Program out;
-    out.faults.push_back(
-        {33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
-    return out;
-  }
+  if (text.size() > kProgramCap) return too_large_program();
   Interpreter control(machine);
   Line line;
   long number = 0;

@@ -14,7 +14,7 @@ void Interpreter::unit_code(bool inch, const BlockWords& s) {
           "the unit of length is switched from " + std::string(inch_ ? "inch" : "mm") + " to " +
               (inch ? "inch" : "mm"));
   if (s.axes() || s.is('F') || s.is('I') || s.is('J'))
-    fault(2, "CHK-UNITS", "G20 and G21 stand in a block of their own; here words of lengths stand beside it");
+    fault(2, "CHK-UNITS", "G20 and G21 need a block of their own; here words of lengths are beside it");
   inch_ = inch;
   units_stated_ = true;
   stated_ |= kStatedUnits;

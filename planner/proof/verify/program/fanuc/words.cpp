@@ -18,7 +18,7 @@ bool strip(std::string_view text, std::string& code, Line& out) {
       if (end == std::string_view::npos) return false;
       out.comments.emplace_back(text.substr(i + 1, end - i - 1));
       if (out.comments.back().find_first_of("%(") != std::string::npos)
-        out.fault = "a comment with % or ( in it: % ends the tape wherever it stands";
+        out.fault = "a comment with % or ( in it: % ends the tape wherever it is";
       i = end;
       continue;
     }

@@ -387,12 +387,7 @@ Program Interpreter::finish(long lines) {
 }
 
 Program read_program(std::string_view text, const model::Machine& machine) {
-  if (text.size() > kProgramCap) {
-    Program out;
-    out.faults.push_back(
-        {33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
-    return out;
-  }
+  if (text.size() > kProgramCap) return too_large_program();
   Interpreter control(machine);
   Line line;
   long number = 0, begins = 0;

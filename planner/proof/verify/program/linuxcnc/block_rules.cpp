@@ -124,7 +124,7 @@ bool cycle_code(int g) { return g == 730 || (g >= 810 && g <= 890); }
 void Interpreter::block_rules(const Line& l, const BlockSaid& s) {
   for (std::size_t i = 1; i < l.words.size(); ++i) {
     if (l.words[i].letter == 'N')
-      fault(33, "CHK-WORD", "N stands behind other words; LinuxCNC reads it at the start of a block only");
+      fault(33, "CHK-WORD", "N follows other words; LinuxCNC reads it at the start of a block only");
   }
   word_rules(s);
   code_rules(s);
@@ -215,8 +215,7 @@ void Interpreter::code_rules(const BlockSaid& s) {
             s.is('P') ? "G4 waits for P" + plain(s.of('P')) + " seconds; P must be 0 or more"
                       : std::string("G4 has no P, the seconds that it waits"));
     if (axes || motion_said)
-      fault(33, "CHK-WORD",
-            "G4 stands with a motion or words of axes in one block; its motion is not followed");
+      fault(33, "CHK-WORD", "G4 is with a motion or words of axes in one block; its motion is not followed");
   }
   if (motion_said && (motion == 20 || motion == 30) && !s.is('I') && !s.is('J') && !s.is('R'))
     fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (R)");

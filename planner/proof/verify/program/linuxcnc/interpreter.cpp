@@ -52,7 +52,7 @@ bool Interpreter::gather(const Line& l, BlockSaid& s) {
     }
     const int i = w.letter - 'A';
     if (s.has[i])
-      fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " stands twice in one block");
+      fault(33, "CHK-WORD-TWICE", std::string("the word ") + w.letter + " occurs twice in one block");
     s.has[i] = true;
     s.value[i] = w.value;
   }
@@ -358,12 +358,7 @@ Program read_program(std::string_view text) {
   Interpreter machine;
   Line line;
   long number = 0;
-  if (text.size() > kProgramCap) {
-    Program out;
-    out.faults.push_back(
-        {33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
-    return out;
-  }
+  if (text.size() > kProgramCap) return too_large_program();
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     std::string_view one = text.substr(0, end);

@@ -73,7 +73,7 @@ void Interpreter::word_rules(const BlockWords& s) {
   if (arcs && s.axes() && !s.is('R') && !s.is('I') && !s.is('J'))
     fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (CR=)");
   if (s.is('R') && (s.is('I') || s.is('J'))) fault(23, "CHK-ARC", "an arc with both CR= and a centre");
-  if (s.is('T') && s.tool_name) fault(33, "CHK-WORD-TWICE", "the word T stands twice in one block");
+  if (s.is('T') && s.tool_name) fault(33, "CHK-WORD-TWICE", "the word T occurs twice in one block");
   for (const char c : std::string_view("FSTD")) {
     if (s.is(c) && s.of(c) < 0.0)
       fault(33, "CHK-WORD", std::string("the word ") + c + " is " + plain(s.of(c)) + ", below zero");

@@ -58,7 +58,7 @@ bool Interpreter::put_word(char letter, const Item& item, BlockWords& s) {
     fault(33, "CHK-WORD", item.name + " is no address; a name of a variable has two letters at least", true);
     return false;
   }
-  if (s.has[i]) fault(33, "CHK-WORD-TWICE", "the word " + item.name + " stands twice in one block");
+  if (s.has[i]) fault(33, "CHK-WORD-TWICE", "the word " + item.name + " occurs twice in one block");
   s.has[i] = true;
   s.value[i] = *item.value;
   return true;
@@ -86,7 +86,7 @@ bool Interpreter::take_item(const Item& item, BlockWords& s) {
       fault(1, "CHK-NUMBER", item.name + "= has no number");
       return false;
     }
-    if (into) fault(33, "CHK-WORD-TWICE", item.name + "= stands twice in one block");
+    if (into) fault(33, "CHK-WORD-TWICE", item.name + "= occurs twice in one block");
     into = item.value;
     return true;
   };
@@ -230,7 +230,7 @@ void Interpreter::line(const Line& l, long number) {
   word_rules(s);
   if (s.modal_call || s.call != nullptr) {
     if (l.items.size() != words + (s.modal_call && s.call != nullptr ? 1 : 0))
-      fault(26, "CHK-CYCLE", "a call stands in a block of its own; its other words are not followed");
+      fault(26, "CHK-CYCLE", "a call needs a block of its own; its other words are not followed");
     if (s.call != nullptr) return call_block(*s.call, s.modal_call);
     modal_.reset();
     cycle_active_ = false;
@@ -240,7 +240,7 @@ void Interpreter::line(const Line& l, long number) {
   state_codes(s);
   if (s.code(4)) {
     if (l.items.size() != words + 1)  // N, G4 and its time
-      fault(33, "CHK-WORD", "G4 stands in a block of its own; its other words are not followed");
+      fault(33, "CHK-WORD", "G4 needs a block of its own; its other words are not followed");
     return wait(s);
   }
   before_move(s);
@@ -254,12 +254,7 @@ Program Interpreter::finish(long lines) {
 }
 
 Program read_program(std::string_view text, const model::Machine& machine) {
-  if (text.size() > kProgramCap) {
-    Program out;
-    out.faults.push_back(
-        {33, "CHK-TOO-LARGE", 0, "the program is larger than 256 MiB and was not read", true});
-    return out;
-  }
+  if (text.size() > kProgramCap) return too_large_program();
   Interpreter control(machine);
   Line line;
   long number = 0;

@@ -59,7 +59,7 @@ struct Knife {
   }
   void gouge(int ix, int iy, double z, double below) {
     constexpr int kMostJudged = 500;  // per move; a true gouge is found by the first
-    if (asks.judge != nullptr && (++judged > kMostJudged || !asks.judge->guilty(grid.centre(ix, iy), z)))
+    if (asks.judge != nullptr && (++judged > kMostJudged || !asks.judge->is_gouge(grid.centre(ix, iy), z)))
       return;
     bite.gouge_mm = below;
     bite.gouge_at = grid.centre(ix, iy);

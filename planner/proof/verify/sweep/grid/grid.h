@@ -88,16 +88,16 @@ struct Bite {
 
 /// Whether a point that lies `depth_mm` below the finished surface at height z is a gouge, or within the
 /// tolerance of a wall.
-class GougeJudge {
+class GougeTest {
  public:
-  virtual ~GougeJudge() = default;
-  [[nodiscard]] virtual bool guilty(geometry::Vec2 at, double z_mm) const = 0;
+  virtual ~GougeTest() = default;
+  [[nodiscard]] virtual bool is_gouge(geometry::Vec2 at, double z_mm) const = 0;
 };
 
 /// Results wanted of a cut beside its volume; one that is not wanted costs nothing.
 struct CutAsks {
-  double allowed_mm = 1e300;          ///< depth below the part that is within tolerance
-  const GougeJudge* judge = nullptr;  ///< of what is deeper; null: all of it is a gouge
+  double allowed_mm = 1e300;         ///< depth below the part that is within tolerance
+  const GougeTest* judge = nullptr;  ///< of what is deeper; null: all of it is a gouge
   /// What a tooth advances; 0: chips are not measured. A centre that the front of the cutter meets has met it
   /// at one place of its surface, whose normal n and the direction of travel v are known exactly: the chip
   /// there is the advance times n v, no thicker than the material is deep.

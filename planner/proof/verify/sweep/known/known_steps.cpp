@@ -38,7 +38,7 @@ bool feeds(const Move& m) { return m.kind != MoveKind::kRapid && m.kind != MoveK
 
 /// What a step's check found, and what its cuts left.
 struct Known {
-  std::vector<Findings::Said> said;  ///< `move` is the place in StepMoves::moves
+  std::vector<Findings::Reported> said;  ///< `move` is the place in StepMoves::moves
   std::vector<std::uint32_t> cells;
   std::vector<double> heights;
   bool cuts = false;
@@ -108,8 +108,9 @@ void lower(Grid& grid, const Known& known) {
 }
 
 /// Findings by the places of their moves in the step, and back.
-std::optional<std::vector<Findings::Said>> by_place(std::vector<Findings::Said> said, const StepMoves& step) {
-  for (Findings::Said& s : said) {
+std::optional<std::vector<Findings::Reported>> by_place(std::vector<Findings::Reported> said,
+                                                        const StepMoves& step) {
+  for (Findings::Reported& s : said) {
     if (s.move < 0) continue;
     const auto at =
         std::find_if(step.moves.begin(), step.moves.end(), [&](const Move& m) { return m.where == s.move; });
@@ -118,8 +119,8 @@ std::optional<std::vector<Findings::Said>> by_place(std::vector<Findings::Said> 
   }
   return said;
 }
-void to_moves(std::vector<Findings::Said>& said, const StepMoves& step) {
-  for (Findings::Said& s : said)
+void to_moves(std::vector<Findings::Reported>& said, const StepMoves& step) {
+  for (Findings::Reported& s : said)
     if (s.move >= 0) s.move = step.moves[static_cast<std::size_t>(s.move)].where;
 }
 
@@ -127,8 +128,9 @@ bool sound(const Known& known, const StepMoves& step, const Grid& grid) {
   return known.cells.size() == known.heights.size() &&
          std::is_sorted(known.cells.begin(), known.cells.end()) &&
          (known.cells.empty() || known.cells.back() < grid.stock.size()) &&
-         std::all_of(known.said.begin(), known.said.end(),
-                     [&](const Findings::Said& s) { return s.move < static_cast<long>(step.moves.size()); });
+         std::all_of(known.said.begin(), known.said.end(), [&](const Findings::Reported& s) {
+           return s.move < static_cast<long>(step.moves.size());
+         });
 }
 
 }  // namespace
@@ -275,7 +277,7 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
       const auto row = setup.grid.stock.begin() + static_cast<std::ptrdiff_t>(setup.grid.index(0, iy));
       before.insert(before.end(), row + w.x0, row + w.x1);
     }
-    std::vector<Findings::Said> said;
+    std::vector<Findings::Reported> said;
     {
       const Findings::Recording recording(findings, said);
       out = anew();

@@ -74,7 +74,8 @@ void StepChecks::nothing(bool begun) {
   double closest = grid_.cell();
   if (earlier_.takes(grid_, step_.moves, *outline_, mark_, closest)) return;
   out_.error(35, "CHK-CUTS-NOTHING", {step_.order + 1, step_.id, -1},
-             "the step cuts nothing: no move at feed meets material (points " + mm(closest) + " apart)");
+             "the step cuts nothing: no move at feed meets material (points " + mm(closest) +
+                 " apart); take it out, or look at the placement of its feature");
 }
 
 }  // namespace capstan::verify

@@ -335,7 +335,7 @@ void Target::fill_mesh(Grid& grid) const {
   }
 }
 
-bool Target::guilty(Vec2 at, double z) const {
+bool Target::is_gouge(Vec2 at, double z) const {
   if (plan_.target_mesh && grid_ != nullptr) return grid_->normal_depth(at, z) > allowed();
   // Not if the surface is as low within the tolerance sideways: then it is a wall that was grazed.
   const double reach = allowed();

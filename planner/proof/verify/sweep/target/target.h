@@ -78,7 +78,7 @@ inline constexpr double kChordMm = 0.005;
 
 /// The finished part in one set-up: heights, and for upright walls the exact areas in which a cutter may be
 /// at a given height.
-class Target : public GougeJudge {
+class Target : public GougeTest {
  public:
   Target(const model::Plan& plan, const PartShapes& part, std::size_t setup);
 
@@ -90,7 +90,7 @@ class Target : public GougeJudge {
   void remember(memo::Memo& memo, const memo::Key& of_setup);
   /// Fills both heights. The grid must outlive this.
   void fill(Grid& grid);
-  [[nodiscard]] bool guilty(geometry::Vec2 at, double z_mm) const override;
+  [[nodiscard]] bool is_gouge(geometry::Vec2 at, double z_mm) const override;
   /// By how much a disc whose tip is at the height of the move enters a wall, beyond the tolerance; 0 none.
   double wall_gouge(const Move& m, double radius_mm, double height_mm, geometry::Vec2& at);
   /// Whether the feature's removal can be judged here; else why not.

@@ -1,4 +1,4 @@
-#include "tooling/library/cutters/shape.h"
+#include "tooling/library/cutters/edge_kind.h"
 
 #include <algorithm>
 #include <cmath>

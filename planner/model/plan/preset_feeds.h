@@ -37,16 +37,16 @@ inline constexpr double kOverPreset = 1.5;
 /// cutter's own start value for this material. Where the cutter has no start value, it is the least of those
 /// for materials of the same ISO 513 group (`of_group`), and no more: groups are wide. Values of another
 /// group do not count.
-[[nodiscard]] double borne_feed_mm(const Cutter& c, const WorkMaterial& m);
+[[nodiscard]] double largest_tooth_feed_mm(const Cutter& c, const WorkMaterial& m);
 
 /// The feed per tooth that its presets state for a material, the own before those of its like; 0: none.
 [[nodiscard]] double start_feed_mm(const Cutter& c, const WorkMaterial& m);
 
-/// Share of its start value down to which a cutter is held to cut, whatever its edge's radius says: who
-/// states a start value has seen it cut, and some limit may lower it. Default, unsourced.
+/// Share of its start value down to which a cutter is taken to cut, whatever its edge's radius says:
+/// whoever states a start value has seen it cut, and some limit may lower it. Default, unsourced.
 inline constexpr double kCutsDownTo = 0.5;
-/// The thinnest chip that the cutter is held to cut in a material by what its presets say, mm; 0: they say
-/// nothing. kCutsDownTo of a start value that its maker or the shop states; all of one that is nobody's.
+/// The thinnest chip that the cutter is taken to cut in a material, by its presets, mm; 0: they do not say.
+/// kCutsDownTo of a start value that its maker or the shop states; all of one that is nobody's.
 [[nodiscard]] double held_to_cut_mm(const Cutter& c, const WorkMaterial& m);
 
 }  // namespace capstan::model

@@ -1,4 +1,4 @@
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 
 #include <algorithm>
 
@@ -65,7 +65,7 @@ double held_to_cut_mm(const Cutter& c, const WorkMaterial& m) {
 
 std::string of_group(std::string_view iso_group) { return " (ISO group " + std::string(iso_group) + ")"; }
 
-double borne_feed_mm(const Cutter& c, const WorkMaterial& m) {
+double largest_tooth_feed_mm(const Cutter& c, const WorkMaterial& m) {
   const auto* own = feed_preset(c, m, false);
   double by_own = own != nullptr ? kOverPreset * own->fz_mm : 0.0;
   for (const CuttingPreset& p : c.presets) {

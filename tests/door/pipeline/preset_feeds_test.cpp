@@ -1,4 +1,4 @@
-#include "planner/model/plan/borne_feed.h"
+#include "planner/model/plan/preset_feeds.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST(BorneFeed, IsTheSameToPlanningAndToTheCheck) {
   for (const auto& m : all) {
     for (const model::Cutter& c : cutters_in(m, last_of_group[m.iso_group])) {
       if (c.cutter_class == model::CutterClass::kTouchProbe || !(c.fz_max_mm > 0.0)) continue;
-      const double planned = model::borne_feed_mm(c, m);
+      const double planned = model::largest_tooth_feed_mm(c, m);
       const verify::FeedLimit checked = verify::feed_limit(c, m);
       const double per = checked.per_revolution ? std::max(1, c.teeth) : 1;
       ASSERT_NEAR(checked.mm, per * planned, 1e-12) << c.id << " in " << m.id;

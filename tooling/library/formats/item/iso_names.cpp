@@ -1,4 +1,4 @@
-#include "tooling/library/formats/item/symbols.h"
+#include "tooling/library/formats/item/iso_names.h"
 
 #include <algorithm>
 #include <array>
