@@ -271,7 +271,7 @@ std::string words_of(const std::vector<Change>& changes, const std::vector<std::
   }
   if (out.empty()) return out;
   const double now = total(after), then = total(before);
-  out += "Time in all: " + motion::duration_text(now);
+  out += "Time of the steps, without what lies between: " + motion::duration_text(now);
   if (!before.steps.empty()) out += ", " + signed_seconds(now - then) + " against the plan";
   return out + ".\n";
 }

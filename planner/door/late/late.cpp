@@ -235,7 +235,8 @@ void finish(LateOutcome& out, const model::Plan& brought, const Case& c,
   const bool part = c.window.has_value();
   out.changes = changes(brought, out.plan, part);
   // Times of a part are not held against those of a whole.
-  out.words = words_of(out.changes, out.reopened, part ? model::Plan{} : brought, out.plan);
+  static const model::Plan kNone;
+  out.words = words_of(out.changes, out.reopened, part ? kNone : brought, out.plan);
   if (part) {
     out.first = c.window->first + 1;
     model::Plan whole = joined(c.plan, out.plan, *c.window);

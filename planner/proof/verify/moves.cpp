@@ -10,16 +10,19 @@ namespace {
 
 double start_angle(const Move& m) { return std::atan2(m.from.y - m.centre.y, m.from.x - m.centre.x); }
 
-}  // namespace
-
-double sweep_of(const Move& m) {
+/// `sweep_of`, where its start is known: arc tangents are most of what moves cost.
+double sweep_from(const Move& m, double start) {
   const double end = std::atan2(m.to.y - m.centre.y, m.to.x - m.centre.x);
-  double sweep = end - start_angle(m);
+  double sweep = end - start;
   if (m.kind == model::MoveKind::kArcCw) sweep = -sweep;
   sweep = std::fmod(sweep, kRadPerTurn);
   if (sweep < 0.0) sweep += kRadPerTurn;
   return sweep <= 1e-9 ? kRadPerTurn : sweep;
 }
+
+}  // namespace
+
+double sweep_of(const Move& m) { return sweep_from(m, start_angle(m)); }
 
 double length_of(const Move& m) {
   if (m.kind == model::MoveKind::kDwell) return 0.0;
@@ -31,7 +34,8 @@ geometry::Vec3 point_of(const Move& m, double t) {
   if (!is_arc(m.kind)) return m.from + t * (m.to - m.from);
   const double r0 = norm(xy(m.from) - m.centre);
   const double r = r0 + t * (norm(xy(m.to) - m.centre) - r0);
-  const double a = start_angle(m) + (m.kind == model::MoveKind::kArcCcw ? t : -t) * sweep_of(m);
+  const double start = start_angle(m);
+  const double a = start + (m.kind == model::MoveKind::kArcCcw ? t : -t) * sweep_from(m, start);
   return {m.centre.x + r * std::cos(a), m.centre.y + r * std::sin(a), m.from.z + t * (m.to.z - m.from.z)};
 }
 
@@ -41,10 +45,10 @@ geometry::Box3 box_of(const Move& m) {
   box.add(m.to);
   if (!is_arc(m.kind)) return box;
   const double r = norm(xy(m.to) - m.centre);
-  const double sweep = sweep_of(m);
+  const double start = start_angle(m), sweep = sweep_from(m, start);
   for (int quarter = 0; quarter < 4; ++quarter) {
     const double at = quarter * kRadPerTurn / 4.0;
-    double ahead = at - start_angle(m);
+    double ahead = at - start;
     if (m.kind == model::MoveKind::kArcCw) ahead = -ahead;
     ahead = std::fmod(ahead, kRadPerTurn);
     if (ahead < 0.0) ahead += kRadPerTurn;

@@ -66,7 +66,7 @@ TEST(LateChanges, AWornToolIsToldWithItsSizeAndItsPathIsNoDecision) {
   ASSERT_TRUE(worn) << to_text(worn.error());
   EXPECT_NE(worn->words.find("T9 endmill 7.95 mm as measured, instead of T9 endmill 8 mm"), std::string::npos)
       << worn->words;
-  EXPECT_NE(worn->words.find("Time in all: "), std::string::npos) << worn->words;
+  EXPECT_NE(worn->words.find("Time of the steps"), std::string::npos) << worn->words;
   for (const Change& c : worn->changes) {
     EXPECT_EQ(std::count(c.decided.begin(), c.decided.end(), Choice::kTools), 0) << c.text;
     EXPECT_EQ(std::count(c.decided.begin(), c.decided.end(), Choice::kStrategy), 0) << c.text;

@@ -23,3 +23,10 @@ add_test(NAME LateInterface.TheExampleForCBindsEachWorkingstepInItsTurn
           ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000 next)
 set_tests_properties(LateInterface.TheExampleForCBindsEachWorkingstepInItsTurn PROPERTIES
   PASS_REGULAR_EXPRESSION "workingstep 5 of 5\n" FAIL_REGULAR_EXPRESSION "not bound")
+
+# The page for a builder of controls says what the header and the command say.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_test(NAME LateInterface.ThePageForBuildersSaysWhatTheHeaderSays
+  COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_LIST_DIR}/page_test.py ${CMAKE_SOURCE_DIR} ${CMAKE_C_COMPILER}
+          $<TARGET_FILE:capstan>)
+set_tests_properties(LateInterface.ThePageForBuildersSaysWhatTheHeaderSays PROPERTIES TIMEOUT 60)

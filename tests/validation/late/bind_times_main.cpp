@@ -1,12 +1,15 @@
-// capstan_bind_times FOLDER [CASE]: binds plans as a control does, again and again, and writes bind_times.csv (a
-// line of the machine; then case, steps of the plan, points of what was bound, wall_ms, cpu_ms of each
-// binding) into FOLDER; with CASE that case alone. The time of a binding is that of the call, the tool table's change and the program
-// included. Status 1 when one fails.
+// capstan_bind_times FOLDER [CASE [TURNS]]: binds plans as a control does, again and again, and writes
+// bind_times.csv (a line of the machine; then case, steps of the plan, points of what was bound, wall_ms,
+// cpu_ms of each binding) into FOLDER; with CASE that case alone, with TURNS so many of its bindings: two
+// runs under `valgrind --tool=callgrind` differ by the instructions of the bindings that the one has more.
+// The time of a binding is that of the call, the tool table's change and the program included. Status 1 when
+// one fails.
 
 #include <sys/resource.h>
 #include <time.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -163,10 +166,12 @@ void all_open(Measuring& m, const std::string& name, const Early& plan, int time
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 && argc != 3) {
-    std::cerr << "usage: capstan_bind_times FOLDER [length|diameter|next|bracket|first]\n";
+  const int most = argc == 4 ? std::atoi(argv[3]) : 0;
+  if (argc < 2 || argc > 4 || (argc == 4 && most < 1)) {
+    std::cerr << "usage: capstan_bind_times FOLDER [length|diameter|next|bracket|first [TURNS]]\n";
     return 2;
   }
+  const auto turns = [&](int usual) { return most > 0 ? most : usual; };
   const auto wanted = [&](const std::string& name) { return argc == 2 || name == argv[2]; };
   Measuring m;
   const std::string bracket =
@@ -179,19 +184,20 @@ int main(int argc, char** argv) {
   };
   const Early plate = early(capstan::testing::plate(kFifty).text, pipeline::Bind::kAll);
   // T2 mills the plate's pockets, T3 drills.
-  if (wanted("length")) changed_tool(m, "length", plate, 3, "Z", 0.01, 200);
+  if (wanted("length")) changed_tool(m, "length", plate, 3, "Z", 0.01, turns(200));
   write();
-  if (wanted("diameter")) changed_tool(m, "diameter", plate, 2, "D", -0.0011, 100);
+  if (wanted("diameter")) changed_tool(m, "diameter", plate, 2, "D", -0.0011, turns(100));
   write();
   if (wanted("next"))
-    step_by_step(m, "next", early(capstan::testing::plate(kFifty).text, pipeline::Bind::kStrategy), 10, 1000);
+    step_by_step(m, "next", early(capstan::testing::plate(kFifty).text, pipeline::Bind::kStrategy),
+                 most > 0 ? 1 : 10, static_cast<std::size_t>(turns(1000)));
   write();
-  if (wanted("bracket")) all_open(m, "bracket", early(bracket, pipeline::Bind::kStrategy), 20);
+  if (wanted("bracket")) all_open(m, "bracket", early(bracket, pipeline::Bind::kStrategy), turns(20));
   write();
   if (wanted("first"))
-    step_by_step(
-        m, "first",
-        early(capstan::testing::plate(kTenThousand).text, pipeline::Bind::kStrategy, plate.table), 20, 1);
+    step_by_step(m, "first",
+                 early(capstan::testing::plate(kTenThousand).text, pipeline::Bind::kStrategy, plate.table),
+                 turns(20), 1);
   write();
   return m.failed() ? 1 : 0;
 }

@@ -32,10 +32,11 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_life(steps, findings);
   check_machine(plan, findings);
   check_holding(plan, findings);
-  check_order(plan, findings, before);
-  check_coverage(plan, findings, before);
   poll();
   const PartShapes part = shapes_of_part(plan);
+  poll();
+  check_order(plan, part, findings, before);
+  check_coverage(plan, findings, before);
   poll();
   check_meaning(plan, findings, before != nullptr);
   poll();
@@ -43,8 +44,8 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_within(plan, part, findings);
   poll();
   std::vector<double> speed_shares;
-  const bool swept = check_removal(plan, steps, findings, job, &speed_shares, known, before);
-  check_predicted(plan, steps, speed_shares, findings);
+  const bool swept = check_removal(plan, part, steps, findings, job, &speed_shares, known, before);
+  check_predicted(plan, part, steps, speed_shares, findings);
   if (!swept) return false;
   job.progress("check", 1.0);
   return true;

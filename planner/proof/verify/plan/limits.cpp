@@ -42,6 +42,20 @@ void check_speed(const StepMoves& step, const Move& m, const model::Machine& mac
   }
 }
 
+constexpr double kFeedOver = 1.0005;  ///< share of an axis's limit that is none above it
+constexpr double kNearer = 1.0004;    ///< less than that, so that rounding decides nothing
+
+/// Whether no axis can be too fast whatever the direction: a heading's parts are 1 at most, on an arc whose
+/// end is nearer to its centre than its start as much more as that.
+bool slow_enough(const Move& m, const model::Machine& machine) {
+  if (is_arc(m.kind) && norm(xy(m.from) - m.centre) > kNearer * norm(xy(m.to) - m.centre)) return false;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double most = machine.axes[a].feed_max_mm_min;
+    if (most > 0.0 && !(m.feed_mm_min <= most)) return false;
+  }
+  return true;
+}
+
 void check_feed(const StepMoves& step, const Move& m, const model::Machine& machine, Findings& findings) {
   const Findings::Where at{step.order + 1, step.id, m.where};
   if (!(m.feed_mm_min > 0.0)) {
@@ -49,6 +63,7 @@ void check_feed(const StepMoves& step, const Move& m, const model::Machine& mach
                    "the feed is " + plain(m.feed_mm_min) + " mm/min; it must be above zero");
     return;
   }
+  if (slow_enough(m, machine)) return;
   double share[3] = {0.0, 0.0, 0.0};
   // An arc turns each way: its ends and quarters show the largest share of each axis.
   const int n = is_arc(m.kind) ? 16 : 1;
@@ -60,7 +75,7 @@ void check_feed(const StepMoves& step, const Move& m, const model::Machine& mach
   }
   for (int a = 0; a < 3; ++a) {
     const double most = machine.axes[static_cast<std::size_t>(a)].feed_max_mm_min;
-    if (most > 0.0 && m.feed_mm_min * share[a] > most * 1.0005) {
+    if (most > 0.0 && m.feed_mm_min * share[a] > most * kFeedOver) {
       findings.error(18, "CHK-FEED-AXIS", at,
                      "axis " + machine.axes[static_cast<std::size_t>(a)].name + " would feed at " +
                          plain(m.feed_mm_min * share[a]) + " mm/min; its limit is " + plain(most) +

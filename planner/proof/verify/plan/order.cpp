@@ -120,8 +120,13 @@ bool overlap(const Footprint& a, const Footprint& b) {
   return geometry::area(geometry::intersect(a.area, b.area)) > 1e-3 * geometry::area(b.area);
 }
 
-void check_faces(const model::Plan& plan, const std::vector<Entry>& entries, Findings& findings) {
-  const PartShapes part = shapes_of_part(plan);
+void check_faces(const model::Plan& plan, const PartShapes& part, const std::vector<Entry>& entries,
+                 Findings& findings) {
+  const auto has_face = [](const PartShapes::Entry& e) {
+    return std::any_of(e.shapes.begin(), e.shapes.end(),
+                       [](const auto& s) { return s.kind == ShapeKind::kFace; });
+  };
+  if (std::none_of(part.entries.begin(), part.entries.end(), has_face)) return;
   struct First {
     const Entry* entry;
     Footprint print;
@@ -149,10 +154,11 @@ void check_faces(const model::Plan& plan, const std::vector<Entry>& entries, Fin
 
 }  // namespace
 
-void check_order(const model::Plan& plan, Findings& findings, const CutBefore* before) {
+void check_order(const model::Plan& plan, const PartShapes& part, Findings& findings,
+                 const CutBefore* before) {
   const std::vector<Entry> entries = entries_of(plan, before);
   check_ranks(plan, entries, findings);
-  check_faces(plan, entries, findings);
+  check_faces(plan, part, entries, findings);
 }
 
 std::set<AnyRef> to_come(const model::Plan& plan, const CutBefore& before) {

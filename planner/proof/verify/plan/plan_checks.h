@@ -64,7 +64,7 @@ void check_life(const std::vector<StepMoves>& steps, Findings& findings);
 /// or the tool's own (16), the life of an edge at it against the step's time, edges that a tool takes in all
 /// (30); bending that the plan states against the feature's tolerance (21). `speed_shares`: of each step's
 /// speed, what its arcs of contact leave of it (check_removal).
-void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& steps,
+void check_predicted(const model::Plan& plan, const PartShapes& part, const std::vector<StepMoves>& steps,
                      const std::vector<double>& speed_shares, Findings& findings);
 
 /// What the plan or the part's file says that a machine must have (its_minimum_machine_params): 16, 17,
@@ -85,7 +85,8 @@ void check_tool_size(const ToolSize& tool, const model::Machine& machine, const 
 void check_holding(const model::Plan& plan, Findings& findings);
 
 /// What must come first: 28.
-void check_order(const model::Plan& plan, Findings& findings, const CutBefore* before = nullptr);
+void check_order(const model::Plan& plan, const PartShapes& part, Findings& findings,
+                 const CutBefore* before = nullptr);
 
 /// Every feature planned, or said not to be: 34.
 void check_coverage(const model::Plan& plan, Findings& findings, const CutBefore* before = nullptr);

@@ -453,9 +453,8 @@ void judge_bending(const model::Plan& plan, const PartShapes& part, const StepMo
 
 }  // namespace
 
-void check_predicted(const model::Plan& plan, const std::vector<StepMoves>& steps,
+void check_predicted(const model::Plan& plan, const PartShapes& part, const std::vector<StepMoves>& steps,
                      const std::vector<double>& speed_shares, Findings& findings) {
-  const PartShapes part = shapes_of_part(plan);
   std::map<std::string, Edges> worn;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepMoves& s = steps[i];

@@ -3,6 +3,7 @@
 #include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/stopped.h"
 #include "planner/proof/verify/sweep/sweep.h"
+#include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
@@ -102,7 +103,9 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
     const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
     const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
     const std::vector<StepMoves> steps = judge_text(*reader, program, text, plan, machine, tools, findings);
-    if (plan != nullptr && !check_removal(*plan, steps, findings, job, nullptr, known, before)) return false;
+    if (plan != nullptr &&
+        !check_removal(*plan, shapes_of_part(*plan), steps, findings, job, nullptr, known, before))
+      return false;
     job.progress("check", 1.0);
     return true;
   });

@@ -97,8 +97,9 @@ void check_left(const model::Plan& plan, const PartShapes& part,
 
 }  // namespace
 
-bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings, Job& job,
-                   std::vector<double>* speed_shares, memo::Memo* known, const CutBefore* before) {
+bool check_removal(const model::Plan& plan, const PartShapes& part, const std::vector<StepMoves>& steps,
+                   Findings& findings, Job& job, std::vector<double>* speed_shares, memo::Memo* known,
+                   const CutBefore* before) {
   if (speed_shares != nullptr) speed_shares->assign(steps.size(), 1.0);
   check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
@@ -107,7 +108,6 @@ bool check_removal(const model::Plan& plan, const std::vector<StepMoves>& steps,
                       "there is no raw piece, so that removal cannot be checked");
     return true;
   }
-  const PartShapes part = shapes_of_part(plan);
   const double cell = cell_of(plan);
   const KnownSteps known_steps(plan, part, known);
   // Set-ups that hold the piece alike go on with the same stock; others begin with what is left.

@@ -39,7 +39,7 @@ def main(capstan, root):
                 print(f"ended {time.monotonic() - began:.3f} s after SIGTERM")
         print(said, made.stdout, made.stderr, again)
         text = open(program, encoding="utf-8").read() if os.path.exists(program) else ""
-        good = (made.returncode == 0 and "Time in all" in made.stdout and "'spindle speed': 2985.0" in made.stdout
+        good = (made.returncode == 0 and "Time of the steps" in made.stdout and "'spindle speed': 2985.0" in made.stdout
                 and "\nM2" in text and left and "serving on" in again and ended == 0
                 and os.listdir(folder) == ["plate.ngc"])
         print(os.listdir(folder))

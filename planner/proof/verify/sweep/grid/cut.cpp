@@ -71,13 +71,14 @@ template <class Way>
 void pass(Knife& k, const Way& way) {
   const auto [ya, yb] = way.reach_y();
   const auto [y0, y1] = k.grid.rows(ya, yb);
-  k.grid.cut_rows(y0, y1);
   Over at;
   for (int iy = y0; iy < y1; ++iy) {
     tick();
     if (k.grid.row_top(iy) <= way.zmin()) continue;
     const auto [xa, xb] = way.reach_x(k.grid.centre(0, iy).y);
     const auto [x0, x1] = k.grid.columns(xa, xb);
+    if (x0 >= x1) continue;
+    k.grid.cut_cells(iy, x0, x1);
     for (int ix = x0; ix < x1; ++ix) {
       const double stands = k.grid.stock[k.grid.index(ix, iy)];
       if (stands <= way.zmin()) continue;

@@ -25,6 +25,9 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : Raster(lo, hi
   part.assign(index(0, ny_), kNothing);
   base.assign(index(0, ny_), kNothing);
   row_top_.assign(static_cast<std::size_t>(ny_), kNothing);
+  blocks_ = (nx_ + kBlock - 1) / kBlock;
+  block_top_.assign(static_cast<std::size_t>(ny_) * static_cast<std::size_t>(blocks_), kNothing);
+  cut_blocks_.assign(static_cast<std::size_t>(ny_), {blocks_, 0});
   cut_from_ = ny_;
 }
 
@@ -43,21 +46,28 @@ std::pair<int, int> Raster::rows(double a, double b) const {
 }
 
 void Grid::find_top() {
-  cut_from_ = 0;
-  cut_to_ = ny_;
+  for (int iy = 0; iy < ny_; ++iy) cut_cells(iy, 0, nx_);
   find_top_after_cuts();
 }
 
 void Grid::find_top_after_cuts() {
   for (int iy = cut_from_; iy < cut_to_; ++iy) {
+    const Blocks cut = cut_blocks_[static_cast<std::size_t>(iy)];
+    if (cut.from >= cut.to) continue;
+    nothing_cut(iy);
     const auto row = stock.begin() + static_cast<std::ptrdiff_t>(index(0, iy));
-    // Four at a time: each waits for its own last comparison only.
-    double top[4] = {kNothing, kNothing, kNothing, kNothing};
-    std::ptrdiff_t i = 0;
-    for (; i + 4 <= nx_; i += 4)
-      for (std::ptrdiff_t k = 0; k < 4; ++k) top[k] = std::max(top[k], row[i + k]);
-    for (; i < nx_; ++i) top[0] = std::max(top[0], row[i]);
-    row_top_[static_cast<std::size_t>(iy)] = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
+    double* const tops = block_top_.data() + static_cast<std::ptrdiff_t>(iy) * blocks_;
+    for (int b = cut.from; b < cut.to; ++b) {
+      // Four at a time: each waits for its own last comparison only.
+      double top[4] = {kNothing, kNothing, kNothing, kNothing};
+      const std::ptrdiff_t end = std::min((b + 1) * kBlock, nx_);
+      std::ptrdiff_t i = b * kBlock;
+      for (; i + 4 <= end; i += 4)
+        for (std::ptrdiff_t k = 0; k < 4; ++k) top[k] = std::max(top[k], row[i + k]);
+      for (; i < end; ++i) top[0] = std::max(top[0], row[i]);
+      tops[b] = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
+    }
+    row_top_[static_cast<std::size_t>(iy)] = *std::max_element(tops, tops + blocks_);
   }
   cut_from_ = ny_;
   cut_to_ = 0;

@@ -58,10 +58,13 @@ class Grid : public Raster {
   [[nodiscard]] double top() const { return top_; }  ///< no stock is higher; may be too high
   /// No stock of a row is higher; may be too high.
   [[nodiscard]] double row_top(int iy) const { return row_top_[static_cast<std::size_t>(iy)]; }
-  /// Says that stock in these rows is about to be cut.
-  void cut_rows(int from, int to) {
-    cut_from_ = std::min(cut_from_, from);
-    cut_to_ = std::max(cut_to_, to);
+  /// Says that stock of columns from..to - 1 (at least one) in a row is about to be cut.
+  void cut_cells(int iy, int from, int to) {
+    cut_from_ = std::min(cut_from_, iy);
+    cut_to_ = std::max(cut_to_, iy + 1);
+    Blocks& b = cut_blocks_[static_cast<std::size_t>(iy)];
+    b.from = std::min(b.from, from / kBlock);
+    b.to = std::max(b.to, (to - 1) / kBlock + 1);
   }
   /// Finds the tops of all rows: for stock that was written other than by `cut`.
   void find_top();
@@ -69,9 +72,19 @@ class Grid : public Raster {
   void find_top_after_cuts();
 
  private:
+  /// Cells of a row whose highest is kept, so that a row's top is found without its other cells. Default,
+  /// unsourced: as long as the blocks of a row are many.
+  static constexpr int kBlock = 32;
+  struct Blocks {
+    int from = 0, to = 0;
+  };
+  void nothing_cut(int iy) { cut_blocks_[static_cast<std::size_t>(iy)] = {blocks_, 0}; }
+
   double top_ = kNothing;
-  std::vector<double> row_top_;
-  int cut_from_ = 0, cut_to_ = 0;  ///< rows cut since their tops were found
+  std::vector<double> row_top_, block_top_;
+  int blocks_ = 0;                  ///< of a row
+  int cut_from_ = 0, cut_to_ = 0;   ///< rows cut since their tops were found
+  std::vector<Blocks> cut_blocks_;  ///< by row: those cut since
 };
 
 /// What one move took away.

@@ -101,10 +101,17 @@ void lowered(const Grid& grid, const Window& w, const std::vector<double>& befor
 }
 
 void lower(Grid& grid, const Known& known) {
-  if (known.cells.empty()) return;
-  for (std::size_t i = 0; i < known.cells.size(); ++i) grid.stock[known.cells[i]] = known.heights[i];
-  const auto row = [&](std::uint32_t cell) { return static_cast<int>(cell) / grid.nx(); };
-  grid.cut_rows(row(known.cells.front()), row(known.cells.back()) + 1);
+  const auto nx = static_cast<std::uint32_t>(grid.nx());
+  for (std::size_t i = 0; i < known.cells.size();) {
+    const std::uint32_t row = known.cells[i] / nx, begin = row * nx, first = known.cells[i];
+    std::uint32_t last = first;
+    for (; i < known.cells.size() && known.cells[i] - begin < nx; ++i) {
+      last = known.cells[i];
+      grid.stock[last] = known.heights[i];
+    }
+    grid.cut_cells(static_cast<int>(row), static_cast<int>(first - begin),
+                   static_cast<int>(last - begin) + 1);
+  }
 }
 
 /// Findings by the places of their moves in the step, and back.

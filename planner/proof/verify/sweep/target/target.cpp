@@ -252,15 +252,12 @@ double Target::height(Vec2 p) const {
 void Target::fill(Grid& grid) {
   grid_ = &grid;
   grid.floor = stock_.lo.z;
-  for (int iy = 0; iy < grid.ny(); ++iy) {
+  std::fill(grid.base.begin(), grid.base.end(), stock_.lo.z);
+  std::fill(grid.stock.begin(), grid.stock.end(), stock_.hi.z);
+  for (int iy = 0; iy < grid.ny() && (turned_ || round_); ++iy) {
     poll();
-    for (int ix = 0; ix < grid.nx(); ++ix) {
-      const Vec2 p = grid.centre(ix, iy);
-      grid.stock[grid.index(ix, iy)] = beside_stock(p) ? Grid::kNothing : stock_.hi.z;
-      grid.base[grid.index(ix, iy)] = stock_.lo.z;
-      const bool nothing = outside(p) || (plan_.target_mesh && !sheet_);
-      grid.part[grid.index(ix, iy)] = nothing ? Grid::kNothing : part_box_.hi.z;
-    }
+    for (int ix = 0; ix < grid.nx(); ++ix)
+      if (beside_stock(grid.centre(ix, iy))) grid.stock[grid.index(ix, iy)] = Grid::kNothing;
   }
   grid.find_top();
   if (memo_ == nullptr) return fill_part(grid);
@@ -273,12 +270,34 @@ void Target::fill(Grid& grid) {
   memo_->keep(Stage::kPart, key, Runs::packed(grid.part));
 }
 
+void Target::fill_piece(Grid& grid) const {
+  if (plan_.target_mesh && !sheet_) {
+    std::fill(grid.part.begin(), grid.part.end(), Grid::kNothing);
+    return;
+  }
+  // Where the sides lie along the axes, rows are alike.
+  const bool alike = !turned_ && !round_;
+  const auto beside_row = [&](double y) { return y < part_box_.lo.y || y > part_box_.hi.y; };
+  for (int iy = 0; iy < grid.ny(); ++iy) {
+    poll();
+    const auto row = grid.part.begin() + static_cast<std::ptrdiff_t>(grid.index(0, iy));
+    const bool beside = beside_row(grid.centre(0, iy).y);
+    if (alike && iy > 0 && beside == beside_row(grid.centre(0, iy - 1).y)) {
+      std::copy(row - grid.nx(), row, row);
+      continue;
+    }
+    for (int ix = 0; ix < grid.nx(); ++ix)
+      row[ix] = outside(grid.centre(ix, iy)) ? Grid::kNothing : part_box_.hi.z;
+  }
+}
+
 void Target::remember(memo::Memo& memo, const Key& of_setup) {
   memo_ = &memo;
   of_setup_ = of_setup;
 }
 
 void Target::fill_part(Grid& grid) const {
+  fill_piece(grid);
   if (plan_.target_mesh) fill_mesh(grid);
   for (const Cavity& c : cavities_) {
     const auto [y0, y1] = grid.rows(c.box.lo.y, c.box.hi.y);

@@ -172,6 +172,8 @@ class Target : public GougeTest {
   [[nodiscard]] std::vector<Walls::Edge> edges_at(double z_mm) const;
   /// The heights of the finished part in every cell.
   void fill_part(Grid& grid) const;
+  /// The piece without features.
+  void fill_piece(Grid& grid) const;
   /// Whether no wall comes within `reach_mm` of a move whose walls are all those at z, and no part stands
   /// there.
   [[nodiscard]] bool clear_of_walls(const Move& m, double z_mm, double reach_mm);
