@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdint>
 #include <ctime>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
@@ -111,13 +110,10 @@ std::string instruction_sets() {
   utsname machine = {};
   ::uname(&machine);
   std::string out = machine.machine;
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    if (!line.starts_with("flags")) continue;
-    for (const char* set : {"avx2", "fma"})
-      if ((line + " ").find(" " + std::string(set) + " ") != std::string::npos) out += " " + std::string(set);
-    break;
-  }
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) out += " avx2";
+  if (__builtin_cpu_supports("fma")) out += " fma";
+#endif
   return out;
 }
 

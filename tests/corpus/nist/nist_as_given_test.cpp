@@ -75,9 +75,12 @@ Extent extent_at(const std::vector<CanonMove>& moves, double z) {
 /// Heights at which lines or arcs run level, highest first.
 std::vector<double> levels(const std::vector<CanonMove>& moves) {
   std::vector<double> out;
-  for (const CanonMove& m : moves) {
+  for (std::size_t i = 0; i + 1 < moves.size(); ++i) {
+    const CanonMove& m = moves[i];
     const double run = std::hypot(m.x - m.from_x, m.y - m.from_y);
     if (m.kind == Kind::kTraverse || std::abs(m.z - m.from_z) > kPrinted || run < 20.0) continue;
+    // A way back to the bore, over the level before, ends there.
+    if (std::abs(moves[i + 1].z - m.z) > kPrinted) continue;
     if (out.empty() || std::abs(out.back() - m.z) > kPrinted) out.push_back(m.z);
   }
   return out;
@@ -392,10 +395,10 @@ TEST_F(CorpusNistAsGiven, IsToldExactlyWhatIsBadMachiningInIt) {
                                               "17 CHK-POWER WS REAM HOLE1",
                                               "17 CHK-TORQUE WS REAM HOLE1",
                                               "18 CHK-FEED-TOOL WS REAM HOLE1",
-                                              "17 CHK-POWER-OVERRIDE WS ROUGH POCKET1",
-                                              "17 CHK-TORQUE-OVERRIDE WS ROUGH POCKET1",
                                               "17 CHK-POWER WS ROUGH POCKET1",
                                               "17 CHK-TORQUE WS ROUGH POCKET1",
+                                              "17 CHK-POWER-OVERRIDE WS ROUGH POCKET1",
+                                              "17 CHK-TORQUE-OVERRIDE WS ROUGH POCKET1",
                                               "18 CHK-FEED-TOOL WS ROUGH POCKET1",
                                               "21 CHK-BENDING WS ROUGH POCKET1",
                                               "18 CHK-FEED-TOOL WS FINISH POCKET1"};

@@ -93,6 +93,94 @@ TEST(RestMachining, GoesIntoTheSolidWhereTheWideCutterNeverWas) {
   EXPECT_NEAR(o.residual_mm, 0.0, 1e-4);
 }
 
+/// Length of the cuts at one height of which a cutter of this radius sweeps nothing that stands, told on a
+/// grid.
+double idle_mm(const GeneratedPath& before, const model::Cutter& wide, const GeneratedPath& g,
+               const model::Cutter& cutter, const Region& area, double* whole_mm) {
+  constexpr double kCell = 0.05;
+  const auto box = geometry::bounds(area);
+  const auto nx = static_cast<std::size_t>((box.hi.x - box.lo.x) / kCell) + 1;
+  const auto ny = static_cast<std::size_t>((box.hi.y - box.lo.y) / kCell) + 1;
+  std::vector<bool> stands(nx * ny, true);
+  const auto sweep = [&](Vec2 p, double r) {
+    bool met = false;
+    for (std::size_t j = 0; j < ny; ++j) {
+      const double y = box.lo.y + kCell * static_cast<double>(j);
+      if (std::abs(y - p.y) > r) continue;
+      for (std::size_t i = 0; i < nx; ++i) {
+        const Vec2 q{box.lo.x + kCell * static_cast<double>(i), y};
+        if (!stands[j * nx + i] || norm(q - p) > r) continue;
+        stands[j * nx + i] = false;
+        met = met || geometry::contains(area, q);
+      }
+    }
+    return met;
+  };
+  const auto run = [&](const GeneratedPath& path, double r) {
+    double idle = 0.0;
+    *whole_mm = 0.0;
+    for (std::size_t i = 1; i < path.path.size(); ++i) {
+      if (path.path.role[i] != model::MoveRole::kCut || path.path.z[i] != path.path.z[i - 1]) continue;
+      const double way = model::move_length(path.path, i);
+      const int n = std::max(1, static_cast<int>(std::ceil(way / 0.2)));
+      for (int k = 1; k <= n; ++k) {
+        const auto p = model::point_on_move(path.path, i, static_cast<double>(k) / n);
+        if (!sweep({p.x, p.y}, r)) idle += way / n;
+      }
+      *whole_mm += way;
+    }
+    return idle;
+  };
+  run(before, 0.5 * wide.cutting_diameter_mm + 0.02);
+  return run(g, 0.5 * cutter.cutting_diameter_mm);
+}
+
+// The ring round a corner's rest is closed; from its end back to its beginning there is nothing to cut.
+TEST(RestMachining, DoesNotGoBackThroughAirAtTheFeedOfACut) {
+  PathJob second = area_job(geometry::rounded_rectangle({0, 0}, {30, 20}, 2.0), 3.0, 3.0);
+  second.cleared_by = Cleared{12.0, 0.0, 0.0};
+  PathJob first = area_job(second.shape.area, 3.0, 12.0);
+  first.rest_follows = true;
+  Job job;
+  const auto wide = generate(first, job);
+  const auto g = generate(second, job);
+  ASSERT_TRUE(wide && g);
+  EXPECT_THAT(rule_breaks(second, *g), testing::IsEmpty());
+  double whole_mm = 0.0;
+  const double idle = idle_mm(*wide, first.cutter, *g, second.cutter, second.shape.area, &whole_mm);
+  EXPECT_LT(idle, 0.4 * whole_mm) << "of " << whole_mm << " mm";
+}
+
+TEST(RestMachining, CutsAllLevelsOfACornerBeforeTheNextCorner) {
+  PathJob t = area_job(geometry::rounded_rectangle({0, 0}, {60, 40}, 2.0), 4.0, 3.0);
+  t.axial_depth_mm = 1.0;
+  t.cleared_by = Cleared{12.0, 0.0, 0.0};
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+  int corners = 0, rapids = 0;
+  Vec2 last{30, 20};
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    const auto p = g->path.point(i), before = g->path.point(i - 1);
+    if (g->path.kind[i] == model::MoveKind::kRapid && norm(Vec2{p.x - before.x, p.y - before.y}) > 1e-6)
+      ++rapids;
+    if (g->path.role[i] != model::MoveRole::kCut) continue;
+    if ((p.x < 30) != (last.x < 30) || (p.y < 20) != (last.y < 20) || corners == 0) ++corners;
+    last = {p.x, p.y};
+  }
+  EXPECT_EQ(corners, 4);
+  EXPECT_EQ(rapids, 3) << "from corner to corner, not from level to level";
+  HeightMap map({-2, -2}, {62, 42}, 0.2, 0.0);
+  PathJob first = area_job(t.shape.area, 4.0, 12.0);
+  first.rest_follows = true;
+  const auto wide = generate(first, job);
+  ASSERT_TRUE(wide);
+  map.run(*wide, first.cutter);
+  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+  EXPECT_NEAR(map.highest(geometry::offset(t.shape.area, -0.3)), -4.0, 1e-4) << "something stays in a corner";
+}
+
 TEST(RestMachining, LeavesNoFeatherEdgesOnFinishedWalls) {
   // A finishing pair without allowance, measured on a fine grid along the walls.
   const Region pocket = geometry::rounded_rectangle({0, 0}, {40, 30}, 4.0);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/making/toolpath/region/area/biarc.h"
+#include "planner/making/toolpath/region/area/cutting_part.h"
 #include "planner/making/toolpath/region/area/work_area.h"
 #include "tests/making/toolpath/path_helpers.h"
 
@@ -124,6 +126,105 @@ TEST(RingsInwards, CutTheWallsRingOnceForAllLevels) {
   t.ramp_depth_mm = 0.0;
   const double wall_mm = 2.0 * (50.0 + 30.0) - (8.0 - 2.0 * std::numbers::pi) * 1.0;  // corners of 1 mm
   EXPECT_NEAR(way_mm(t) - once_mm, 3.0 * wall_mm, 0.1 * wall_mm);
+}
+
+/// Unit direction of a move in the plane at its start (0) or its end (1).
+Vec2 heading(const model::CutterPath& p, std::size_t i, double t) {
+  const auto at = [&](double f) {
+    const auto q = model::point_on_move(p, i, f);
+    return Vec2{q.x, q.y};
+  };
+  const Vec2 d = t > 0.5 ? at(1.0) - at(1.0 - 1e-6) : at(1e-6) - at(0.0);
+  return (1.0 / norm(d)) * d;
+}
+
+/// Ways from ring to ring of a closed pocket: cuts that come nearer to its boundary, or leave it, by half a
+/// millimetre and more. Of each the largest angle to the moves before and behind it, degrees.
+std::vector<double> turns_at_links(const PathJob& t, const GeneratedPath& g) {
+  std::vector<double> out;
+  const auto off = [&](std::size_t i) {
+    const auto q = g.path.point(i);
+    return geometry::distance_to_boundary(t.shape.area, {q.x, q.y});
+  };
+  const auto cut = [&](std::size_t i) {
+    return g.path.role[i] == model::MoveRole::kCut && g.path.z[i] == g.path.z[i - 1];
+  };
+  for (std::size_t i = 2; i + 1 < g.path.size(); ++i) {
+    if (!cut(i) || std::abs(off(i) - off(i - 1)) < 0.5) continue;
+    double most = 0.0;
+    if (cut(i - 1))
+      most = std::acos(std::min(1.0, dot(heading(g.path, i - 1, 1.0), heading(g.path, i, 0.0))));
+    if (cut(i + 1))
+      most =
+          std::max(most, std::acos(std::min(1.0, dot(heading(g.path, i, 1.0), heading(g.path, i + 1, 0.0)))));
+    out.push_back(most * 180.0 / std::numbers::pi);
+  }
+  return out;
+}
+
+// Straight across to the next ring the cutter is in the solid with its whole width, and stops twice.
+TEST(RingLinks, LeaveOneRingAndMeetTheNextInArcs) {
+  for (const Region& area :
+       {geometry::rounded_rectangle({0, 0}, {90, 60}, 6.0), geometry::disc({45, 30}, 28.0)}) {
+    for (const bool climb : {true, false}) {
+      PathJob t = area_job(area, 4.0, 10.0);
+      t.radial_depth_mm = 4.95;
+      t.climb = climb;
+      Job job;
+      const auto g = generate(t, job);
+      ASSERT_TRUE(g) << g.error().message;
+      EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+      const auto turns = turns_at_links(t, *g);
+      EXPECT_GE(turns.size(), 6U);  // three rings outwards of the first, two arcs each
+      EXPECT_THAT(turns, testing::Each(testing::Lt(2.0))) << area.loops.front().size() << climb;
+    }
+  }
+}
+
+TEST(RingLinks, InwardsBendAsWell) {
+  const PathJob t = inwards();
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  const auto turns = turns_at_links(t, *g);
+  EXPECT_FALSE(turns.empty());
+  EXPECT_THAT(turns, testing::Each(testing::Lt(2.0)));
+}
+
+TEST(CuttingPart, IsTheStretchThatTakesWhatIsLeft) {
+  const Track round = track_of(geometry::rectangle({0, 0}, {40, 2}).loops.front());
+  Region uncut = geometry::rectangle({10, 0.5}, {30, 1.5});
+  const Track one = cutting_part(round, uncut, 4.0, Begun::kAnywhere);
+  EXPECT_FALSE(one.closed);
+  EXPECT_GT(length_of(one),
+            12.0);  // 20 mm less the reach of the cutter's disc at both ends, and pieces of 1 mm
+  EXPECT_LT(length_of(one), 30.0);
+  EXPECT_LT(geometry::area(uncut), 1e-3);
+  Region nothing = geometry::rectangle({10, 20}, {30, 21});
+  EXPECT_TRUE(cutting_part(round, nothing, 4.0, Begun::kAnywhere).segments.empty());
+  Region all = geometry::rectangle({-4, -4}, {44, 6});
+  EXPECT_TRUE(cutting_part(round, all, 4.0, Begun::kAtStart).closed);
+}
+
+TEST(Biarc, LeavesAndMeetsAlongTheGivenDirections) {
+  const Vec2 along{1.0, 0.0};
+  const auto parallel = biarc({0, 0}, along, {5.0 * std::sqrt(3.0), 5.0}, along);  // leans by 60 degrees
+  ASSERT_TRUE(parallel);
+  ASSERT_EQ(parallel->segments.size(), 2U);
+  const Segment& first = parallel->segments.front();
+  EXPECT_NEAR(norm(first.centre), 5.0, 1e-9);
+  EXPECT_EQ(first.bend, Bend::kCcw);
+  EXPECT_EQ(parallel->segments.back().bend, Bend::kCw);
+  const Vec2 lean = direction_at(parallel->start, first, 1.0);
+  EXPECT_NEAR(lean.x, 0.5, 1e-9);
+  const Vec2 onto = direction_at(first.to, parallel->segments.back(), 0.0);
+  EXPECT_NEAR(onto.x, lean.x, 1e-9);
+  EXPECT_NEAR(onto.y, lean.y, 1e-9);
+  const Vec2 end = direction_at(first.to, parallel->segments.back(), 1.0);
+  EXPECT_NEAR(end.x, 1.0, 1e-9);
+  EXPECT_TRUE(biarc({0, 0}, along, {10.0, 4.0}, {0.8, 0.6}));
+  EXPECT_FALSE(biarc({0, 0}, along, {0.0, 5.0}, along)) << "three quarters of a turn";
+  EXPECT_FALSE(biarc({0, 0}, along, {-5.0, 1.0}, along)) << "back";
 }
 
 }  // namespace

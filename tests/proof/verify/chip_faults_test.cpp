@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
+#include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/proof/verify/checked.h"
 
@@ -212,7 +214,8 @@ std::vector<model::Finding> widely(double stated_n, bool as_program) {
 TEST(WidthLeft, IsAnErrorWhereThePlanStatesLessForceThanIsMet) {
   // 35 mm2 fed at 600 mm/min are 21000 mm3/min; 10 mm at 3000 1/min run at 94248 mm/min. At kc of 1000 N/mm2
   // or more, which the chip of 0.05 mm asks for in the material of these plans with a worn edge, the mean
-  // force is 223 N or more, and with its radial share 260 N.
+  // forces of the edges are 223 N or more, with their radial share 260 N, and together, on an arc of 114
+  // degrees, 0.89 of that, 231 N.
   const model::WorkMaterial w = testing::empty_plan().plan.material;
   ASSERT_GT(w.kc11_n_mm2 * std::pow(0.05, -w.mc) * 1.3, 1000.0);
   for (const bool as_program : {false, true}) {
@@ -246,6 +249,42 @@ TEST(WidthLeft, OfAStripThinnerThanACellIsNoMoreThanTheStrip) {
   for (const bool as_program : {false, true}) {
     const auto findings = check(k.plan, as_program);
     EXPECT_FALSE(found(findings, "CHK-WIDTH-LEFT", "second")) << told(findings);
+  }
+}
+
+/// A slot in the solid, 10 mm wide and 5 deep where 2 were planned, for which the plan states this share of
+/// the sum of its edges' mean forces.
+std::vector<model::Finding> deeply(double share, bool as_program) {
+  model::CutterPath slot;
+  slot.start({42, 40, 10});
+  slot.rapid({42, 40, 2});
+  slot.line({42, 40, -5}, MoveRole::kPlunge);
+  slot.line({58, 40, -5}, MoveRole::kCut);
+  slot.rapid({58, 40, 10}, MoveRole::kRetract);
+  PlanMaker k = roughed({}, slot, 0, 0);
+  planned(k, 2.0, 10.0);
+  const model::WorkMaterial& w = k.plan.material;
+  const double mean_chip = 0.05 * 2.0 / std::numbers::pi;
+  const double rake = 1.0 - mechanics::kForcePerDegreeOfRake * mechanics::kEndMillRakeDeg;
+  const double kc = rake * w.kc11_n_mm2 * std::pow(mean_chip, -w.mc) * mechanics::kWearForceFactor;
+  const double edges = kc * 50.0 * kSlow / (std::numbers::pi * 10.0 * 3000.0) *
+                       std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+  k.plan.steps[1].loads.peak_force_n = share * edges;
+  auto out = check(k.plan, as_program);
+  std::erase_if(out, [](const auto& f) { return f.code != "CHK-DEPTH-LEFT" || f.step != "second"; });
+  return out;
+}
+
+// Opposite edges of a slot push apart: the force of all of them is pi / 4 of the sum of theirs, 0.785. That
+// is within a tenth of 0.8, and more than a tenth above 0.65.
+TEST(DepthLeft, OfASlotIsHeldAgainstTheForceOfAllItsEdgesTogether) {
+  for (const bool as_program : {false, true}) {
+    const auto held = deeply(0.8, as_program);
+    ASSERT_EQ(held.size(), 1U) << told(held);
+    EXPECT_EQ(held[0].severity, Severity::kWarning) << told(held);
+    const auto unheld = deeply(0.65, as_program);
+    ASSERT_EQ(unheld.size(), 1U) << told(unheld);
+    EXPECT_EQ(unheld[0].severity, Severity::kError) << told(unheld);
   }
 }
 

@@ -112,6 +112,23 @@ TEST(Grade, WithoutAFigureForTheGroupStaysBareAndSaysSo) {
       << s.why.source;
 }
 
+// Scientific Cutting Tools, solid carbide boring bars in titanium, AlTiN: 120 to 275 feet a minute, 0.0005 to
+// 0.005 inch a turn.
+TEST(BoringBars, CutTitaniumWithinAMakersSpeedsAndFeeds) {
+  constexpr double kFootM = 0.3048, kInchMm = 25.4;
+  int bars = 0;
+  for (const Cutter& c : shared_generic_library().value()) {
+    if (c.cutter_class != CutterClass::kBoringTool) continue;
+    ++bars;
+    const StartValues s = start(c, "ti6al4v");
+    EXPECT_GE(s.vc_m_min, 120.0 * kFootM) << c.id;
+    EXPECT_LE(s.vc_m_min, 275.0 * kFootM) << c.id;
+    EXPECT_GE(s.fz_mm, (c.cutting_diameter_mm < 20.0 ? 0.0005 : 0.002) * kInchMm) << c.id;
+    EXPECT_LE(s.fz_mm, 0.005 * kInchMm) << c.id;
+  }
+  EXPECT_GT(bars, 0);
+}
+
 TEST(Grade, LeavesWhatTheShopStatesAlone) {
   Cutter c = cutter(CutterClass::kTwistDrill, Substrate::kHss, "HSS-E drill, TiN");
   c.presets.insert(c.presets.begin(), {"c45", 22.0, 0.08, "stated: the shop"});

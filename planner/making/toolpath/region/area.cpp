@@ -83,6 +83,7 @@ Status cut_island_tops(LevelCutter& c, const WorkArea& w, const Level& level, do
 /// Corners and narrow places that a wider cutter left, level by level.
 Result<GeneratedPath> rest_path(const PathJob& task, const WorkArea& w, const std::vector<double>& heights,
                                 LevelCutter& c) {
+  std::vector<Level> all;
   double from = task.start_z_mm;
   double most = 0.0;
   for (const double z : heights) {
@@ -92,7 +93,20 @@ Result<GeneratedPath> rest_path(const PathJob& task, const WorkArea& w, const st
     const double area = narrow_to_rest(task, w, level);
     if (area == 0.0) continue;
     most = std::max(most, area);
-    if (auto ok = cut_contours(c, level, {}); !ok) return tl::unexpected(ok.error());
+    all.push_back(std::move(level));
+  }
+  // Between upright walls without islands that end, all levels of one corner before the next corner.
+  const bool alike = std::all_of(all.begin(), all.end(), [&](const Level& level) {
+    return level.centres.loops == all.front().centres.loops;
+  });
+  const std::vector<Region> corners =
+      alike && !all.empty() ? geometry::pieces(all.front().centres) : std::vector<Region>{Region{}};
+  for (const Region& corner : corners) {
+    for (const Level& level : all) {
+      Level one = level;
+      if (alike) one.centres = corner;
+      if (auto ok = cut_contours(c, one, {}); !ok) return tl::unexpected(ok.error());
+    }
   }
   if (most == 0.0) {
     return fail({.code = "TPA-NO-REST",

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/region/patterns.h"
@@ -140,6 +141,10 @@ constexpr double kLeastFlat = 0.1;
 /// 1 + sin(45 degrees) of them (rings.h), rounded down.
 constexpr double kWidest = 1.7;
 
+/// Where a track is met from p: a closed one anywhere, an open one at its start.
+Spot met(const Track& t, Vec2 p) { return t.closed ? nearest(t, p) : Spot{.point = t.start}; }
+Track begun(const Track& t, const Spot& spot) { return t.closed ? begun_at(t, spot) : t; }
+
 class Contours {
  public:
   Contours(LevelCutter& cutter, const Level& level, const ContourOptions& options)
@@ -160,6 +165,8 @@ class Contours {
                                  " mm, or ridges would stay between the rings");
     }
     step_ = step;
+    cover_ = cover;
+    rest_ = level_.rest;
     all_ = c_.rings_of(level_.centres, step, cover);
     std::vector<std::size_t> order = inside_out(all_);
     if (o_.outside_in) std::reverse(order.begin(), order.end());
@@ -181,7 +188,7 @@ class Contours {
         solid.from_mm = level_.above_mm;
         auto in = c_.enter(solid, t, nullptr);
         if (!in) return tl::unexpected(in.error());
-        c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
+        c_.follow(level_, *in);
       }
     }
     return {};
@@ -190,7 +197,7 @@ class Contours {
   /// Writes the pending track, which has been reached but not followed yet.
   void flush() {
     if (pending_.segments.empty()) return;
-    c_.writer.follow(pending_, level_.z_mm, MoveRole::kCut);
+    c_.follow(level_, pending_);
     pending_ = {};
   }
 
@@ -212,14 +219,21 @@ class Contours {
     flush();
     const auto& neighbours = o_.outside_in ? std::vector<std::size_t>{all_[i].parent} : all_[i].children;
     bool entered = false;
+    // Between the ring around it and itself a last ring inwards takes what that one left, which is mostly
+    // less.
+    Region between;
+    if (o_.outside_in && !wall && all_[i].children.empty())
+      between = geometry::intersect(inset(all_[all_[i].parent].piece, cover_, kInnerChord),
+                                    inset(all_[i].piece, -cover_, kInnerChord));
+    Region* left = !level_.rest.empty() ? &rest_ : between.empty() ? nullptr : &between;
     while (!tracks.empty()) {
       const std::size_t k = nearest_track(tracks);
       const Track t = tracks[k];
       tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(k));
-      if (auto ok = one(i, t, neighbours, entered, wall); !ok) return ok;
-      entered = true;
+      if (auto ok = one(i, t, neighbours, entered, wall, left); !ok) return ok;
+      entered = !done_[i].empty();
     }
-    last_ = i;
+    if (entered) last_ = i;
     return {};
   }
 
@@ -249,49 +263,83 @@ class Contours {
   }
 
   void cut(std::size_t i, const Track& t) {
-    c_.writer.follow(t, level_.z_mm, MoveRole::kCut);
+    c_.follow(level_, t);
     done_[i].push_back(t);
+  }
+
+  /// From the end of the track that was cut last onto one beside it, on arcs that leave the one and meet the
+  /// other along their sense: a straight step across would cut the cutter's whole width and stop at both
+  /// ends. Returns the track begun where it is met; nothing where the arcs fit nowhere.
+  std::optional<Track> bend_onto(std::size_t i, const Track& t) {
+    const auto& last = done_[i].empty() ? done_[last_] : done_[i];
+    const Vec2 here = xy(c_.writer.at());
+    if (last.empty() || last.back().segments.empty() || t.segments.empty() || !t.closed ||
+        std::abs(c_.writer.at().z - level_.z_mm) > 1e-9 || norm(last.back().end() - here) > 1e-6)
+      return std::nullopt;
+    const auto& segments = last.back().segments;
+    const Vec2 from = segments.size() > 1 ? segments[segments.size() - 2].to : last.back().start;
+    const Vec2 leave = direction_at(from, segments.back(), 1.0);
+    return c_.bend_onto(level_, t, leave);
   }
 
   /// One loop of a ring: from where the cutter is, from a neighbour that is cut already, or into the solid.
   Status one(std::size_t i, const Track& t, const std::vector<std::size_t>& neighbours, bool entered,
-             bool wall) {
+             bool wall, Region* left) {
+    Track part = t;
+    if (left != nullptr) {
+      const Region before = *left;
+      part = c_.part(t, *left, cover_, Begun::kAnywhere);
+      if (part.segments.empty()) return {};
+      if (entered || beside(i)) {
+        // Met where the way from the track before meets it, and followed as long as it cuts.
+        part = t;
+        *left = before;
+      }
+    }
+    const auto as_long_as_it_cuts = [&](const Track& met) {
+      return left == nullptr ? met : c_.part(met, *left, cover_, Begun::kAtStart);
+    };
     if (wall && o_.lead_arcs && (entered || !neighbours.empty()) && !all_[i].children.empty() &&
         cut_with_leads(c_, level_, t)) {
       done_[i].push_back(t);
       return {};
     }
     if (entered || beside(i)) {
-      const Spot spot = nearest(t, xy(c_.writer.at()));
-      if (c_.cut_to(level_, spot.point)) {
-        cut(i, begun_at(t, spot));
+      if (const auto joined = bend_onto(i, t)) {
+        cut(i, as_long_as_it_cuts(*joined));
         return {};
       }
+      const Spot spot = nearest(t, xy(c_.writer.at()));
+      if (c_.cut_to(level_, spot.point)) {
+        cut(i, as_long_as_it_cuts(begun_at(t, spot)));
+        return {};
+      }
+      if (left != nullptr) part = c_.part(t, *left, cover_, Begun::kAnywhere);
     }
     for (const std::size_t n : neighbours) {
       if (n == i) continue;
       for (const Track& d : done_[n]) {
         // A few places of the neighbour, the nearest first.
-        const Spot near = nearest(d, t.start);
+        const Spot near = nearest(d, part.start);
         for (const Vec2 p : {near.point, d.start, at_length(d, 0.5 * length_of(d)).point}) {
-          const Spot spot = nearest(t, p);
+          const Spot spot = met(part, p);
           if (!level_.inside.contains(p, spot.point)) continue;
           c_.go_cleared(level_, p);
           if (!c_.cut_to(level_, spot.point)) continue;
-          cut(i, begun_at(t, spot));
+          cut(i, begun(part, spot));
           return {};
         }
       }
     }
-    if (c_.slotted(level_, t)) {
-      c_.go_cleared(level_, t.start);
-      done_[i].push_back(t);
+    if (c_.slotted(level_, part)) {
+      c_.go_cleared(level_, part.start);
+      done_[i].push_back(part);
       return {};
     }
     const bool leaf = all_[i].children.empty() && !o_.outside_in;
-    auto in = c_.enter(level_, t, leaf ? &all_[i].piece : nullptr);
+    auto in = c_.enter(level_, part, leaf ? &all_[i].piece : nullptr);
     if (!in) return tl::unexpected(in.error());
-    if (c_.slotted(level_, t)) {
+    if (c_.slotted(level_, part)) {
       done_[i].push_back(*in);
     } else {
       cut(i, *in);
@@ -303,7 +351,8 @@ class Contours {
   const Level& level_;
   ContourOptions o_;
   bool natural_;
-  double step_ = 0.0;
+  double step_ = 0.0, cover_ = 0.0;
+  Region rest_;  ///< rest machining: what is left of the level's
   std::vector<Ring> all_;
   std::vector<std::vector<Track>> done_;
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -355,7 +404,7 @@ bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
       }
       const Vec2 p = lead.track.start;
       cutter.writer.arc({p.x, p.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
-      cutter.writer.follow(lead.track, level.z_mm, MoveRole::kCut);
+      cutter.follow(level, lead.track);
       cutter.writer.arc({lead.to.x, lead.to.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
       return true;
     }

@@ -65,6 +65,7 @@ class StepChecks {
   void deflection(double torque_nm);
   struct Account;
   [[nodiscard]] double chip_of(const Account& a) const;
+  [[nodiscard]] double arc_of(const Account& a) const;
   [[nodiscard]] double specific_force(double chip_mm) const;
   [[nodiscard]] double mean_force(const Account& a) const;
   void planned_section();

@@ -6,6 +6,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/defaults.h"
+#include "planner/making/toolpath/region/area/biarc.h"
 
 namespace capstan::toolpath {
 
@@ -18,6 +19,15 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostTurns = 5'000;
 constexpr double kSameHeight = 1e-6;  // mm
+constexpr double kAirPiece = 0.25;    // of the radius: how finely ways beside the piece are told
+constexpr double kMostAirPieces = 4'000;
+/// How far ahead a ring is met by arcs from the one beside it, in distances between the two, the first that
+/// fits: on equal arcs between straight rings the way then leans by 90, 60 and 45 degrees. Flatter ways are
+/// longer slots: by 60 degrees the reference pocket takes 38.6 s in EN AW-6061 and 88.1 in C45, by 90 degrees
+/// 38.3 and 86.9, by straight steps 38.0 and 86.3. Default, measured so.
+constexpr double kAhead[] = {1.0, 1.732, 2.414};
+/// The same where the way begins square to the ring: a quarter of a circle.
+constexpr double kQuarter = 1.0;
 
 std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Inside& material,
                              double radius) {
@@ -35,6 +45,14 @@ std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Ins
     }
   }
   return out;
+}
+
+bool holds(const Inside& inside, const Track& track) {
+  const auto points = points_of(track, kInnerChord);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (!inside.contains(points[k - 1], points[k])) return false;
+  }
+  return true;
 }
 
 /// Whether two tracks are one, piece by piece.
@@ -157,6 +175,95 @@ bool LevelCutter::cut_to(const Level& level, Vec2 p) {
   return true;
 }
 
+void LevelCutter::follow(const Level& level, const Track& track) {
+  const double length = length_of(track);
+  const double pieces = std::ceil(length / (kAirPiece * radius_mm));
+  const bool open = area.open || task.shape.kind == model::ShapeKind::kOutside;
+  if (!open || task.stock.empty() || !(pieces <= kMostAirPieces) || pieces < 1.0) {
+    writer.follow(track, level.z_mm, MoveRole::kCut);
+    return;
+  }
+  const int n = static_cast<int>(pieces);
+  const double apart = length / n;
+  const auto beside = [&](int k) {
+    return level.material.clear_of(at_length(track, k * apart).point, radius_mm + kAirBeside + 0.5 * apart);
+  };
+  std::vector<bool> air(static_cast<std::size_t>(n));
+  bool before = beside(0);
+  for (int k = 0; k < n; ++k) {
+    const bool after = beside(k + 1);
+    air[static_cast<std::size_t>(k)] = before && after;
+    before = after;
+  }
+  double written = 0.0;
+  const auto write = [&](double to, MoveRole role) {
+    if (to <= written) return;
+    writer.follow(part_of(track, written, to), level.z_mm, role);
+    written = to;
+  };
+  for (int k = 0; k < n;) {
+    int end = k;
+    while (end < n && air[static_cast<std::size_t>(end)]) ++end;
+    if ((end - k) * apart > 2.0 * radius_mm) {
+      write(k * apart, MoveRole::kCut);
+      write(end == n ? length : end * apart, MoveRole::kLink);
+    }
+    k = std::max(end, k + 1);
+  }
+  if (written == 0.0) {
+    writer.follow(track, level.z_mm, MoveRole::kCut);
+  } else {
+    write(length, MoveRole::kCut);
+  }
+}
+
+std::optional<Track> LevelCutter::bend(const Level& level, const Track& track, Vec2 leave, double ahead) {
+  if (!track.closed || track.segments.empty()) return std::nullopt;
+  const Vec2 here = xy(writer.at());
+  const Spot abreast = nearest(track, here);
+  if (abreast.distance_mm > 2.0 * radius_mm) return std::nullopt;
+  const Track turned = begun_at(track, abreast);
+  const double s = ahead * abreast.distance_mm;
+  if (s > 0.5 * length_of(turned)) return std::nullopt;
+  const Spot spot = at_length(turned, s);
+  const Vec2 begin = spot.segment == 0 ? turned.start : turned.segments[spot.segment - 1].to;
+  const auto link =
+      biarc(here, leave, spot.point, direction_at(begin, turned.segments[spot.segment], spot.t));
+  if (!link || !holds(level.inside, *link)) return std::nullopt;
+  writer.follow(*link, level.z_mm, MoveRole::kCut);
+  return begun_at(turned, spot);
+}
+
+std::optional<Track> LevelCutter::bend_onto(const Level& level, const Track& track, Vec2 leave) {
+  for (const double ahead : kAhead) {
+    if (auto bent = bend(level, track, leave, ahead)) return bent;
+  }
+  return std::nullopt;
+}
+
+Track LevelCutter::part(const Track& track, geometry::Region& uncut, double cover_mm, Begun begun) {
+  for (const Part& p : parts_) {
+    if (!same(p.of, track) || p.uncut.loops != uncut.loops || p.cover_mm != cover_mm || p.begun != begun)
+      continue;
+    uncut = p.left;
+    return p.part;
+  }
+  Part p{.of = track, .uncut = uncut, .cover_mm = cover_mm, .begun = begun, .part = {}, .left = {}};
+  p.part = cutting_part(track, uncut, cover_mm, begun);
+  p.left = uncut;
+  parts_.push_back(std::move(p));
+  return parts_.back().part;
+}
+
+Track LevelCutter::onto(const Level& level, const Track& track, const Spot& spot) {
+  const Vec2 way = spot.point - xy(writer.at());
+  if (norm(way) > kSmallestArc) {
+    if (auto bent = bend(level, track, (1.0 / norm(way)) * way, kQuarter)) return *std::move(bent);
+  }
+  writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
+  return track.closed ? begun_at(track, spot) : track;
+}
+
 std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& track) {
   if (level.air.empty()) return std::nullopt;
   std::vector<std::pair<double, Vec2>> near;
@@ -170,7 +277,8 @@ std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& 
   for (const auto& [d, a] : near) {
     const Spot spot = track.closed ? nearest(track, a) : Spot{.point = track.start};
     if (!level.inside.contains(a, spot.point)) continue;
-    writer.over(a);
+    // In what a wider cutter has cleared, from level to level without going out.
+    level.rest.empty() ? writer.over(a) : go_above(level, a);
     writer.descend(level.z_mm, level.z_mm);
     writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
     return track.closed ? begun_at(track, spot) : track;
@@ -222,8 +330,7 @@ std::optional<Track> LevelCutter::by_bore(const Level& level, const Track& track
     const Spot spot = track.closed ? nearest(track, b.middle) : Spot{.point = track.start};
     if (!level.inside.contains(b.middle, spot.point)) continue;
     go_cleared(level, b.middle);
-    writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
-    return track.closed ? begun_at(track, spot) : track;
+    return onto(level, track, spot);
   }
   return std::nullopt;
 }
@@ -271,9 +378,12 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
     writer.arc({to.x, to.y, floor}, d.point, cw, MoveRole::kCut);
   }
   bores_.push_back({d.point, floor});
+  if (!bored) {
+    const Vec2 out = (1.0 / r) * (end - d.point);
+    if (auto bent = bend_onto(level, track, cw ? Vec2{out.y, -out.x} : Vec2{-out.y, out.x})) return bent;
+  }
   writer.line({from.x, from.y, level.z_mm}, MoveRole::kLink);  // up in the bore, off its wall
-  writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
-  return track.closed ? begun_at(track, spot) : track;
+  return onto(level, track, spot);
 }
 
 std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track) {

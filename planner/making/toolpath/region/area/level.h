@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/making/toolpath/link/path_writer.h"
+#include "planner/making/toolpath/region/area/cutting_part.h"
 #include "planner/making/toolpath/region/area/inside.h"
 #include "planner/making/toolpath/region/area/rings.h"
 #include "planner/making/toolpath/region/area/work_area.h"
@@ -23,6 +24,8 @@ struct Level {
   Inside material;                  ///< outline of what is not air
   std::optional<Inside> cleared;    ///< finishing: centres at which nothing was left to cut
   std::vector<geometry::Vec2> air;  ///< centres at which the cutter touches no material, if any
+  /// Rest machining: what the wider cutter left, with the run-out of its feather edges. Empty: everything.
+  geometry::Region rest;
 };
 /// Rings lie on the boundary of the centres; tests of inclusion use a region this much larger, mm.
 inline constexpr double kInsideSlack = 0.002;
@@ -54,6 +57,15 @@ class LevelCutter {
   void go_cleared(const Level& level, geometry::Vec2 p);
   /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
   const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm, double cover_mm);
+  /// From where the cutter is, moving in the unit direction `leave`, onto a closed track beside it, on arcs
+  /// that meet it ahead, along its sense: straight across, the cutter would cut with its whole width and stop
+  /// at both ends. Returns the track begun where it is met; nothing, and no move, where the arcs fit nowhere.
+  std::optional<Track> bend_onto(const Level& level, const Track& track, geometry::Vec2 leave);
+  /// `cutting_part` of a track, asked once for the levels that have the same.
+  Track part(const Track& track, geometry::Region& uncut, double cover_mm, Begun begun);
+  /// Follows a track on the level. Where the whole cutter is beside the raw piece, by kAirBeside at least, on
+  /// longer ways than its diameter, the move is a link: nothing is cut there, and its feed is that of air.
+  void follow(const Level& level, const Track& track);
   /// A straight cut on the level to p when it stays within the centres.
   bool cut_to(const Level& level, geometry::Vec2 p);
 
@@ -75,6 +87,9 @@ class LevelCutter {
  private:
   void tell(Severity severity, const std::string& code, const std::string& message);
   void go_above(const Level& level, geometry::Vec2 p);
+  std::optional<Track> bend(const Level& level, const Track& track, geometry::Vec2 leave, double ahead);
+  /// From where the cutter stands clear onto the track: on an arc where one fits, else straight to the spot.
+  Track onto(const Level& level, const Track& track, const Spot& spot);
   std::optional<Track> from_outside(const Level& level, const Track& track);
   std::optional<Track> by_helix(const Level& level, const Track& track, const geometry::Region& leaf);
   std::optional<Track> by_bore(const Level& level, const Track& track, geometry::Vec2 middle);
@@ -99,6 +114,15 @@ class LevelCutter {
     double z_mm;
   };
   std::vector<Slot> slots_;  ///< made by ramps along closed tracks, below the level they began at
+  struct Part {
+    Track of;
+    geometry::Region uncut;
+    double cover_mm;
+    Begun begun;
+    Track part;
+    geometry::Region left;
+  };
+  std::vector<Part> parts_;
   geometry::Region ringed_;  ///< what `rings_` are of
   double ringed_apart_mm_ = 0.0, ringed_cover_mm_ = 0.0;
   std::vector<Ring> rings_;

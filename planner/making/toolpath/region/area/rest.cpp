@@ -65,6 +65,7 @@ double narrow_to_rest(const PathJob& task, const WorkArea& w, Level& level) {
     const Region got = inset(level.centres, -(radius + 0.5 * kFeather), kInnerChord);
     if (geometry::area(opened(geometry::subtract(left, got), 0.25 * kFeather)) < kCrumb) break;
   }
+  level.rest = geometry::intersect(reach, geometry::offset(left, feather, 0.01));
   const Region free =
       geometry::intersect(geometry::intersect(all, inset(cleared, radius + kAirBeside, kInnerChord)),
                           geometry::offset(level.centres, 2.0 * radius, 0.05));

@@ -9,10 +9,10 @@ namespace capstan::toolpath {
 ///
 ///     left = reach of this cutter \ reach of the wider one
 ///
-/// Shrinks the level's `centres` to those near the rest; `air` becomes the centres at which the cutter is
-/// free in the area cleared already. `inside` does not change, so that links may pass there. Feather edges,
-/// where the two reaches differ by less than kFeather, count as no rest: the run-out along the wall covers
-/// them.
+/// Shrinks the level's `centres` to those near the rest, which becomes its `rest`; `air` becomes the centres
+/// at which the cutter is free in the area cleared already. `inside` does not change, so that links may pass
+/// there. Feather edges, where the two reaches differ by less than kFeather, count as no rest: the run-out
+/// along the wall covers them.
 ///
 /// Needs   upright walls; the wider cutter went as deep.
 /// Returns the area left, mm2; 0: nothing, and the level is not to be cut.
