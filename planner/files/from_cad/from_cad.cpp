@@ -8,6 +8,7 @@
 #include "planner/files/from_cad/areas.h"
 #include "planner/files/from_cad/cover.h"
 #include "planner/files/from_cad/holes.h"
+#include "planner/files/from_cad/requirements.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/decision/not_recognised.h"
 
@@ -232,7 +233,7 @@ class Writer {
                         {"recognise.feature", why, "the shape of " + plan_.file_name}, {},
                         std::move(rejected));
       plan_.kept.push_back(made);
-      made_.emplace_back(made, faces.size());
+      made_.push_back({made, faces});
     }
   }
 
@@ -261,14 +262,14 @@ class Writer {
   }
 
   model::Plan plan_;
-  std::vector<std::pair<AnyRef, std::size_t>> made_;  ///< features, and of how many faces each is
+  std::vector<MadeOf> made_;
+  Ref<model::Workpiece> piece_;
 
  private:
   std::map<AnyRef, double> blends_;  ///< features with fillets at their floors: the radius, mm
   const Part& part_;
   const std::vector<Feature>& features_;
   Nouns nouns_;
-  Ref<model::Workpiece> piece_;
 };
 
 std::string words(const geometry::Box3& b) {
@@ -314,6 +315,30 @@ std::optional<Axes> turned_axes(const Brep& brep) {
 
 std::string words(Vec3 d) {
   return "(" + trimmed(d.x, 4) + ", " + trimmed(d.y, 4) + ", " + trimmed(d.z, 4) + ")";
+}
+
+/// What is asked of the part beside its shape, and what of it is not planned for.
+void tell(const Attached& asked, const std::string& name, Job& job) {
+  if (asked.stated == 0) return;
+  job.report({.code = "CAD-PMI",
+              .severity = Severity::kNote,
+              .message = std::to_string(asked.attached) + " of " +
+                         counted(asked.stated, "tolerance or texture of the file is",
+                                 "tolerances and textures of the file are") +
+                         " asked of features",
+              .file = name});
+  constexpr std::size_t kMost = 12;
+  std::string list;
+  for (std::size_t i = 0; i < asked.lost.size() && i < kMost; ++i)
+    list += (i == 0 ? "" : "; ") + asked.lost[i];
+  if (asked.lost.size() > kMost) list += "; and " + std::to_string(asked.lost.size() - kMost) + " more";
+  if (list.empty()) return;
+  job.report({.code = "CAD-PMI",
+              .severity = Severity::kWarning,
+              .message = counted(asked.lost.size(), "tolerance or texture", "tolerances and textures") +
+                         " of the file are not planned for: " + list,
+              .file = name,
+              .hint = "measure these on the finished part"});
 }
 
 /// The one solid of a file.
@@ -391,6 +416,11 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
     model::set_not_recognised(writer.plan_, wrong.feature, writer.cutting(wrong));
   }
   for (const Left& left : removal.left) writer.leave(left);
+  std::vector<MadeOf> planned = writer.made_;
+  std::erase_if(planned, [stays = model::not_recognised(writer.plan_)](const MadeOf& f) {
+    return stays.count(f.feature) != 0;
+  });
+  const Attached asked = attach_requirements(brep, planned, writer.piece_, writer.plan_);
   model::Plan plan = std::move(writer.plan_);
 
   const auto say = [&](const char* code, std::string text) {
@@ -427,7 +457,7 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
   for (const auto& [feature, faces] : writer.made_) {
     if (stays.count(feature) != 0) continue;
     ++features_made;
-    faces_made += faces;
+    faces_made += faces.size();
   }
   say("CAD-RECOGNISED",
       counted(features_made, "feature", "features") + " of " + counted(faces_made, "face", "faces") + "; " +
@@ -435,6 +465,7 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
           counted(stays.size(), "feature, group of faces or volume is",
                   "features, groups of faces or volumes are") +
           " not planned");
+  tell(asked, name, job);
   plan.provenance.push_back({"unit of the CAD file", brep.unit, "the file; planned in mm"});
   return plan;
 }

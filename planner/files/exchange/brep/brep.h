@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/files/exchange/brep/pmi.h"
 #include "planner/ground/geometry/vec.h"
 
 namespace capstan::exchange {
@@ -106,6 +107,7 @@ struct Brep {
   double chord = 0;    ///< mm: what the tessellation was asked to keep
   std::string unit;    ///< of lengths in the file: "mm", "inch", "m", …, or "mixed"
   geometry::Box3 box;  ///< of the exact geometry
+  Pmi pmi;             ///< what the file asks of the shape
   friend bool operator==(const Brep&, const Brep&) = default;
 };
 

@@ -11,6 +11,7 @@
 
 #include "planner/files/exchange/brep/message.h"
 #include "planner/files/exchange/brep/process.h"
+#include "planner/files/exchange/brep/read_pmi.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 
@@ -195,6 +196,7 @@ Result<Brep> read_brep_bytes(std::string bytes, const std::string& name, const B
   }
   if (fault) return fail(*std::move(fault));
   join(*file, *message->brep, job);
+  message->brep->pmi = read_pmi(*file);
   return *std::move(message->brep);
 }
 
