@@ -54,11 +54,12 @@ struct PlanOptions {
   std::function<void(std::string_view stage, double fraction)> progress = {};
   /// Ends the call early: there is a plan only where one was made by then, and no program without its check.
   std::stop_token stop = {};
-  std::string cache = {};    ///< a folder that keeps results of stages from call to call
-  std::string may = {};      ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
-  std::string time = {};     ///< of `bind_...`: when, for the plan's record; any text
-  std::string control = {};  ///< in place of the machine's own: "fanuc", "haas", "heidenhain", "linuxcnc", "siemens"
-  unsigned next = 0;         ///< of `bind_...`: so many workingsteps only; 0: the whole plan
+  std::string cache = {};  ///< a folder that keeps results of stages from call to call
+  std::string may = {};    ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
+  std::string time = {};   ///< of `bind_...`: when, for the plan's record; any text
+  std::string control =
+      {};  ///< in place of the machine's own: "fanuc", "grbl", "haas", "heidenhain", "linuxcnc", "siemens"
+  unsigned next = 0;  ///< of `bind_...`: so many workingsteps only; 0: the whole plan
   unsigned from = 0;  ///< of `bind_...`: the first of them, from 1; 0: the first of which something is open
   bool stop_at_deadline =
       false;                  ///< of `bind_...`: nothing, in time, where nothing is checked by the deadline

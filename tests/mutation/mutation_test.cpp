@@ -106,6 +106,22 @@ TEST(MutationSeed, EveryDangerousEditOfAHeidenhainProgramIsFoundAndNoBenignOneBl
   RecordProperty("edits", edits);
 }
 
+TEST(MutationSeed, EveryDangerousEditOfAGrblProgramIsFoundAndNoBenignOneBlamed) {
+  Options o;
+  o.edits = soaks() ? 12 : 6;
+  o.first_seed = next_seed();
+  o.dialect = "grbl";
+  int edits = 0;
+  for (const Row& row : study(o)) {
+    edits += row.edits;
+    EXPECT_EQ(row.dangerous_missed, 0) << told(row);
+    EXPECT_EQ(row.different_missed, 0) << told(row);
+    EXPECT_EQ(row.benign_blamed, 0) << told(row);
+  }
+  EXPECT_GT(edits, 0);
+  RecordProperty("edits", edits);
+}
+
 // A first block that names a work offset in place of ending the length offset (G59 for G49).
 TEST(MutationSeed, AWorkOffsetBeforeTheFirstStepIsFound) {
   for (const Emitted& e : emitted()) {
@@ -124,7 +140,7 @@ TEST(MutationSeed, AWorkOffsetBeforeTheFirstStepIsFound) {
 
 std::vector<Emitted> all_emitted() {
   std::vector<Emitted> out = emitted_and_planned();
-  for (const char* dialect : {"fanuc", "haas", "siemens", "heidenhain"}) {
+  for (const char* dialect : {"fanuc", "haas", "siemens", "heidenhain", "grbl"}) {
     for (Emitted& e : emitted_for(dialect)) {
       e.name += std::string(", ") + dialect;
       out.push_back(std::move(e));

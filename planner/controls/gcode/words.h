@@ -103,7 +103,8 @@ struct Words {
   /// Takes the message away when the program goes on; nothing where it is empty.
   std::string message_end = {};
   std::function<std::string(const std::string& seconds)> dwell = {};
-  /// Rigid tapping at `at`, where the tool is; it ends at `initial_z`. One or more lines.
+  /// Rigid tapping at `at`, where the tool is; it ends at `initial_z`. One or more lines. Null: the control
+  /// has none.
   std::function<std::string(const HoleCycle& hole)> tap = {};
   /// The control has stopped the spindle when a tap is out.
   bool tap_stops_spindle = false;

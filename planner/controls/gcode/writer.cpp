@@ -391,6 +391,11 @@ class Writer {
   // down, perhaps dwells, and the move up. Gives the index of the move up.
   Result<std::size_t> tap(const StepResult& step, const Cutter& cutter, std::size_t down) {
     const CutterPath& path = *step.path;
+    if (!words_.tap)
+      return fail(
+          {.code = "OUT-TAP",
+           .message = "programs of this control cannot keep a tap and its feed in step",
+           .hint = "mill the thread (a thread mill among the tools), or tap by hand and leave the step out"});
     const Vec3 top = *program_.at();
     const Vec3 bottom = program_.round(path.point(down));
     std::size_t up = down + 1;

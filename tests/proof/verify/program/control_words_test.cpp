@@ -31,7 +31,8 @@ TEST(ControlWords, WhatMakesALengthActIsNamedAsTheControlNamesIt) {
   for (const auto& [dialect, word] : {std::pair<const char*, std::string>{"linuxcnc", "G43 H" + t},
                                       {"fanuc", "G43 H" + t},
                                       {"siemens", "T" + t + " D1"},
-                                      {"heidenhain", "TOOL CALL " + t}}) {
+                                      {"heidenhain", "TOOL CALL " + t},
+                                      {"grbl", "G43.1 Z of T" + t}}) {
     const std::string said = said_of_no_length(dialect);
     EXPECT_NE(said.find(", and " + word + " would take that"), std::string::npos) << dialect << ": " << said;
     if (word.find("G43 H") == std::string::npos) {
