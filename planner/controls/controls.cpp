@@ -4,6 +4,7 @@
 #include <array>
 
 #include "planner/controls/fanuc/fanuc.h"
+#include "planner/controls/grbl/grbl.h"
 #include "planner/controls/heidenhain/heidenhain.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
 #include "planner/controls/siemens/siemens.h"
@@ -12,7 +13,8 @@ namespace capstan::controls {
 namespace {
 
 constexpr std::array kDialects{
-    &linuxcnc::kDialect, &fanuc::kFanuc, &fanuc::kHaas, &siemens::kDialect, &heidenhain::kDialect,
+    &linuxcnc::kDialect, &fanuc::kFanuc,        &fanuc::kHaas,
+    &siemens::kDialect,  &heidenhain::kDialect, &grbl::kDialect,
 };
 
 }  // namespace
@@ -30,7 +32,10 @@ model::Machine with_control(model::Machine machine, const std::string& dialect) 
   const Dialect* control = find_dialect(dialect);
   machine.control.dialect = dialect;
   machine.control_options.reset();
-  if (control != nullptr) machine.control.decimals = std::min(machine.control.decimals, control->decimals);
+  if (control == nullptr) return machine;
+  machine.control.decimals = std::min(machine.control.decimals, control->decimals);
+  // A spindle that this control does not keep in step with Z taps nothing, whatever the machine could.
+  if (!control->conformance.rigid_tapping) machine.abilities.rigid_tapping = false;
   return machine;
 }
 

@@ -227,6 +227,7 @@ void program_of(const char* control, std::string bytes) {
 void program_fanuc(std::string bytes) { program_of("fanuc", std::move(bytes)); }
 void program_siemens(std::string bytes) { program_of("siemens", std::move(bytes)); }
 void program_heidenhain(std::string bytes) { program_of("heidenhain", std::move(bytes)); }
+void program_grbl(std::string bytes) { program_of("grbl", std::move(bytes)); }
 void program_table(std::string bytes) {
   (void)verify::check_program_text(
       {"input.ngc", "T1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z5\nM30\n", std::move(bytes)}, nullptr, generic(), {});
@@ -248,7 +249,7 @@ const std::vector<Reader>& readers() {
        {"tooling/data/machines/generic_vmc.yaml", "tooling/data/machines/tormach_1100mx.yaml",
         "examples/reference_pocket_machine.yaml"}},
       {"machine_ini", machine_ini, {}},
-      {"control_profile", control_profile, {"planner/controls/profile/data/grbl.yaml"}},
+      {"control_profile", control_profile, {"planner/controls/profile/data/grbl_alone.yaml"}},
       {"materials", materials, {"tooling/data/materials.yaml"}},
       {"workholding",
        workholding,
@@ -296,6 +297,9 @@ const std::vector<Reader>& readers() {
       {"program_heidenhain",
        program_heidenhain,
        {"tests/controls/heidenhain/golden/pocket.h", "tests/controls/heidenhain/golden/holes_cycles.h"}},
+      {"program_grbl",
+       program_grbl,
+       {"tests/controls/grbl/golden/pocket.gcode", "tests/controls/grbl/golden/holes_stated.gcode"}},
       {"program_table", program_table, {}},
   };
   return kAll;

@@ -38,11 +38,15 @@ std::vector<Class> classes_of(const std::string& dialect) {
   std::vector<Class> out;
   for (const Class& c : classes()) {
     const std::string name = c.name;
+    // Of Grbl's retracts one stands before the first change, where nothing has moved: dangerous_in_grbl.
+    if (dialect == "grbl" && name == "retract removed") continue;
     const bool theirs = kOthers.contains(name) && !(dialect == "siemens" && name == "small letters");
     if (c.kind != Kind::kUnknown && !name.starts_with("table: ") && !theirs) out.push_back(c);
   }
-  for (const Class& c : dialect == "siemens" ? dangerous_in_siemens() : dangerous_in_fanuc())
-    out.push_back(c);
+  const auto own = dialect == "siemens" ? dangerous_in_siemens()
+                   : dialect == "grbl"  ? dangerous_in_grbl()
+                                        : dangerous_in_fanuc();
+  out.insert(out.end(), own.begin(), own.end());
   return out;
 }
 

@@ -50,6 +50,8 @@ struct Class {
 [[nodiscard]] std::vector<Class> dangerous_in_fanuc();
 /// And those of Siemens: modal calls and their parameters, SUPA, CYCLE832, TURN=.
 [[nodiscard]] std::vector<Class> dangerous_in_siemens();
+/// And those of Grbl: lengths as numbers, characters that are commands.
+[[nodiscard]] std::vector<Class> dangerous_in_grbl();
 /// Those of Heidenhain's cycles, and what is not dangerous in its programs.
 [[nodiscard]] std::vector<Class> heidenhain_cycles();
 /// All ways to edit Heidenhain's, which share no word with the others.

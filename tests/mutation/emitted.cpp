@@ -151,6 +151,12 @@ std::vector<Emitted> emitted_for(const std::string& dialect) {
   out.push_back(
       written("pocket and reamed hole", on(turns ? with_helix(pocket_and_hole()) : pocket_and_hole())));
   out.push_back(written("two set-ups", on(two_setups())));
+  if (dialect == "grbl") {  // which taps nothing
+    model::Plan stated = on(pocket_and_hole());
+    stated.machine.control_options = model::ControlOptions{{{"tool_length", "g43.1"}}};
+    out.push_back(written("stated lengths", std::move(stated)));
+    return out;
+  }
   out.push_back(written("tapped hole", on(tapped()), {"CHK-GOUGE", "CHK-GOUGE-WALL"}));
   return out;
 }

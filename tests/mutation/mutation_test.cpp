@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -105,9 +106,41 @@ TEST(MutationSeed, EveryDangerousEditOfAHeidenhainProgramIsFoundAndNoBenignOneBl
   RecordProperty("edits", edits);
 }
 
+TEST(MutationSeed, EveryDangerousEditOfAGrblProgramIsFoundAndNoBenignOneBlamed) {
+  Options o;
+  o.edits = soaks() ? 12 : 6;
+  o.first_seed = next_seed();
+  o.dialect = "grbl";
+  int edits = 0;
+  for (const Row& row : study(o)) {
+    edits += row.edits;
+    EXPECT_EQ(row.dangerous_missed, 0) << told(row);
+    EXPECT_EQ(row.different_missed, 0) << told(row);
+    EXPECT_EQ(row.benign_blamed, 0) << told(row);
+  }
+  EXPECT_GT(edits, 0);
+  RecordProperty("edits", edits);
+}
+
+// A first block that names a work offset in place of ending the length offset (G59 for G49).
+TEST(MutationSeed, AWorkOffsetBeforeTheFirstStepIsFound) {
+  for (const Emitted& e : emitted()) {
+    std::string text = e.text;
+    const std::size_t at = text.find(" G49");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, 4, " G59");
+    Job job;
+    const auto findings =
+        verify::check_program({e.name, text, e.table}, &e.plan, e.plan.machine, e.plan.cutters, job);
+    EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const auto& f) {
+      return f.code == "CHK-TEXT-STATE" && f.message.find("G59") != std::string::npos;
+    })) << e.name;
+  }
+}
+
 std::vector<Emitted> all_emitted() {
   std::vector<Emitted> out = emitted_and_planned();
-  for (const char* dialect : {"fanuc", "haas", "siemens", "heidenhain"}) {
+  for (const char* dialect : {"fanuc", "haas", "siemens", "heidenhain", "grbl"}) {
     for (Emitted& e : emitted_for(dialect)) {
       e.name += std::string(", ") + dialect;
       out.push_back(std::move(e));

@@ -171,7 +171,7 @@ std::string difference(const std::string& a, const std::string& b) {
 /// The words of an edit with the decimal points that a FANUC asks for, and waits in its unit: what is spoilt
 /// is to be found by what it means.
 std::string with_points(const std::string& text, const std::string& dialect) {
-  if (dialect == "siemens" || dialect == "heidenhain") return text;  // they ask for no points
+  if (dialect != "fanuc" && dialect != "haas") return text;  // they ask for no points
   Lines lines = split(text);
   for (std::string& l : lines) {
     if (!is_code(l)) continue;

@@ -1,7 +1,7 @@
 # Edits of emitted programs: a library of classes and the study over them, for the test and for
 # docs/validation.md.
 set(mutation ${CMAKE_CURRENT_LIST_DIR})
-file(GLOB mutation_sources CONFIGURE_DEPENDS ${mutation}/*.cpp ${mutation}/plans/*.cpp)
+file(GLOB mutation_sources CONFIGURE_DEPENDS ${mutation}/*.cpp ${mutation}/controls/*.cpp ${mutation}/plans/*.cpp)
 list(FILTER mutation_sources EXCLUDE REGEX "_test\\.cpp$")
 add_library(capstan_mutation STATIC ${mutation_sources})
 target_link_libraries(capstan_mutation

@@ -103,13 +103,17 @@ struct Words {
   /// Takes the message away when the program goes on; nothing where it is empty.
   std::string message_end = {};
   std::function<std::string(const std::string& seconds)> dwell = {};
-  /// Rigid tapping at `at`, where the tool is; it ends at `initial_z`. One or more lines.
+  /// Rigid tapping at `at`, where the tool is; it ends at `initial_z`. One or more lines. Null: the control
+  /// has none.
   std::function<std::string(const HoleCycle& hole)> tap = {};
   /// The control has stopped the spindle when a tap is out.
   bool tap_stops_spindle = false;
   /// A hole as a canned cycle, cancelled behind it; nothing where this control has none that makes these
   /// moves. Null: explicit moves always.
   std::function<std::optional<std::string>(const HoleCycle& hole)> cycle = {};
+  /// The last line of `cycle` where it runs what the lines before it define: for equal holes of a step these
+  /// stand once. Empty: each hole has its whole text.
+  std::string_view cycle_call = {};
   /// Around the moves of a milling step; nothing where they are empty.
   std::string smooth_on = {}, smooth_off = {};
   /// Arcs: decimals of I and J beyond those of ends; how far the radii at both ends may differ (0: by a unit

@@ -166,6 +166,7 @@ class Writer {
     const bool new_tool = cutter.pocket != tool_;
     const bool first = tool_ == 0;
     const bool new_setup = !first && step.setup != setup_;
+    forget_cycle();
     const auto why = reasons(step, n);
     program_.blank();
     if ((new_tool || new_setup || !why.empty()) && !first) {
@@ -205,6 +206,9 @@ class Writer {
     setup_ = step.setup;
     approach(step, setup, new_tool || new_setup || measured || !why.empty());
   }
+
+  // Other cycles may end the one that is defined, and a restart begins at a step.
+  void forget_cycle() { defined_.clear(); }
 
   // To the start of the path, from the top of the machine or from the security plane.
   void approach(const StepResult& step, const model::SetupResult& setup, bool from_top) {
@@ -349,6 +353,7 @@ class Writer {
 
   void dwell(double seconds) {
     if (rounded(seconds, words_.dwell_decimals) <= 0.0) return;
+    forget_cycle();
     program_.write_waiting();
     program_.line(words_.dwell(words_.number(seconds, words_.dwell_decimals)));
   }
@@ -375,7 +380,9 @@ class Writer {
     const auto text = words_.cycle(hole->cycle);
     if (!text) return std::nullopt;
     program_.write_waiting();
-    program_.moved(*text, *program_.at());
+    const bool same = !words_.cycle_call.empty() && *text == defined_;
+    program_.moved(same ? std::string(words_.cycle_call) : *text, *program_.at());
+    defined_ = *text;
     program_.forget_feed();
     return hole->last_move;
   }
@@ -384,6 +391,11 @@ class Writer {
   // down, perhaps dwells, and the move up. Gives the index of the move up.
   Result<std::size_t> tap(const StepResult& step, const Cutter& cutter, std::size_t down) {
     const CutterPath& path = *step.path;
+    if (!words_.tap)
+      return fail(
+          {.code = "OUT-TAP",
+           .message = "programs of this control cannot keep a tap and its feed in step",
+           .hint = "mill the thread (a thread mill among the tools), or tap by hand and leave the step out"});
     const Vec3 top = *program_.at();
     const Vec3 bottom = program_.round(path.point(down));
     std::size_t up = down + 1;
@@ -410,6 +422,7 @@ class Writer {
     hole.decimals = plan_.machine.control.decimals;
     hole.feed_decimals = plan_.machine.control.feed_decimals;
     program_.write_waiting();
+    forget_cycle();
     program_.moved(words_.tap(hole), top);
     program_.forget_feed();
     return up;
@@ -425,6 +438,7 @@ class Writer {
   double speed_ = 0.0;
   std::string called_;  // speed that the change of the tool stated, until the spindle starts
   bool flood_ = false, mist_ = false;
+  std::string defined_;  // text of the cycle that a call would run
 };
 
 }  // namespace

@@ -52,6 +52,13 @@ Status takes_the_decimals(const model::Plan& plan) {
                .hint = "state decimals of that range under the machine's control, 3 for example"});
 }
 
+/// Without an exponent, as people and controls write lengths; what is smaller than any has one.
+std::string digits_of(double mm) {
+  constexpr int kDecimals = 12;
+  const std::string text = trimmed(mm, kDecimals);
+  return text == "0" && mm != 0.0 ? shortest(mm) : text;
+}
+
 /// That of the machine, and of each step that has its own, as they are written.
 Status rounds_by_a_tolerance(const model::Plan& plan) {
   const int decimals = plan.machine.control.decimals;
@@ -60,7 +67,7 @@ Status rounds_by_a_tolerance(const model::Plan& plan) {
   if (!(rounded(tolerance, decimals) > 0.0))
     return fail({.code = "OUT-CONTROL",
                  .message = "machine '" + plan.machine.id + "' states path_tolerance_mm " +
-                            shortest(tolerance) + exact,
+                            digits_of(tolerance) + exact,
                  .expected = "a path tolerance above 0 mm",
                  .hint = "state path_tolerance_mm under the machine's control, 0.01 mm for example"});
   for (const model::StepResult& step : plan.steps) {
@@ -68,7 +75,7 @@ Status rounds_by_a_tolerance(const model::Plan& plan) {
     if (!(own > 0.0) || rounded(own, decimals) > 0.0) continue;
     return fail(
         {.code = "OUT-CONTROL",
-         .message = "the contour tolerance of " + shortest(own) + " mm is 0 with the machine's " +
+         .message = "the contour tolerance of " + digits_of(own) + " mm is 0 with the machine's " +
                     std::to_string(decimals) + " decimals" + exact,
          .path = model::step_id(plan, step),
          .expected = "a contour tolerance of " + trimmed(std::pow(10.0, -decimals), decimals) + " mm or more",

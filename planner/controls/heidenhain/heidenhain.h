@@ -29,7 +29,8 @@ namespace capstan::controls::heidenhain {
 ///
 /// Arcs     `CC` and `C ... DR`; one that also goes up or down, of any number of turns, `CP IPA IZ DR`.
 ///
-/// Holes    `CYCL DEF 200`, `201` and `207`, called by `CYCL CALL` where the tool is: Q203 + Q204 is where it
+/// Holes    `CYCL DEF 200`, `201` and `207`, called by `CYCL CALL` where the tool is; equal holes of a step
+///          are called with one definition. Q203 + Q204 is where it
 ///          came from, Q203 + Q200 where it is fed from, Q203 + Q201 the bottom. Q202 is the depth: one
 ///          plunge. Pecks are explicit moves.
 ///

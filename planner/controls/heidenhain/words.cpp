@@ -20,6 +20,8 @@ using geometry::Vec2;
 
 /// The surface of a cycle lies so far below where the tool is fed from: Q200 is a distance above 0.
 constexpr double kClearanceMm = 1.0;
+/// Runs the cycle that is defined.
+constexpr std::string_view kCall = "CYCL CALL";
 /// Of BEGIN PGM: default, unsourced.
 constexpr std::size_t kLongestName = 20;
 
@@ -64,7 +66,7 @@ class Cycle {
     text_ += " ~\n  Q" + std::to_string(number) + "=" + value + " ;" + meaning;
     return *this;
   }
-  [[nodiscard]] std::string called() const { return text_ + "\nCYCL CALL"; }
+  [[nodiscard]] std::string called() const { return text_ + "\n" + std::string(kCall); }
 
  private:
   std::string text_;
@@ -212,6 +214,7 @@ gcode::Words words_of(const model::Plan& plan) {
   };
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
+  w.cycle_call = kCall;
   if (is("cycles", "feature")) w.cycle = [](const HoleCycle& h) { return std::optional(hole_text(h)); };
   w.more_centre_decimals = std::max(0, kMostDecimals - machine.control.decimals);
   w.turns = true;

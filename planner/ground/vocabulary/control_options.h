@@ -24,7 +24,8 @@ struct ControlOptionRow {
 /// Sources: FANUC Series 0i-MODEL B operator's manual B-63844EN/02 ("0i"), FANUC Series 30i user's manual
 /// (machining centre) B-63944EN-2/02 ("30i"), FANUC connection manual B-63833EN-1/02 ("0i connection"), Haas
 /// mill operator's manual 96-8000 ("Haas"), and for Siemens and Heidenhain those of
-/// planner/controls/siemens/siemens.h and planner/controls/heidenhain/heidenhain.h.
+/// planner/controls/siemens/siemens.h, planner/controls/heidenhain/heidenhain.h and
+/// planner/controls/grbl/grbl.h.
 inline constexpr std::array kControlOptions{
     ControlOptionRow{
         "cycles", "feature explicit", 0, 0, false,
@@ -104,6 +105,15 @@ inline constexpr std::array kControlOptions{
         "plane_reset", "no yes", 0, 0, false,
         "PLANE RESET STAY and M129 at the program's head, for machines that tilt the working plane",
         "Heidenhain, PLANE and M128; default, unsourced: an option of the control"},
+    ControlOptionRow{"tool_change", "m6 m0", 0, 0, false,
+                     "M6 is carried out by what sends the program (Grbl itself refuses it), or tools are "
+                     "changed at a stop, M0",
+                     "gnea/grbl, README.md (no M6); senders"},
+    ControlOptionRow{"tool_length", "touch_off g43.1", 0, 0, false,
+                     "the zero of Z is set anew with each tool at its change, or G43.1 Z states the tool's "
+                     "length, which is measured, as a number",
+                     "gnea/grbl, README.md (G43.1, no G43 H)"},
+    ControlOptionRow{"mist", "no yes", 0, 0, false, "M7 is compiled in", "gnea/grbl, config.h (ENABLE_M7)"},
 };
 
 /// The value of that option in such a list; "-": it is not in it.

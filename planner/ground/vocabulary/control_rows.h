@@ -47,6 +47,10 @@ inline constexpr std::array kControlRows{
     // unsourced.
     ControlRow{"heidenhain", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called prove_out=m1 line_length=200 plane_reset=no"},
+    // Looks ahead over 16 moves, for lower feeds too (gnea/grbl, planner.c); shares of the axes' limits:
+    // default, unsourced.
+    ControlRow{"grbl", 0.86602540378443864676, 0.5, false,
+               "tool_change=m6 tool_length=touch_off mist=no block_numbers=none line_length=120"},
 };
 
 /// The control's row; null for a dialect without one.

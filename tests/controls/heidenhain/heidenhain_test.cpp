@@ -116,6 +116,42 @@ TEST(HeidenhainProgram, AHelixIsOneBlockOfItsWholeAngle) {
   EXPECT_THAT(bare(helix_plan(2)), HasSubstr("\nCP IPA+450 IZ-2.5 DR+ F600\n"));
 }
 
+/// Three holes in one step; the last is `deeper` mm deeper.
+Plan row_of_holes(double deeper) {
+  Plan plan = plan_for("heidenhain");
+  model::Cutter drill = plan.cutters[0];
+  drill.id = "d8";
+  drill.cutter_class = model::CutterClass::kTwistDrill;
+  drill.pocket = 3;
+  plan.cutters.push_back(drill);
+  CutterPath p;
+  p.start({10, 0, 10});
+  for (int i = 1; i <= 3; ++i) {
+    const double x = 10.0 * i, bottom = i == 3 ? -8.0 - deeper : -8.0;
+    p.rapid({x, 0, 10});
+    p.rapid({x, 0, 2});
+    p.line({x, 0, bottom}, MoveRole::kDrill);
+    p.rapid({x, 0, 10}, MoveRole::kRetract);
+  }
+  capstan::testing::add_step(plan, "row", "d8", std::move(p), 1200, 180);
+  return plan;
+}
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(HeidenhainProgram, EqualHolesOfAStepAreCallsOfOneDefinition) {
+  const std::string equal = bare(row_of_holes(0.0));
+  EXPECT_EQ(count(equal, "CYCL DEF 200"), 1U) << equal;
+  EXPECT_EQ(count(equal, "\nCYCL CALL\n"), 3U);
+  EXPECT_THAT(equal, HasSubstr("\nCYCL CALL\nL X+20 R0 FMAX\nCYCL CALL\nL X+30 R0 FMAX\nCYCL CALL\n"));
+  const std::string other = bare(row_of_holes(1.0));
+  EXPECT_EQ(count(other, "CYCL DEF 200"), 2U) << other;
+  EXPECT_EQ(count(other, "\nCYCL CALL\n"), 3U);
+}
+
 TEST(HeidenhainProgram, AProgramIsNamedByThePartsFile) {
   Plan plan = pocket_plan("heidenhain");
   plan.file_name = "/parts/m\xc3\xbcller bracket-2.p21";
@@ -141,7 +177,8 @@ TEST(HeidenhainProgram, AToleranceOfAStepThatRoundsToNothingIsRefused) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, "OUT-CONTROL");
   EXPECT_EQ(refused.error().path, "rough pocket");
-  EXPECT_THAT(refused.error().message, HasSubstr(" mm is 0 with the machine's 3 decimals"));
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("tolerance of 0.0004 mm is 0 with the machine's 3 decimals"));
   EXPECT_THAT(refused.error().expected, HasSubstr("0.001 mm"));
   plan.steps[0].contour_tolerance_mm = 0.0006;
   EXPECT_THAT(bare(plan), HasSubstr("\nCYCL DEF 32.1 T0.001\n"));

@@ -1,51 +1,147 @@
-// Programs of shipped parts for controls, read back by the check.
+// Programs of shipped parts and of real files for every control, read back by the check: what it says of each
+// is the table control_programs.txt beside this file. CAPSTAN_UPDATE=1 writes it anew; a change of it is read
+// before it is committed.
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "planner/controls/controls.h"
 #include "planner/door/service/options.h"
 #include "planner/door/service/planning.h"
+#include "planner/ground/vocabulary/control_options.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::service {
 namespace {
 
-model::Plan planned(const std::string& control, const std::string& part) {
+using Codes = std::set<std::string>;
+
+std::string table_file() { return testing::source_dir() + "/tests/door/service/control_programs.txt"; }
+
+/// A part as it is planned for a control; `reopen`: nothing of the file's operations is kept.
+Outcome<Planned> planned(const std::string& control, const std::string& path, bool reopen) {
   Request request;
   EXPECT_TRUE(set(request, "control", control));
+  if (reopen) {
+    EXPECT_TRUE(set(request, "reopen", "all"));
+  }
+  if (path.ends_with(".stl")) {
+    EXPECT_TRUE(set(request, "material", "EN AW-6061"));
+  }
   Job job;
-  const auto out = plan(request, {.name = testing::source_dir() + "/examples/" + part}, job);
-  EXPECT_TRUE(out) << (out ? "" : to_text(out.error().what));
-  return out ? out->plan : model::Plan{};
+  return plan(request, {.name = path}, job);
 }
 
-/// What the check has against the program of a plan; empty: nothing.
-std::string blamed(const model::Plan& plan) {
+/// What the check has against the program of a plan; empty: it is equal to the plan and clean.
+Codes blamed(const model::Plan& plan) {
   Job job;
   const auto text = controls::write_program(plan, job);
-  if (!text) return to_text(text.error());
-  std::string out;
+  if (!text) return {text.error().code};
+  Codes out;
   for (const auto& f :
        verify::check_program({"program", *text, ""}, &plan, plan.machine, plan.cutters, job)) {
-    if (f.severity != Severity::kNote) out += f.code + " " + f.message + "\n";
+    if (f.severity != Severity::kNote) out.insert(f.code);
   }
   return out;
 }
 
-// The check follows the plan's path in both: cycles make the moves that explicit ones are.
-TEST(ControlPrograms, OfShippedPartsAreCleanWithCyclesAndWithExplicitMoves) {
-  for (const char* control : {"siemens", "heidenhain"}) {
-    for (const char* part : {"reference_pocket.p21", "bracket.p21", "two_setups.p21"}) {
-      model::Plan plan = planned(control, part);
-      ASSERT_FALSE(plan.steps.empty()) << part;
-      EXPECT_EQ(blamed(plan), "") << control << " " << part;
-      plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}}};
-      EXPECT_EQ(blamed(plan), "") << control << " " << part << ", explicit";
-    }
+std::string joined(const Codes& codes) {
+  std::string out;
+  for (const std::string& c : codes) out += (out.empty() ? "" : " ") + c;
+  return out.empty() ? "clean" : out;
+}
+
+/// The verdict on a part's program for a control: of its cycles, and of explicit moves where the control has
+/// both.
+std::string verdict(const std::string& control, const std::string& path, bool reopen) {
+  const auto result = planned(control, path, reopen);
+  if (!result) return "not planned: " + result.error().what.code;
+  model::Plan plan = result->plan;
+  if (plan.steps.empty()) return "no step";
+  std::string out = joined(blamed(plan));
+  if (model::find_control_option(control, "cycles") == nullptr) return out;
+  plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}}};
+  const std::string by_moves = joined(blamed(plan));
+  return by_moves == out ? out : out + "; explicit moves: " + by_moves;
+}
+
+using Table = std::map<std::string, std::string>;
+
+Table read_table() {
+  Table out;
+  std::ifstream in(table_file());
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t at = line.find(": ");
+    if (!line.empty() && line.front() != '#' && at != std::string::npos)
+      out[line.substr(0, at)] = line.substr(at + 2);
   }
+  return out;
+}
+
+void write_table(const Table& rows) {
+  Table all = read_table();
+  for (const auto& [key, value] : rows) all[key] = value;
+  std::ofstream out(table_file());
+  out << "# What the check says of the programs of control_programs_test.cpp, by part and control.\n";
+  for (const auto& [key, value] : all) out << key << ": " << value << "\n";
+}
+
+/// Plans `files` of a folder for every control and holds the verdicts against the table.
+void expect_verdicts(const std::string& folder, const std::vector<std::string>& files, bool reopen) {
+  const Table table = read_table();
+  Table found;
+  for (const std::string& file : files) {
+    for (const controls::Dialect* control : controls::dialects()) {
+      const std::string id(control->id), key = file + " " + id;
+      found[key] = verdict(id, folder + "/" + file, reopen);
+      const auto row = table.find(key);
+      if (std::getenv("CAPSTAN_UPDATE") == nullptr) {
+        EXPECT_EQ(found[key], row == table.end() ? "(not in the table)" : row->second) << key;
+      }
+    }
+    if (std::getenv("CAPSTAN_UPDATE") != nullptr) write_table(found);
+  }
+}
+
+bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
+
+// The check follows the plan's path in both: cycles make the moves that explicit ones are.
+TEST(ControlProgramsProperty, OfShippedPartsReadBackAsTheTableSaysWithCyclesAndWithExplicitMoves) {
+  static bool done = false;  // a soak repeats what has no seed
+  if (done) return;
+  done = true;
+  std::vector<std::string> files{"bracket.p21", "plate_bound.p21", "reference_pocket.p21", "two_setups.p21"};
+  if (soaks() || std::getenv("CAPSTAN_UPDATE") != nullptr) files.emplace_back("surface.stl");
+  expect_verdicts(testing::source_dir() + "/examples", files, false);
+}
+
+TEST(ControlProgramsProperty, OfCorpusFilesReadBackAsTheTableSays) {
+  CAPSTAN_CORPUS_FILE(folder, "iso14649");
+  static bool done = false;
+  if (done) return;
+  done = true;
+  std::vector<std::string> files{"nist_ex1.stp"};
+  if (soaks() || std::getenv("CAPSTAN_UPDATE") != nullptr)
+    files = {"nist_ex1.stp",
+             "fdis_ex2.p21",
+             "fdis_ex2_mended.p21",
+             "meduag_furo.p21",
+             "meduag_peca_defesa.p21",
+             "nist_tiny.stp",
+             "ufsc_Cavidade.p21",
+             "ufsc_FuroBaseEsferica.p21",
+             "ufsc_FuroConico.p21",
+             "ufsc_Ranhura.p21",
+             "ufsc_RanhuraPerfilRoundedU.p21",
+             "ufsc_RanhuraPerfilVee.p21"};
+  expect_verdicts(folder, files, true);
 }
 
 }  // namespace

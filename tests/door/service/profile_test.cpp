@@ -25,7 +25,7 @@ Outcome<CheckResult> plate_for(const std::string& profile) {
 }
 
 TEST(CheckProfile, SaysWhatTheControlCannotDoAndWhatThePlanDoesNotSay) {
-  const auto result = plate_for("grbl");
+  const auto result = plate_for("grbl_alone");
   ASSERT_TRUE(result) << to_text(result.error().what);
   std::vector<std::string> codes;
   for (const auto& f : result->findings) codes.push_back(f.finding.code);
@@ -43,7 +43,7 @@ TEST(CheckProfile, AnUnknownControlIsWrongUsage) {
 // The figure of the machine's file is LinuxCNC's; no word of a program of Fanuc states it, one of Haas's
 // does.
 TEST(PlanForAControl, ThatCannotStateItsToleranceIsWarnedOfOnce) {
-  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain"}) {
+  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain", "grbl"}) {
     Request request;
     EXPECT_TRUE(set(request, "control", control));
     Job job;

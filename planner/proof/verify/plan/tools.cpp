@@ -55,6 +55,8 @@ void check_cutter(const model::Plan& plan, const model::Cutter& c, Findings& fin
 
 void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, Findings& findings) {
   const Findings::Where whole{0, "", -1};
+  const DialectReader* reader = reader_of(plan.machine.control.dialect);
+  const ControlWords words = reader != nullptr ? reader->words : ControlWords{};
   std::map<int, std::string> pockets;
   std::map<int, const model::Cutter*> places;
   for (const model::Cutter& c : plan.cutters) {
@@ -90,7 +92,7 @@ void check_tools(const model::Plan& plan, const std::vector<StepMoves>& steps, F
           "its tool \"" + s.planned->cutter_id + "\" is not among the plan's tools: plan it again");
     else if (const std::string fault = model::offset_fault(*s.cutter); !fault.empty())
       findings.error(6, "CHK-TOOL-OFFSET", at,
-                     fault + ", and G43 H" + std::to_string(s.cutter->pocket) +
+                     fault + ", and " + length_of(words, s.cutter->pocket) +
                          " would take that for its length: measure it and enter its length");
     if (s.setup >= plan.setups.size()) {
       findings.error(3, "CHK-WORK-OFFSET", at, "its set-up is not among the plan's: plan it again");

@@ -89,6 +89,11 @@ class Between {
   }
 
   void before_steps(const Block& b) {
+    // Each step states its own: one from before the first acts where a step is edited or begun by itself.
+    if (b.work_offset != 0)
+      out_.error(33, "CHK-TEXT-STATE", c_.where(b),
+                 "the work offset " + offset_name(b.work_offset) +
+                     " is stated before the first step; the plan's steps state theirs, so take it out");
     const bool retract = b.kind == Block::Kind::kMove && b.in_machine && b.move == model::MoveKind::kRapid &&
                          !b.words[0] && !b.words[1] && at_top(b, c_.machine);
     if (!retract)

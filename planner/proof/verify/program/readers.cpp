@@ -3,6 +3,7 @@
 #include <array>
 
 #include "planner/proof/verify/program/fanuc/reader.h"
+#include "planner/proof/verify/program/grbl/reader.h"
 #include "planner/proof/verify/program/heidenhain/reader.h"
 #include "planner/proof/verify/program/linuxcnc/reader.h"
 #include "planner/proof/verify/program/siemens/reader.h"
@@ -61,6 +62,15 @@ constexpr std::array kReaders{
                   .numbered_name = "PRESET",
                   .sign = "BEGINPGM",
                   .sign_meaning = "BEGIN PGM, the head of a program in conversational language"},
+    DialectReader{.dialect = "grbl",
+                  .name = "Grbl 1.1",
+                  .work_offsets = grbl::kOffsets,
+                  .program = &grbl::read_program,
+                  .tool_table = nullptr,
+                  .speed_decimals = 0,
+                  .states_tolerance = false,
+                  .words = grbl::kWords,
+                  .options = "tool_change=m6 tool_length=touch_off mist=no"},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "planner/model/plan/resources/machine.h"
@@ -14,10 +15,17 @@ namespace capstan::verify {
 struct ControlWords {
   std::string_view to_top = "G53 G0 Z", to_top_end = "";  ///< to the top of Z, which stands between
   std::string_view in_machine = "G53", length = "G43", change = "M6";
+  std::string_view length_of = "G43 H",
+                   length_of_end = "";  ///< what takes a tool's length; its number between
   std::string_view unit = "unit (G20/G21)", plane = "plane (G17)", distance = "distance mode (G90/G91)",
                    feed_mode = "feed mode (G93/G94/G95)", no_radius = "G40", no_cycle = "G80", exact = "G61",
                    start = "M3 or M4", speed = "S", feed = "F";
 };
+
+/// What makes the length of that tool act, "G43 H5".
+[[nodiscard]] inline std::string length_of(const ControlWords& words, int tool) {
+  return std::string(words.length_of) + std::to_string(tool) + std::string(words.length_of_end);
+}
 
 /// Who reads the programs of a control back for the check: written from the control's manual, without the
 /// writer's code. What it says of the control is a copy on purpose; tests/door/service/controls_test.cpp

@@ -65,7 +65,7 @@ void check_lengths(const ProgramCase& c, const ToolTable& table, const std::set<
               plain(kThinnestFlangeMm) + " mm thick at least";
     if (fault.empty()) continue;
     faults += (faults.empty() ? "" : "; ") + fault;
-    acting += (acting.empty() ? "G43 H" : ", H") + std::to_string(e.tool);
+    acting += (acting.empty() ? "" : ", ") + length_of(c.reader.words, e.tool);
   }
   tell_lengths(faults, acting, findings);
 }
@@ -79,7 +79,7 @@ void check_table_lines(const ProgramCase& c, Findings& findings) {
     const std::string fault = tool != nullptr ? model::offset_fault(*tool) : std::string();
     if (fault.empty()) continue;
     faults += (faults.empty() ? "" : "; ") + fault;
-    acting += (acting.empty() ? "G43 H" : ", H") + std::to_string(t);
+    acting += (acting.empty() ? "" : ", ") + length_of(c.reader.words, t);
   }
   tell_lengths(faults, acting, findings);
 }
@@ -117,7 +117,8 @@ void check_tool_table(const ProgramCase& c, const ToolTable& table, Findings& fi
                      name + " has no length (Z) in the tool table: its offset is none");
     if (!e.others.empty())
       findings.error(6, "CHK-TABLE-OFFSET", whole,
-                     name + " has " + e.others + " in the tool table: G43 shifts the work by it");
+                     name + " has " + e.others + " in the tool table: " + std::string(c.reader.words.length) +
+                         " shifts the work by it");
     const model::Cutter* t = c.cutter(e.tool);
     if (c.plan == nullptr || t == nullptr) continue;
     if (!e.has_diameter)

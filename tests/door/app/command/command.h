@@ -33,12 +33,11 @@ class CommandTest : public ::testing::Test {
  protected:
   /// `arguments` as a shell takes them.
   [[nodiscard]] Ran run(const std::string& arguments) const {
-    const std::filesystem::path out = folder_ / "stdout.txt";
-    const std::filesystem::path err = folder_ / "stderr.txt";
-    const std::string line = "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >'" +
-                             out.string() + "' 2>'" + err.string() + "'";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
+    return run_line("'" CAPSTAN_COMMAND "' " + arguments);
+  }
+  /// The same of a Python program, which finds the command by the variable CAPSTAN.
+  [[nodiscard]] Ran run_python(const std::string& arguments) const {
+    return run_line("CAPSTAN='" CAPSTAN_COMMAND "' python3 " + arguments);
   }
   void put(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
@@ -52,6 +51,15 @@ class CommandTest : public ::testing::Test {
     }
     std::sort(out.begin(), out.end());
     return out;
+  }
+
+  [[nodiscard]] Ran run_line(const std::string& command) const {
+    const std::filesystem::path out = folder_ / "stdout.txt";
+    const std::filesystem::path err = folder_ / "stderr.txt";
+    const std::string line =
+        "cd '" + folder_.string() + "' && " + command + " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
   }
 
   ::capstan::testing::ScratchFolder scratch_;

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 std::string readme() { return slurp(capstan::testing::source_dir() + "/README.md"); }
 
 struct Shown {
-  std::string arguments;
+  std::string arguments;  ///< of capstan; of python3 where `python`
+  bool python = false;
   std::vector<std::string> lines;
 };
 
@@ -33,7 +34,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 std::vector<Shown> sessions(const std::string& readme) {
-  constexpr std::string_view kPrompt = "$ capstan ";
+  constexpr std::string_view kPrompt = "$ capstan ", kPython = "$ python3 ";
   std::vector<Shown> out;
   bool fenced = false, shown = false;
   for (const std::string& line : lines_of(readme)) {
@@ -41,8 +42,12 @@ std::vector<Shown> sessions(const std::string& readme) {
       fenced = !fenced;
       shown = false;
     } else if (fenced && line.starts_with(kPrompt)) {
-      out.push_back({line.substr(kPrompt.size()), {}});
+      out.push_back({line.substr(kPrompt.size()), false, {}});
       shown = true;
+    } else if (fenced && line.starts_with(kPython)) {
+      // The session with a server is run by tests/door/transport/serve/example.py.
+      shown = !line.starts_with("$ python3 serve.py ");
+      if (shown) out.push_back({line.substr(kPython.size()), true, {}});
     } else if (shown && !line.empty()) {
       out.back().lines.push_back(line);
     }
@@ -85,13 +90,15 @@ TEST_F(Readme, ShowsWhatTheProgramSays) {
   const bool cad = fs::exists(fs::path(CAPSTAN_COMMAND).parent_path() / "capstan-brep");
   for (const Shown& s : shown) {
     if (!cad && s.arguments.find("cover.") != std::string::npos) continue;
-    const Ran r = run(s.arguments);
+    const Ran r = s.python ? run_python(s.arguments) : run(s.arguments);
     std::vector<std::string> printed;
     // Empty lines are layout.
     for (const std::string& line : lines_of(r.err + r.out)) {
       if (!line.empty()) printed.push_back(line);
     }
-    EXPECT_EQ(missing(printed, s.lines), "") << "$ capstan " << s.arguments << "\n" << r.err << r.out;
+    EXPECT_EQ(missing(printed, s.lines), "")
+        << (s.python ? "$ python3 " : "$ capstan ") << s.arguments << "\n"
+        << r.err << r.out;
   }
 }
 
@@ -149,6 +156,7 @@ TEST(ReadmeSessions, AreComparedLineByLine) {
   EXPECT_EQ(missing({"a 12"}, {"a ..."}), "");
   EXPECT_EQ(missing({"a 12"}, {"a 13"}), "a 13");
   EXPECT_EQ(missing(Lines{}, {"a"}), "a");
+  EXPECT_EQ(sessions("```\n$ python3 a.py b\nc\n$ python3 serve.py x\nd\n```\n").size(), 1U);
   EXPECT_EQ(sessions("$ capstan no\n```\n$ capstan x y\nz\n```\nw\n").at(0).arguments, "x y");
 }
 

@@ -1,8 +1,10 @@
 #include "planner/proof/verify/program/heidenhain/interpreter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/reader_options.h"
@@ -322,7 +324,29 @@ void Interpreter::helix(const Said& s) {
   half_turns(b, total);
 }
 
+/// Some of these act before the block's move and some behind it: of two of one kind nobody means both.
+void Interpreter::one_of_a_kind(const std::vector<int>& m) {
+  static constexpr std::array<std::pair<std::string_view, std::array<int, 5>>, 4> kKinds = {{
+      {"spindle", {3, 4, 5, 13, 14}},
+      {"coolant", {8, 9, 13, 14, -1}},
+      {"coolant", {7, 9, -1, -1, -1}},
+      {"stop or end", {0, 1, 2, 30, -1}},
+  }};
+  for (const auto& [kind, codes] : kKinds) {
+    int said = -1;
+    for (const int code : m) {
+      if (std::find(codes.begin(), codes.end(), code) == codes.end() || code == said) continue;
+      if (said >= 0)
+        return fault(33, "CHK-WORD",
+                     "M" + std::to_string(said) + " and M" + std::to_string(code) + " stand in one block (" +
+                         std::string(kind) + "); state one of them, or two blocks");
+      said = code;
+    }
+  }
+}
+
 void Interpreter::before_move(const std::vector<int>& m) {
+  one_of_a_kind(m);
   for (const int code : m) {
     switch (code) {
       case 3:

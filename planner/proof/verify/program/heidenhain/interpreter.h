@@ -64,6 +64,7 @@ class Interpreter : private BlockState {
   void pole(const std::vector<std::string>& w);
   void arc_block(std::string_view kind, Said& s);
   void helix(const Said& s);
+  void one_of_a_kind(const std::vector<int>& m);
   void before_move(const std::vector<int>& m);
   /// `stop_block`: the block is a STOP.
   void after_move(const std::vector<int>& m, bool stop_block = false);

@@ -109,6 +109,16 @@ TEST(HeidenhainCycles, TappingHoldsStepBothWaysAndStopsTheSpindle) {
   EXPECT_EQ(left.blocks[left.blocks.size() - 4].spindle_rpm, -1000.0);
 }
 
+// M3 acts before the block's move, M5 behind it: which of two holds is nowhere said.
+TEST(HeidenhainBlocks, TwoMFunctionsOfOneKindInABlockAreAFault) {
+  for (const char* m : {"M3 M4", "M3 M5", "M13 M4", "M8 M9", "M9 M7", "M13 M9", "M0 M1", "M0 M30"}) {
+    EXPECT_TRUE(finds(read(std::string(m) + "\n"), "CHK-WORD")) << m;
+    EXPECT_TRUE(finds(read("L X+6 R0 FMAX " + std::string(m) + "\n"), "CHK-WORD")) << m;
+  }
+  for (const char* m : {"M3 M8", "M3 M3", "M5 M9", "M7 M8", "M13", "M4 M7"})
+    EXPECT_FALSE(finds(read(std::string(m) + "\n"), "CHK-WORD")) << m;
+}
+
 // 247 acts where it stands: the cycle that is defined stays so.
 TEST(HeidenhainCycles, APresetLeavesTheCycleThatIsDefined) {
   const std::string preset = "CYCL DEF 247 DATUM SETTING ~\n  Q339=+1 ;DATUM NUMBER\n";
