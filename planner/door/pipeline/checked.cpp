@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -173,6 +174,7 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
   if (policy.window) before.emplace(model::CutBefore{plan, policy.window->first});
   const model::CutBefore* const cut_before = before ? &*before : nullptr;
   Tries tries;
+  const std::size_t read = job.diagnostics().size();  // said of the inputs: true of every try
   auto first = bind_within(plan, inputs, policy, tries, job);
   if (!first) return tl::unexpected(first.error());
   if (anew.acceptable) {
@@ -213,7 +215,9 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     best = std::move(now_checked);
     best.replanned = tried + 1;
     said = tries.said;
-    diagnostics = std::move(now);
+    diagnostics.resize(read);
+    diagnostics.insert(diagnostics.end(), std::make_move_iterator(now.begin()),
+                       std::make_move_iterator(now.end()));
   }
   for (auto& d : diagnostics) job.report(std::move(d));
   poll();  // its last check may not have come to its end, and a better plan may have been on its way

@@ -237,13 +237,12 @@ class Maker {
     path.distance = nouns_.length(norm(wall.to - wall.from) + 2.0 * kLeastPastMm);
     path.its_direction = nouns_.direction({d.x, d.y, 0.0});
     f.open_boundary = m_.add(path);
-    if (room_.blend_radius_mm > 0.0) {
-      model::VeeProfile vee;
-      vee.profile_angle = std::numbers::pi / 2.0;
-      vee.profile_radius = nouns_.length(room_.blend_radius_mm);
-      vee.tilt_angle = 0.0;
-      f.wall_boundary = m_.add(vee);
-    }
+    // ISO 10303-238 demands the profile of a step's wall, also where it has no fillet.
+    model::VeeProfile vee;
+    vee.profile_angle = std::numbers::pi / 2.0;
+    vee.profile_radius = nouns_.length(room_.blend_radius_mm);
+    vee.tilt_angle = 0.0;
+    f.wall_boundary = m_.add(vee);
     f.its_boss = bosses(d_.islands);
     return m_.add(f);
   }

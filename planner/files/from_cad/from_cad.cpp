@@ -229,7 +229,7 @@ class Writer {
         for (const auto& a : f.alternatives)
           rejected.push_back({word_of(a.type) + ", " + a.reason, "not the first choice of recognition"});
       }
-      plan_.ledger.bind(made, "feature_placement", model::Binder::kRule,
+      plan_.ledger.bind(made, "feature_placement", model::Binder::kRecognition,
                         {"recognise.feature", why, "the shape of " + plan_.file_name}, {},
                         std::move(rejected));
       plan_.kept.push_back(made);

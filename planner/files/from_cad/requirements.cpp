@@ -210,7 +210,7 @@ class Attacher {
       range.significant_digits = kDigits;
       m_.at<model::TolerancedLengthMeasure>(to).implicit_tolerance = m_.add(range);
     }
-    plan_.ledger.bind(to, "implicit_tolerance", model::Binder::kRule,
+    plan_.ledger.bind(to, "implicit_tolerance", model::Binder::kRecognition,
                       {"recognise.pmi", "stated of its faces by #" + std::to_string(s.id) + ": " + words(s),
                        plan_.file_name});
     return {};

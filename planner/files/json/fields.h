@@ -106,7 +106,7 @@ template <class E>
     out = {"open", "bound"};
   } else {
     static_assert(std::is_same_v<E, model::Binder>);
-    for (int i = 0; i <= static_cast<int>(model::Binder::kDefault); ++i) {
+    for (int i = 0; i <= static_cast<int>(model::Binder::kRecognition); ++i) {
       out.push_back(model::to_text(static_cast<model::Binder>(i)));
     }
   }

@@ -250,6 +250,22 @@ TEST(Anew, TheNextCutterMakesWhatTheCheckCondemned) {
   }));
 }
 
+TEST(Anew, WhatWasSaidOfTheFileStaysWhenAnotherTryIsTaken) {
+  Job job;
+  const std::string was = step(bound(shop(), job), "POCKET area_rough")->cutter_id;
+  Inputs in = shop();
+  for (auto& c : in.library) {
+    if (c.id == was) widen(c);
+  }
+  Job told;
+  told.warn("FILE-SAYS", "read before planning");
+  const auto checked = bind_checked(part(), in, {}, told);
+  ASSERT_TRUE(checked);
+  ASSERT_GT(checked->replanned, 0);
+  ASSERT_FALSE(told.diagnostics().empty());
+  EXPECT_EQ(told.diagnostics().front().code, "FILE-SAYS");
+}
+
 TEST(Anew, WhatNoCutterMakesWithoutAnErrorIsLeftOutAfterABoundedNumberOfTries) {
   Inputs in = shop();
   for (auto& c : in.library) {

@@ -195,7 +195,7 @@ TEST_F(FromPmi, FeaturesAndTheirTolerancesAreBoundByRecognition) {
       planned(with(part, aspect(910, face(part, "bore")) + diameter(8.0, deviations(-0.01, 0.03))));
   std::size_t bound = 0;
   for (const auto& [key, decision] : plan.ledger.entries()) {
-    if (decision.binder != model::Binder::kRule) continue;
+    if (decision.binder != model::Binder::kRecognition) continue;
     ++bound;
     const auto why = plan.ledger.reason(decision.reason);
     EXPECT_THAT(why.text, HasSubstr(key.attribute == "feature_placement" ? face(part, "bore") : "#9200"));

@@ -45,6 +45,25 @@ std::vector<StepPart> parts_of(const Model& m, AnyRef step, AnyRef operation) {
   return out;
 }
 
+bool is_recognised(const model::Plan& plan, AnyRef object) {
+  const auto& entries = plan.ledger.entries();
+  for (auto it = entries.lower_bound({object, {}}); it != entries.end() && it->first.object == object; ++it) {
+    if (it->second.binder == model::Binder::kRecognition) return true;
+  }
+  return false;
+}
+
+/// The feature and its sizes, where recognition bound them in a CAD part: nothing else tells of these.
+void add_recognised(const model::Plan& plan, AnyRef feature, std::vector<StepPart>& parts) {
+  if (!feature.set()) return;
+  if (is_recognised(plan, feature)) parts.push_back({"feature", feature});
+  for (const auto& a : model::noun_type(feature.type).attributes) {
+    if (a.storage != model::Storage::kRef) continue;
+    const AnyRef to = model::value_of<AnyRef>(a, plan.model.object(feature));
+    if (to.set() && is_recognised(plan, to)) parts.push_back({"feature/" + std::string(a.name), to});
+  }
+}
+
 StepView view_of(const model::Plan& plan, AnyRef step) {
   StepView v;
   v.step = step;
@@ -53,6 +72,7 @@ StepView view_of(const model::Plan& plan, AnyRef step) {
     v.operation = ws->its_operation;
   }
   v.parts = parts_of(plan.model, step, v.operation);
+  add_recognised(plan, v.feature, v.parts);
   return v;
 }
 

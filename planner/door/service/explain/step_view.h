@@ -21,7 +21,8 @@ struct StepView {
   const model::StepResult* result = nullptr;  ///< null: not planned (yet)
   std::size_t number = 0;                     ///< in the order of execution, from 1; 0 when not planned
   std::string id;
-  std::vector<StepPart> parts;  ///< step, operation, and what only they lead to; in a fixed order
+  /// Step, operation, and what only they lead to; the feature, where it was recognised. In a fixed order.
+  std::vector<StepPart> parts;
 };
 
 /// Every workingstep: the planned ones in the order of execution, then those that only the file has.

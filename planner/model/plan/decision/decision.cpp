@@ -7,8 +7,8 @@
 namespace capstan::model {
 namespace {
 
-constexpr std::array<std::string_view, 7> kBinders = {"given", "rule",     "tool_selection", "optimiser",
-                                                      "case",  "operator", "default"};
+constexpr std::array<std::string_view, 8> kBinders = {"given", "rule",     "tool_selection", "optimiser",
+                                                      "case",  "operator", "default",        "recognition"};
 
 }  // namespace
 

@@ -13,7 +13,16 @@ namespace capstan::model {
 /// Open: somebody still has to choose. Bound: it has a value, and somebody who gave it.
 enum class DecisionState : std::uint8_t { kOpen, kBound };
 
-enum class Binder : std::uint8_t { kGiven, kRule, kToolSelection, kOptimiser, kCase, kOperator, kDefault };
+enum class Binder : std::uint8_t {
+  kGiven,
+  kRule,
+  kToolSelection,
+  kOptimiser,
+  kCase,
+  kOperator,
+  kDefault,
+  kRecognition,  ///< of features in the faces of a CAD part
+};
 [[nodiscard]] std::string_view to_text(Binder b);  ///< "given", "rule", "tool_selection", ...
 [[nodiscard]] bool binder_from_text(std::string_view text, Binder& out);
 

@@ -94,6 +94,9 @@ TEST_F(CadModel, TheExampleIsPlannedCheckedAgainstItsShapeAndWrittenInEveryForm)
   const Ran r = run("plan cover.step --material 6061 -o cover.json -o cover.ngc -o cover.stpnc -o cover.p21");
   EXPECT_THAT(r.err + r.out, AllOf(HasSubstr("\nSafe"), HasSubstr("plane faces within 0.06 mm [CHK-SHAPE]"),
                                    Not(HasSubstr("CHK-SHAPE-GOUGE")), Not(HasSubstr("not planned;"))));
+  // Its PMI: 5.5 +0.12, 6 H8, 11 +0.18, 10 +0.1, a position, a flatness, two of Ra. H8 has the hole reamed.
+  EXPECT_THAT(r.err, HasSubstr("8 of 8 tolerances and textures of the file are asked of features [CAD-PMI]"));
+  EXPECT_THAT(r.err, HasSubstr("step 'HOLE 9 ream'"));
   EXPECT_THAT(files(), ElementsAre("cover.json", "cover.ngc", "cover.p21", "cover.step", "cover.stpnc"));
   for (const char* file : {"cover.p21", "cover.stpnc"}) {
     const Ran again = run(std::string("check ") + file);
@@ -101,6 +104,13 @@ TEST_F(CadModel, TheExampleIsPlannedCheckedAgainstItsShapeAndWrittenInEveryForm)
                 AllOf(HasSubstr("Safe: 1 file checked; no error"), Not(HasSubstr("error:"))))
         << file;
   }
+  const Ran schema = run("check --schema cover.stpnc");
+  EXPECT_THAT(schema.err + schema.out, Not(HasSubstr("error:")));
+  const Ran reamed = run("explain cover.json 'HOLE 9 ream'");
+  EXPECT_THAT(reamed.out, AllOf(HasSubstr("bound by recognition"),
+                                HasSubstr("because from faces #1950 #2045"), HasSubstr("diameter 6 H8")));
+  const Ran drilled_through = run("explain cover.json 'HOLE 3 drill'");
+  EXPECT_THAT(drilled_through.out, HasSubstr("not closed pocket, mill it as a circular pocket"));
   const Ran program = run("check cover.json cover.ngc");
   EXPECT_THAT(program.err + program.out, HasSubstr("Safe: 2 files checked; no error"));
 }
