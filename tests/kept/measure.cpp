@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <ctime>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 
@@ -110,10 +111,13 @@ std::string instruction_sets() {
   utsname machine = {};
   ::uname(&machine);
   std::string out = machine.machine;
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) out += " avx2";
-  if (__builtin_cpu_supports("fma")) out += " fma";
-#endif
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (!line.starts_with("flags")) continue;
+    for (const char* set : {"avx2", "fma"})
+      if ((line + " ").find(" " + std::string(set) + " ") != std::string::npos) out += " " + std::string(set);
+    break;
+  }
   return out;
 }
 

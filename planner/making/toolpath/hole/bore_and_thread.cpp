@@ -19,7 +19,6 @@ using model::MoveRole;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMostTurns = 10'000;
 
 double helix_radius(const PathJob& task) {
@@ -75,13 +74,13 @@ Result<GeneratedPath> helix_path(const PathJob& task, Job&) {
   // is the axial depth; but a blind hole ends in the cone of the drill that made it, which the cutter's end
   // has to take away.
   const bool open = middle_in_air(task);
-  double pitch = open ? 1e300 : 2.0 * kPi * r * std::tan(angle);
+  double pitch = open ? 1e300 : 2.0 * std::numbers::pi * r * std::tan(angle);
   if (task.axial_depth_mm > 0.0) pitch = std::min(pitch, task.axial_depth_mm);
   pitch = std::min(pitch, top - end);
   const double turns = std::ceil((top - end) / pitch - 1e-9);
   if (!(turns > 0.0) || turns > kMostTurns)
     return refuse(task, "TPA-ENTRY",
-                  "the cutter's ramp angle of " + trimmed(angle * 180.0 / kPi, 4) +
+                  "the cutter's ramp angle of " + trimmed(angle * 180.0 / std::numbers::pi, 4) +
                       " degrees takes more than " + std::to_string(kMostTurns) +
                       " turns; take a cutter that ramps steeper");
   const bool cw = walls_on_right(task) == false;

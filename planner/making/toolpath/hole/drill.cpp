@@ -89,12 +89,12 @@ void tell_rest_under_point(const PathJob& task, double z, Job& job) {
   const double r = 0.5 * s.diameter.nominal_mm;
   const double rest = z - (task.feature_in_setup.origin.z - s.depth_mm - r * std::tan(s.bottom_angle_rad));
   if (rest <= kTellMm) return;
-  constexpr double kPi = std::numbers::pi;
   job.note("TPA-REST", about(task) + "rest material at the bottom: " + trimmed(rest, 2) + " mm high, " +
-                           trimmed(kPi * r * r * rest / 3.0, 1) + " mm3, for the point of drill " +
-                           task.cutter.id + ", " + trimmed(task.cutter.point_angle_rad * 180.0 / kPi, 1) +
+                           trimmed(std::numbers::pi * r * r * rest / 3.0, 1) +
+                           " mm3, for the point of drill " + task.cutter.id + ", " +
+                           trimmed(task.cutter.point_angle_rad * 180.0 / std::numbers::pi, 1) +
                            " degrees, is blunter than the bottom's " +
-                           trimmed(180.0 - 2.0 * s.bottom_angle_rad * 180.0 / kPi, 1) +
+                           trimmed(180.0 - 2.0 * s.bottom_angle_rad * 180.0 / std::numbers::pi, 1) +
                            ", which has no tolerance; the full diameter is as deep as asked");
 }
 

@@ -13,7 +13,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSlackPart = 0.1;  // of the radius: how far a gathering holds
 constexpr std::size_t kMostCells = 1U << 18U;
 
@@ -100,7 +99,7 @@ void ContactMeter::take_visited(Vec2 p, Vec2 direction) {
     const double d = std::sqrt(d2);
     const double half = std::acos(0.5 * d / radius_);
     const double middle = std::atan2(cross(direction, to), dot(direction, to));
-    for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+    for (const double turn : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi}) {
       const double from = middle - half + turn;
       const double till = middle + half + turn;
       for (std::size_t i = spans_.size(); i-- > 0;) {
@@ -139,11 +138,11 @@ double ContactMeter::arc(Vec2 p, Vec2 direction) {
   std::sort(crossings_.begin(), crossings_.end(),
             [](const Crossing& a, const Crossing& b) { return a.angle < b.angle; });
   spans_.clear();
-  double from = -kPi;
+  double from = -std::numbers::pi;
   bool on_cleared = !crossings_.front().into;
   const auto close = [&](double to) {
-    const double lo = std::max(from, -0.5 * kPi);
-    const double hi = std::min(to, 0.5 * kPi);
+    const double lo = std::max(from, -0.5 * std::numbers::pi);
+    const double hi = std::min(to, 0.5 * std::numbers::pi);
     if (!on_cleared && hi > lo) spans_.push_back({lo, hi});
   };
   for (const Crossing& c : crossings_) {
@@ -151,7 +150,7 @@ double ContactMeter::arc(Vec2 p, Vec2 direction) {
     from = c.angle;
     on_cleared = c.into;
   }
-  close(kPi);
+  close(std::numbers::pi);
   if (!visited_.empty()) take_visited(p, direction);
   double sum = 0.0;
   for (const Span& s : spans_) sum += s.to - s.from;

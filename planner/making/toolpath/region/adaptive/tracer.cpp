@@ -20,22 +20,21 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Without another reason: defaults, unsourced, chosen by what the tests measure.
 // Length of a step as a part of the radius: its sagitta on a circle of half the radius is a thousandth of it.
 constexpr double kStepPart = 0.06;
 // Radius of a curl towards the material, as a part of the cutter's: a machine follows it at feed.
 constexpr double kCurlPart = 0.5;
-constexpr double kMostLeft = 1.8;         // rad: away from a front met square on; more is another pass
-constexpr double kContactFound = 0.005;   // of the limit: accuracy of the root
-constexpr double kNoContact = 0.01;       // of the limit
-constexpr double kTurnedInto = 0.05;      // of the limit: what a turn on the spot may add
-constexpr double kIdleLength = 3.0;       // radii without contact, after which a pass has ended
-constexpr double kIdleTurn = kPi;         // likewise
-constexpr double kOwnSweep = 8.0;         // radii of length after which the ground is taken anew
-constexpr double kOwnTurn = 2.0;          // rad, likewise
-constexpr double kOwnFront = 0.2;         // rad of turn after which its own sweep may lie before it
-constexpr std::size_t kVisitedEvery = 3;  // steps between places that stand for the sweep
+constexpr double kMostLeft = 1.8;               // rad: away from a front met square on; more is another pass
+constexpr double kContactFound = 0.005;         // of the limit: accuracy of the root
+constexpr double kNoContact = 0.01;             // of the limit
+constexpr double kTurnedInto = 0.05;            // of the limit: what a turn on the spot may add
+constexpr double kIdleLength = 3.0;             // radii without contact, after which a pass has ended
+constexpr double kIdleTurn = std::numbers::pi;  // likewise
+constexpr double kOwnSweep = 8.0;               // radii of length after which the ground is taken anew
+constexpr double kOwnTurn = 2.0;                // rad, likewise
+constexpr double kOwnFront = 0.2;               // rad of turn after which its own sweep may lie before it
+constexpr std::size_t kVisitedEvery = 3;        // steps between places that stand for the sweep
 constexpr std::size_t kMostPlaces = 1'000'000;
 
 Vec2 turned(Vec2 v, double rad) {
@@ -143,7 +142,7 @@ Tracer::Step Tracer::best(ContactMeter& ground) const {
   Step good = step(ground, last_right_);
   double at = last_right_;
   double bad = right_;
-  double over = kPi;
+  double over = std::numbers::pi;
   if (good.possible && good.contact <= limit_) {
     if (good.contact >= (1.0 - kContactFound) * limit_) return good;
     const Step right = step(ground, right_);
@@ -154,7 +153,7 @@ Tracer::Step Tracer::best(ContactMeter& ground) const {
     double by = 0.1 * right_;
     while (!good.possible || good.contact > limit_) {
       bad = at;
-      over = good.possible ? good.contact : kPi;
+      over = good.possible ? good.contact : std::numbers::pi;
       at -= by;
       if (at < -kMostLeft) return {};
       good = step(ground, at);
@@ -172,7 +171,7 @@ Tracer::Step Tracer::best(ContactMeter& ground) const {
       at = turn;
     } else {
       bad = turn;
-      over = s.possible ? s.contact : kPi;
+      over = s.possible ? s.contact : std::numbers::pi;
     }
   }
   return good;

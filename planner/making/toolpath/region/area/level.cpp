@@ -16,7 +16,6 @@ using model::MoveRole;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMostTurns = 5'000;
 constexpr double kSameHeight = 1e-6;  // mm
 constexpr double kAirPiece = 0.25;    // of the radius: how finely ways beside the piece are told
@@ -140,9 +139,9 @@ double LevelCutter::ramp_angle() {
                      task.approach.kind == Approach::Kind::kZigzag;
   if (!asked || !(given > 0.0)) return usual_ramp_rad(task);
   if (given > most + 1e-9) {
-    warn("TPA-CHANGED", "ramp angle " + trimmed(most * 180.0 / kPi, 2) + " instead of " +
-                            trimmed(given * 180.0 / kPi, 2) + " degrees: cutter " + task.cutter.id +
-                            " allows no more");
+    warn("TPA-CHANGED", "ramp angle " + trimmed(most * 180.0 / std::numbers::pi, 2) + " instead of " +
+                            trimmed(given * 180.0 / std::numbers::pi, 2) + " degrees: cutter " +
+                            task.cutter.id + " allows no more");
   }
   return std::min({most, given, 1.5});
 }
@@ -354,7 +353,7 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   const Vec2 other{d.point.x - r, d.point.y};
   const double floor = bore_floor(level, d.point, r);
   const double depth = level.from_mm + gap(level) - floor;
-  const double half_pitch = Descent(angle, task.digit_mm).of(kPi * r);
+  const double half_pitch = Descent(angle, task.digit_mm).of(std::numbers::pi * r);
   if (half_pitch <= 0.0) return std::nullopt;
   const int halves = static_cast<int>(std::min(std::ceil(depth / half_pitch), 2.0 * kMostTurns + 1.0));
   if (halves > 2 * kMostTurns) return std::nullopt;
@@ -467,7 +466,8 @@ Result<Track> LevelCutter::enter(const Level& level, const Track& track, const R
   return fail({.code = "TPA-ENTRY",
                .message = "no entry into " + task.shape.name + ": cutter " + task.cutter.id +
                           " does not cut to its centre, and the place is too narrow for its ramp of " +
-                          trimmed(task.cutter.maximum_ramp_angle_rad * 180.0 / kPi, 2) + " degrees",
+                          trimmed(task.cutter.maximum_ramp_angle_rad * 180.0 / std::numbers::pi, 2) +
+                          " degrees",
                .path = task.shape.name,
                .hint = "use a centre-cutting or a smaller cutter, or drill a start hole"});
 }
