@@ -68,9 +68,6 @@ struct Pmi {
   std::vector<StatedDatum> datums;
   std::vector<StatedTexture> textures;
   std::vector<UnreadPmi> unread;
-  [[nodiscard]] std::size_t size() const {
-    return sizes.size() + zones.size() + datums.size() + textures.size() + unread.size();
-  }
   friend bool operator==(const Pmi&, const Pmi&) = default;
 };
 
