@@ -355,33 +355,6 @@ TEST(AreaPath, EntersAClosedPocketThatRunsOverTheEdgeFromOutside) {
   }
 }
 
-// The outermost ring runs 7 mm beside the edge, a radius and 2 mm; kAirBeside of them is 0.2 mm.
-TEST(AreaPath, FollowsItsRingsBesideThePieceAtTheFeedOfAir) {
-  PathJob t = area_job(geometry::rectangle({0, 0}, {90, 40}), 6.0, 10.0);
-  t.stock = geometry::rectangle({-20, -20}, {60, 60});
-  constexpr double kClear = 60.0 + 5.0 + 0.2;
-  for (const auto operation :
-       {model::TypeId::kBottomAndSideRoughMilling, model::TypeId::kBottomAndSideFinishMilling}) {
-    t.operation = operation;
-    Job job;
-    const auto g = generate(t, job);
-    ASSERT_TRUE(g) << g.error().message;
-    double cut = 0.0, link = 0.0;
-    for (std::size_t i = 1; i < g->path.size(); ++i) {
-      if (g->path.z[i] > -1.0 || std::min(g->path.x[i - 1], g->path.x[i]) < kClear + 0.7) continue;
-      const double length = model::move_length(g->path, i);
-      if (g->path.role[i] == model::MoveRole::kLink) link += length;
-      if (g->path.role[i] == model::MoveRole::kCut) cut += length;
-    }
-    EXPECT_GT(link, 20.0) << "of the 30 mm that the ring has there";
-    EXPECT_LT(cut, 0.5 * t.cutter.cutting_diameter_mm);
-    HeightMap map({-5, -5}, {100, 45}, 0.25, 0.0);
-    map.only(geometry::rectangle({-5, -5}, {60, 45}));
-    EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
-    EXPECT_NEAR(map.highest(geometry::rectangle({5.2, 5.2}, {59.8, 34.8})), -6.0, 1e-4);
-  }
-}
-
 /// Runs of ramping moves, and the steepest slope of them.
 struct WaysIn {
   int runs = 0;
