@@ -34,7 +34,8 @@ def summary(tests):
     """Lines: a count, then each skipped test with its reason."""
     skipped = [(name, said) for name, _, said in tests if said is not None]
     failed = sum(1 for _, is_failed, _ in tests if is_failed)
-    yield f"{len(tests)} tests: {len(tests) - failed - len(skipped)} passed, {failed} failed, {len(skipped)} skipped"
+    # A suite that crashed has no report: ctest names it.
+    yield f"{len(tests)} tests in suites that ended: {len(tests) - failed - len(skipped)} passed, {failed} failed, {len(skipped)} skipped"
     for name, said in skipped[:MOST_NAMED]:
         # GoogleTest puts the place of the skip on a line of its own before the reason.
         yield f"  skipped: {name}: {said.splitlines()[-1] if said else 'no reason given'}"

@@ -12,8 +12,8 @@ endif()
 if(CAPSTAN_SANITIZE)
   target_compile_options(capstan_options INTERFACE
     -fsanitize=${CAPSTAN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  # A third of GCC's time goes into these, and the address sanitizer stops at what they find but for alignment. The
-  # preset fuzz, by clang, has them all.
+  # A third of GCC's time goes into these. The address sanitizer stops at most of what they find, but not at a wrong
+  # alignment or a live object of another type: the preset fuzz, by clang, looks at all of it.
   target_compile_options(capstan_options INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=null,alignment,vptr,object-size>)
   target_link_options(capstan_options INTERFACE -fsanitize=${CAPSTAN_SANITIZE})
@@ -128,18 +128,18 @@ function(capstan_compile_as_test target)
   endif()
 endfunction()
 
-# capstan_tests_by_suite(<program> [APART suite...] [PROPERTIES name value...])
+# capstan_tests_by_suite(<program> [PROPERTIES name value...])
 #
-# The suites of a test program as tests of ctest (SuitesOfProgram.cmake), found each time it is linked. APART names
-# suites of long tests, which are entered test by test. What each test did is in ${CAPSTAN_TEST_REPORTS}.
+# The suites of a test program as tests of ctest (SuitesOfProgram.cmake), found each time it is linked. What each test
+# did is in ${CAPSTAN_TEST_REPORTS}.
 set(CAPSTAN_TEST_REPORTS ${CMAKE_BINARY_DIR}/reports_of_tests)
 function(capstan_tests_by_suite program)
-  cmake_parse_arguments(ARG "" "" "APART;PROPERTIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PROPERTIES" ${ARGN})
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)
   string(REPLACE ";" " " properties "${ARG_PROPERTIES}")
   add_custom_command(TARGET ${program} POST_BUILD BYPRODUCTS ${suites} VERBATIM
     COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${program}> -D NAME=${program} -D OUTPUT=${suites}
-      -D REPORTS=${CAPSTAN_TEST_REPORTS} -D "APART=${ARG_APART}" -D "PROPERTIES=${properties}"
+      -D REPORTS=${CAPSTAN_TEST_REPORTS} -D "PROPERTIES=${properties}"
       -P ${CMAKE_SOURCE_DIR}/cmake/SuitesOfProgram.cmake)
   # A program that is not built has no tests here, and ctest says so of the program.
   set(listed ${CMAKE_CURRENT_BINARY_DIR}/${program}_tests.cmake)
@@ -147,12 +147,12 @@ function(capstan_tests_by_suite program)
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${listed})
 endfunction()
 
-# capstan_test(<room> [DEPENDS room...] [LIBS lib...] [APART suite...] [COST seconds])
+# capstan_test(<room> [DEPENDS room...] [LIBS lib...] [COST seconds])
 #
 # One test program of the *_test.cpp of the caller's folder and below it. COST: what its suites take at most, where
 # that is much; the dearest begin first, so that none is waited for at the end.
 function(capstan_test room)
-  cmake_parse_arguments(ARG "" "COST" "DEPENDS;LIBS;APART" ${ARGN})
+  cmake_parse_arguments(ARG "" "COST" "DEPENDS;LIBS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*_test.cpp)
   if(NOT sources)
     return()
@@ -169,5 +169,5 @@ function(capstan_test room)
   if(ARG_COST)
     set(cost COST ${ARG_COST})
   endif()
-  capstan_tests_by_suite(${target}_test APART ${ARG_APART} PROPERTIES TIMEOUT 900 ${cost})
+  capstan_tests_by_suite(${target}_test PROPERTIES TIMEOUT 900 ${cost})
 endfunction()

@@ -1,10 +1,8 @@
 # The suites of a test program as tests of ctest, one test a suite; run by capstan_tests_by_suite after linking.
 #
-# cmake -D PROGRAM=<program> -D NAME=<target> -D OUTPUT=<file> -D REPORTS=<folder> -D APART=<suite;...>
-#       -D PROPERTIES=<list> -P SuitesOfProgram.cmake
+# cmake -D PROGRAM=<program> -D NAME=<target> -D OUTPUT=<file> -D REPORTS=<folder> -D PROPERTIES=<list> -P SuitesOfProgram.cmake
 #
-# A test program begins in some 30 ms: with one process a test that was a third of the whole run. A suite named in
-# APART is entered test by test, so that its long tests run beside each other.
+# A test program begins in some 30 ms: with one process a test that was a third of the whole run.
 cmake_policy(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests TIMEOUT 60
   OUTPUT_VARIABLE listed ERROR_VARIABLE said RESULT_VARIABLE status)
@@ -26,16 +24,9 @@ function(enter name filter)
 endfunction()
 
 # A line that begins a suite has its name and a point; a test's line begins with two blanks.
-string(REGEX MATCHALL "\n(  )?[A-Za-z0-9_/]+\\.?" lines "\n${listed}")
-set(suite "")
+string(REGEX MATCHALL "\n[A-Za-z0-9_/]+\\." lines "\n${listed}")
 foreach(line IN LISTS lines)
-  if(line MATCHES "^\n([A-Za-z0-9_/]+)\\.$")
-    set(suite ${CMAKE_MATCH_1})
-    if(NOT suite IN_LIST APART)
-      enter(${suite} "${suite}.*")
-    endif()
-  elseif(line MATCHES "^\n  ([A-Za-z0-9_/]+)" AND suite IN_LIST APART)
-    enter(${suite}.${CMAKE_MATCH_1} "${suite}.${CMAKE_MATCH_1}")
-  endif()
+  string(REGEX MATCH "[A-Za-z0-9_/]+" suite "${line}")
+  enter(${suite} "${suite}.*")
 endforeach()
 file(WRITE ${OUTPUT} "${text}")

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -220,6 +221,28 @@ TEST(RestMachining, HoldsForPocketsWithIslandsOfManyKinds) {
     pocket = geometry::offset(geometry::offset(pocket, -4.5), 4.5);
     const Outcome o = cut_both(pocket, 15.0, 8.0, 5.0, 0.25, "rest_islands_" + std::to_string(seed));
     EXPECT_NEAR(o.residual_mm, 0.0, 1e-4) << seed;
+  }
+}
+
+/// A corner radius clears less at the floor than the flank takes; the flank reaches the rest all the same.
+TEST(RestMachining, OfACutterWithACornerRadiusReachesEveryCorner) {
+  const double corner = 4.2;
+  PathJob t = area_job(geometry::rounded_rectangle({0, 0}, {60, 40}, corner), 6.0, 8.0);
+  t.cutter.cutter_class = model::CutterClass::kBullnoseEndmill;
+  t.cutter.corner_radius_mm = 2.0;
+  t.cleared_by = Cleared{12.0, 0.0, 0.0};
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  for (const Vec2 middle :
+       {Vec2{corner, corner}, {60 - corner, corner}, {60 - corner, 40 - corner}, {corner, 40 - corner}}) {
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < g->path.size(); ++i) {
+      const auto p = g->path.point(i);
+      nearest = std::min(nearest, norm(Vec2{p.x, p.y} - middle));
+    }
+    // The centres of a cutter of 4 mm in a corner of 4.2 lie 0.2 mm about its middle.
+    EXPECT_LT(nearest, 0.25) << middle.x << ' ' << middle.y;
   }
 }
 

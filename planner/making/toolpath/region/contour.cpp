@@ -166,7 +166,8 @@ class Contours {
     }
     step_ = step;
     cover_ = cover;
-    rest_ = level_.rest;
+    // A corner radius clears less at the floor than its flank takes: such a cutter goes a rest's rings whole.
+    if (cover >= kWithin * c_.radius_mm) rest_ = level_.rest;
     all_ = c_.rings_of(level_.centres, step, cover);
     std::vector<std::size_t> order = inside_out(all_);
     if (o_.outside_in) std::reverse(order.begin(), order.end());
@@ -225,7 +226,7 @@ class Contours {
     if (o_.outside_in && !wall && all_[i].children.empty())
       between = geometry::intersect(inset(all_[all_[i].parent].piece, cover_, kInnerChord),
                                     inset(all_[i].piece, -cover_, kInnerChord));
-    Region* left = !level_.rest.empty() ? &rest_ : between.empty() ? nullptr : &between;
+    Region* left = !rest_.empty() ? &rest_ : between.empty() ? nullptr : &between;
     while (!tracks.empty()) {
       const std::size_t k = nearest_track(tracks);
       const Track t = tracks[k];
