@@ -60,7 +60,7 @@ class PostgresServer {
       // One that was killed leaves workers for a moment, and no other starts until they are gone.
       if (server_ <= 0 || waitpid(server_, nullptr, WNOHANG) == server_) {
         server_ = launch({programs_ + "/postgres", "-D", data(), "-k", folder_.path().string(), "-c",
-                          "listen_addresses=", "-c", "fsync=off", "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
+                          "listen_addresses=", "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
                          folder_.file("log"));
       }
       if (run({programs_ + "/pg_isready", "-q", "-h", folder_.path().string()})) return true;
