@@ -4,11 +4,14 @@
 sources_together.py MOST SOURCE...   prints a line a source: the number of its group, a blank, its path
 
 Sources compiled together share one unnamed namespace and one set of includes, so that two of them may not give a name
-two meanings. Each source goes, in its order, into the first group that has room and in which none of the names that
-it declares for itself is declared yet. Names are found by the layout of the tree (.clang-format): a declaration of an
+two meanings. Each source goes, in its order, into the first group that has room and in which no name that one source
+declares for itself alone stands in another, or in a header of the tree that only the other includes, whatever it means
+there. Names are found by the layout of the tree (.clang-format): a declaration of an
 unnamed namespace begins in the first column.
 """
 
+import functools
+import os
 import re
 import sys
 
@@ -45,20 +48,66 @@ def names_of(text):
     return own
 
 
+# Types and constants, wherever they stand; functions where they are called, but for members and qualified ones.
+WORD = re.compile(r"\b[A-Za-z]\w*[A-Z]\w*|\b[A-Z]\w*|(?<![\w.>:])[a-z]\w*(?=\s*\()")
+# Of a header the functions that are declared from the first column on.
+FREE = re.compile(r"^(?![ /#]).*$", re.MULTILINE)
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+
+
+@functools.cache
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+@functools.cache
+def words_of(path):
+    text = re.sub(r"//.*", "", read(path))
+    if path.endswith(".h"):
+        types = {word for word in WORD.findall(text) if word != word.lower()}
+        return frozenset(types.union(*(WORD.findall(line) for line in FREE.findall(text))))
+    return frozenset(WORD.findall(text))
+
+
+def headers_of(path):
+    """The headers of the tree that a source includes, and theirs."""
+    found, left = set(), [path]
+    while left:
+        for name in INCLUDE.findall(read(left.pop())):
+            header = os.path.join(ROOT, name)
+            if header not in found and os.path.exists(header):
+                found.add(header)
+                left.append(header)
+    return found
+
+
+def may_join(one, other):
+    """Whether no own name of `one` stands in `other`, or in a header that only `other` includes; an alias of one
+    meaning may."""
+    own, _, headers = one
+    others_own, words, others_headers = other
+    for name, meant in own.items():
+        if name in others_own and meant is not None and others_own[name] == meant:
+            continue
+        if name in words or any(name in words_of(header) for header in others_headers - headers):
+            return False
+    return True
+
+
 def groups(sources, most):
     """(group, source) in the order of the sources."""
-    taken = []  # of each group: how many sources it has, and what its names mean
+    taken = []  # the sources of each group: own names, words, headers
     for source in sources:
-        with open(source, encoding="utf-8") as file:
-            own = names_of(file.read())
-        for number, (count, names) in enumerate(taken):
-            if count < most and all(name not in names or meant is not None and names[name] == meant
-                                    for name, meant in own.items()):
+        this = (names_of(read(source)), words_of(source), headers_of(source))
+        for number, group in enumerate(taken):
+            if len(group) < most and all(may_join(this, other) and may_join(other, this) for other in group):
                 break
         else:
             number = len(taken)
-            taken.append((0, {}))
-        taken[number] = (taken[number][0] + 1, taken[number][1] | own)
+            taken.append([])
+        taken[number].append(this)
         yield number, source
 
 
