@@ -1,12 +1,16 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "planner/controls/controls.h"
+#include "tests/support/corpus.h"
 #include "tests/support/empty_plan.h"
 
-// Plans that the golden programs of several controls are written of.
+// Plans that the golden programs of several controls are written of, and those programs.
 
 namespace capstan::controls::plans {
 
@@ -101,6 +105,22 @@ inline Plan holes_plan(const char* dialect) {
   add_hole(plan, "H3 ream", "r8", 20, 20, true, 0.0);
   add_tap(plan, "H4 tap", 60, 20);
   return plan;
+}
+
+/// The program in the words of the plan's control.
+inline Result<std::string> written(const Plan& plan) {
+  Job job;
+  return write_program(plan, job);
+}
+inline std::string program_of(const Plan& plan) {
+  const auto text = written(plan);
+  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
+  return text.value_or("");
+}
+/// A golden program of tests/controls/CONTROL.
+inline std::string golden(const std::string& control, const std::string& name) {
+  return capstan::testing::slurp(capstan::testing::source_dir() + "/tests/controls/" + control + "/golden/" +
+                                 name);
 }
 
 }  // namespace capstan::controls::plans

@@ -23,21 +23,12 @@ using plans::holes_plan;
 using plans::plan_for;
 using plans::pocket;
 using plans::pocket_plan;
+using plans::program_of;
+using plans::written;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Result<std::string> written(const Plan& plan) {
-  Job job;
-  return write_program(plan, job);
-}
-std::string program_of(const Plan& plan) {
-  const auto text = written(plan);
-  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
-  return text.value_or("");
-}
-std::string golden(const char* name) {
-  return testing::slurp(testing::source_dir() + "/tests/controls/fanuc/golden/" + name);
-}
+std::string golden(const char* name) { return plans::golden("fanuc", name); }
 
 TEST(FanucGolden, APocketIsWrittenAsReviewed) {
   EXPECT_EQ(program_of(pocket_plan("fanuc")), golden("pocket.nc"));

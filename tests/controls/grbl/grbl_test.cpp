@@ -15,21 +15,12 @@ using model::Plan;
 using plans::choose;
 using plans::holes_plan;
 using plans::pocket_plan;
+using plans::program_of;
+using plans::written;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Result<std::string> written(const Plan& plan) {
-  Job job;
-  return write_program(plan, job);
-}
-std::string program_of(const Plan& plan) {
-  const auto text = written(plan);
-  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
-  return text.value_or("");
-}
-std::string golden(const char* name) {
-  return capstan::testing::slurp(capstan::testing::source_dir() + "/tests/controls/grbl/golden/" + name);
-}
+std::string golden(const char* name) { return plans::golden("grbl", name); }
 /// Those that Grbl makes: no tap.
 Plan drilled_plan() {
   Plan plan = holes_plan("grbl");

@@ -17,19 +17,12 @@ using plans::choose;
 using plans::holes_plan;
 using plans::plan_for;
 using plans::pocket_plan;
+using plans::program_of;
+using plans::written;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 
-Result<std::string> written(const Plan& plan) {
-  Job job;
-  return write_program(plan, job);
-}
-std::string program_of(const Plan& plan) {
-  const auto text = written(plan);
-  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
-  return text.value_or("");
-}
 /// Without the numbers of blocks.
 std::string bare(const Plan& plan) {
   std::string out;
@@ -43,10 +36,7 @@ std::string bare(const Plan& plan) {
   }
   return out;
 }
-std::string golden(const char* name) {
-  return capstan::testing::slurp(capstan::testing::source_dir() + "/tests/controls/heidenhain/golden/" +
-                                 name);
-}
+std::string golden(const char* name) { return plans::golden("heidenhain", name); }
 
 /// Down a helix of 5 mm radius in half turns, so many, a millimetre each, and a quarter of one.
 Plan helix_plan(int half_turns) {

@@ -17,21 +17,12 @@ using plans::choose;
 using plans::holes_plan;
 using plans::plan_for;
 using plans::pocket_plan;
+using plans::program_of;
+using plans::written;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Result<std::string> written(const Plan& plan) {
-  Job job;
-  return write_program(plan, job);
-}
-std::string program_of(const Plan& plan) {
-  const auto text = written(plan);
-  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
-  return text.value_or("");
-}
-std::string golden(const char* name) {
-  return capstan::testing::slurp(capstan::testing::source_dir() + "/tests/controls/siemens/golden/" + name);
-}
+std::string golden(const char* name) { return plans::golden("siemens", name); }
 
 /// Down a helix of 5 mm radius in half turns, so many, a millimetre each, and a last piece of a quarter.
 Plan helix_plan(int half_turns, bool and_a_quarter) {
