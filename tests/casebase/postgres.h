@@ -68,8 +68,8 @@ class PostgresServer {
     }
     return false;
   }
-  /// SIGINT: it ends its connections and writes everything; SIGKILL: its workers end when they find it gone, and until
-  /// then serve who is connected. Returns when they, too, have ended.
+  /// SIGINT: it ends its connections and writes everything; SIGKILL: its workers end when they find it gone,
+  /// and until then serve who is connected. Returns when they, too, have ended.
   void stop(int signal) {
     if (server_ <= 0) return;
     const std::vector<pid_t> workers = workers_of(server_);
@@ -77,7 +77,7 @@ class PostgresServer {
     waitpid(server_, nullptr, 0);
     server_ = 0;
     for (const pid_t worker : workers)
-      for (int turn = 0; turn < kTurns && kill(worker, 0) == 0; ++turn) usleep(20'000);
+      for (int turn = 0; turn < kTurns && runs(worker); ++turn) usleep(20'000);
   }
   [[nodiscard]] std::string data() const { return folder_.file("data"); }
 
@@ -94,6 +94,11 @@ class PostgresServer {
     std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
   }
 
+  /// Whether a process does anything yet: one that ended has no command line, also while nobody has asked for
+  /// its end.
+  static bool runs(pid_t process) {
+    return std::ifstream("/proc/" + std::to_string(process) + "/cmdline").peek() != EOF;
+  }
   static std::vector<pid_t> workers_of(pid_t server) {
     const std::string of = std::to_string(server);
     std::ifstream in("/proc/" + of + "/task/" + of + "/children");
