@@ -65,12 +65,18 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
   constexpr std::size_t kStreamCap = std::size_t{64} << 20;
   const bool stream = !S_ISREG(info.st_mode);
   if (stream) cap = std::min(cap, kStreamCap);
+  const auto too_large = [&] {
+    return fail({.code = "FILE-TOO-LARGE",
+                 .message = std::string(stream ? "this is no regular file, and gives more than "
+                                               : "the file is larger than ") +
+                            "the limit of " + std::to_string(cap) + " bytes",
+                 .file = path});
+  };
+  if (!stream && info.st_size > 0 && static_cast<std::size_t>(info.st_size) > cap) return too_large();
   std::string bytes;
   constexpr std::size_t kChunk = std::size_t{1} << 20;
   // A file of known size is read at once, and one byte more tells that it ends there.
-  std::size_t left = !stream && info.st_size > 0 && static_cast<std::size_t>(info.st_size) <= cap
-                         ? static_cast<std::size_t>(info.st_size) + 1
-                         : kChunk;
+  std::size_t left = !stream && info.st_size > 0 ? static_cast<std::size_t>(info.st_size) + 1 : kChunk;
   for (;;) {
     const std::size_t at = bytes.size();
     bytes.resize(at + left);
@@ -85,13 +91,7 @@ Result<std::string> read_file(const std::string& path, std::size_t cap) {
     bytes.resize(at + static_cast<std::size_t>(got));
     left -= static_cast<std::size_t>(got);
     if (left == 0) left = kChunk;
-    if (bytes.size() > cap) {
-      return fail({.code = "FILE-TOO-LARGE",
-                   .message = std::string(stream ? "this is no regular file, and gives more than "
-                                                 : "the file is larger than ") +
-                              "the limit of " + std::to_string(cap) + " bytes",
-                   .file = path});
-    }
+    if (bytes.size() > cap) return too_large();
     if (got == 0) return bytes;
   }
 }
