@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include "tests/corpus/session.h"
 #include "tests/support/corpus.h"
+#include "tests/support/soak.h"
 #include "tooling/library/formats/import.h"
 
 // Real parts with the libraries that people really have: a plan that nothing is found against, or a list of
@@ -62,7 +62,7 @@ void expect_a_sound_plan_or_a_list(const std::string& part, const std::string& t
 /// Every sixth library, another sixth for each part; where tests are repeated (./dev soak), the one that the
 /// seed names, so that repetitions go through all of them.
 bool in_sample(std::size_t number, std::size_t count, std::size_t part) {
-  if (std::getenv("CAPSTAN_SOAK") == nullptr) return number % 6 == part;
+  if (!soaking()) return number % 6 == part;
   return number == static_cast<std::size_t>(::testing::UnitTest::GetInstance()->random_seed()) % count;
 }
 

@@ -91,7 +91,7 @@ std::vector<Row> rows(const std::string& capstan, const std::string& own, const 
   // Shop, rules and tools, and a part of one pocket that is left open.
   out.push_back(
       {"start-up", command({"plan", pocket + ".p21", "--bind", "none", "-o", scratch + "/open.json"})});
-  out.push_back({"plan-bracket", command(whole)});
+  if (!smoke) out.push_back({"plan-bracket", command(whole)});
   out.push_back(
       {"plan-reference-pocket",
        command({"plan", pocket + ".p21", "--tools", pocket + "_tools.yaml", "--machine",

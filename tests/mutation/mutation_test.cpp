@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <string>
@@ -10,12 +9,11 @@
 
 #include "tests/mutation/study.h"
 #include "tests/support/rs274.h"
+#include "tests/support/soak.h"
 #include "tooling/library/library.h"
 
 namespace capstan::mutation {
 namespace {
-
-bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
 
 /// Other seeds in each repetition of `./dev soak`, and in each of its parts.
 std::uint64_t next_seed() {
@@ -35,7 +33,7 @@ std::string told(const Row& row) {
 TEST(MutationSeed, EveryDangerousEditIsFoundAndNoBenignOneBlamed) {
   Options o;
   // 77 classes, four programs: a soak of 50 repetitions asks for more than 10,000 edits.
-  o.edits = soaks() ? 3 : 1;
+  o.edits = soaking() ? 3 : 1;
   o.first_seed = next_seed();
   o.planned = true;
   o.by_interpreter = testing::rs274_available();
@@ -77,7 +75,7 @@ TEST(MutationSeed, EveryDangerousEditOfAFanucAndAHaasProgramIsFoundAndNoBenignOn
 
 TEST(MutationSeed, EveryDangerousEditOfASiemensProgramIsFoundAndNoBenignOneBlamed) {
   Options o;
-  o.edits = soaks() ? 12 : 6;
+  o.edits = soaking() ? 12 : 6;
   o.first_seed = next_seed();
   o.dialect = "siemens";
   int edits = 0;
@@ -93,7 +91,7 @@ TEST(MutationSeed, EveryDangerousEditOfASiemensProgramIsFoundAndNoBenignOneBlame
 
 TEST(MutationSeed, EveryDangerousEditOfAHeidenhainProgramIsFoundAndNoBenignOneBlamed) {
   Options o;
-  o.edits = soaks() ? 12 : 6;
+  o.edits = soaking() ? 12 : 6;
   o.first_seed = next_seed();
   o.dialect = "heidenhain";
   int edits = 0;
@@ -109,7 +107,7 @@ TEST(MutationSeed, EveryDangerousEditOfAHeidenhainProgramIsFoundAndNoBenignOneBl
 
 TEST(MutationSeed, EveryDangerousEditOfAGrblProgramIsFoundAndNoBenignOneBlamed) {
   Options o;
-  o.edits = soaks() ? 12 : 6;
+  o.edits = soaking() ? 12 : 6;
   o.first_seed = next_seed();
   o.dialect = "grbl";
   int edits = 0;

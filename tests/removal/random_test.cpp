@@ -5,6 +5,7 @@
 
 #include "tests/removal/random_part.h"
 #include "tests/support/rs274.h"
+#include "tests/support/soak.h"
 
 // Parts drawn from seeds, planned, and their programs simulated: either the program makes the part, or there
 // is none and the plan says why. Refusals are counted: with the ordinary machine and the whole library most
@@ -56,7 +57,7 @@ TEST(RemovalPropertyOfSeeds, ProgramsMakeTheirPartsAndMostFeaturesArePlanned) {
   // One seed by its number, to look into it.
   if (const char* one = std::getenv("CAPSTAN_SEED"); one != nullptr)
     return holds(static_cast<unsigned>(std::strtoul(one, nullptr, 10)), true);
-  const bool soak = std::getenv("CAPSTAN_SOAK") != nullptr;
+  const bool soak = soaking();
   unsigned first = 1;
   unsigned count = kSeeds;
   if (soak) {

@@ -233,6 +233,8 @@ Summary run_shops(std::uint64_t first_seed, int shops, int parts) {
     };
     const bool sound = over(runs[0]) <= 0.05 * parts;
     out.sound += sound ? 1 : 0;
+    Summary::Shop& shop = out.each.emplace_back();
+    shop.seed = first_seed + static_cast<std::uint64_t>(i);
     for (std::size_t a = 0; a < runs.size(); ++a) {
       ArmSummary& arm = out.arms[a];
       for (const CampaignPart& p : runs[a].parts) {
@@ -241,12 +243,14 @@ Summary run_shops(std::uint64_t first_seed, int shops, int parts) {
         }
       }
       const int bad = over(runs[a]);
+      shop.over[a] = bad;
+      shop.time_ratio[a] = runs[a].time_of_last(10) / runs[0].time_of_last(10);
       (sound ? arm.parts : arm.unsound_parts) += parts;
       (sound ? arm.over : arm.unsound_over) += bad;
       if (!sound) continue;
       arm.shops_over += bad > 0 ? 1 : 0;
       arm.over_share.push_back(static_cast<double>(bad) / parts);
-      arm.time_ratio.push_back(runs[a].time_of_last(10) / runs[0].time_of_last(10));
+      arm.time_ratio.push_back(shop.time_ratio[a]);
       std::vector<double>& by_part = arm.ratio_by_part.emplace_back();
       for (std::size_t k = 0; k < runs[a].parts.size(); ++k) {
         by_part.push_back(runs[a].parts[k].time_s / runs[0].parts[k].time_s);

@@ -66,7 +66,15 @@ struct ArmSummary {
 };
 /// Sound is a shop in which the handbook's own values exceed a hidden limit in at most 5 of 100 parts.
 struct Summary {
+  /// One shop: of each arm the mean time of its last ten parts over the handbook's, and its parts over a
+  /// hidden limit.
+  struct Shop {
+    std::uint64_t seed = 0;
+    std::array<double, kArmNames.size()> time_ratio{};
+    std::array<int, kArmNames.size()> over{};
+  };
   std::array<ArmSummary, kArmNames.size()> arms;
+  std::vector<Shop> each = {};
   int shops = 0, sound = 0;
 };
 [[nodiscard]] Summary run_shops(std::uint64_t first_seed, int shops, int parts);

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 
 #include "tests/simulated_shop/campaign.h"
+#include "tests/support/soak.h"
 
 namespace capstan::testing {
 namespace {
@@ -14,21 +14,19 @@ using casebase::tune::TuneOptions;
 
 constexpr int kParts = 40;
 
-bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
-
 /// A short sample; the thirty shops of docs/validation.md, from other seeds, where the tests soak.
 const Summary& shops() {
   static std::map<std::uint64_t, Summary> by_seed;
   const auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
-  const auto [it, fresh] = by_seed.try_emplace(soaks() ? seed : 0);
-  if (fresh) it->second = soaks() ? run_shops(1000 * seed, 30, kParts) : run_shops(1, 6, kParts);
+  const auto [it, fresh] = by_seed.try_emplace(soaking() ? seed : 0);
+  if (fresh) it->second = soaking() ? run_shops(1000 * seed, 30, kParts) : run_shops(1, 6, kParts);
   return it->second;
 }
 
 TEST(SimulatedShopProperty, TunedPartsTakeLessTimeThanTheHandbooks) {
   ASSERT_GT(shops().sound, 0);
   // Three times thirty shops came to 0.85 to 0.91; six of them scatter more.
-  const double most = soaks() ? 0.93 : 0.97;
+  const double most = soaking() ? 0.93 : 0.97;
   EXPECT_LT(shops().arms[static_cast<std::size_t>(Arm::kRegression)].mean_ratio(), most);
   EXPECT_LT(shops().arms[static_cast<std::size_t>(Arm::kProcess)].mean_ratio(), most);
 }

@@ -1,4 +1,5 @@
 #include "tests/sweep/sweep.h"
+#include "tests/support/soak.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ void holds(Sweep& sweep, const Case& c, bool tell) {
 
 TEST(SweepProperty, PlansKeepTheLeastChipTolerancesAndLimitsRefusalsHelpAndAMachiningCentreMakesAll) {
   static Sweep sweep;
-  const bool soak = std::getenv("CAPSTAN_SOAK") != nullptr;
+  const bool soak = soaking();
   if (!soak) {
     for (const Case& c : diagonal()) holds(sweep, c, false);
     return;

@@ -48,12 +48,25 @@ double quantile(std::vector<double> v, double share) {
   return v[at];
 }
 
+std::string spaced_out(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  std::string out;
+  for (const char ch : name) out += ch == ',' ? ", " : std::string(1, ch);
+  return out;
+}
+
+/// A figure with so many decimals, or a dash where there is none.
+std::string figure(double v, int decimals) { return v > 0.0 ? fixed(v, decimals) : "-"; }
+
+std::vector<std::string> plan_row(const Case& c, const Outcome& o) {
+  const std::size_t missing = o.made.plan.unplanned.size();
+  return {spaced_out(c.name()), figure(o.whole() ? o.plan_s : 0.0, 1), figure(o.catalogue_s, 1),
+          figure(o.ratio(), 2), missing == 0 ? "" : std::to_string(missing)};
+}
+
 std::vector<std::string> row_of(const std::string& name, const Group& g) {
-  const auto two = [](double v) { return v > 0.0 ? fixed(v, 2) : std::string("-"); };
-  std::string worst = g.worst_case;
-  std::replace(worst.begin(), worst.end(), '_', ' ');
-  std::string spaced;
-  for (const char ch : worst) spaced += ch == ',' ? ", " : std::string(1, ch);
+  const auto two = [](double v) { return figure(v, 2); };
+  const std::string spaced = spaced_out(g.worst_case);
   return {name,
           std::to_string(g.asked),
           std::to_string(g.planned),
@@ -65,22 +78,32 @@ std::vector<std::string> row_of(const std::string& name, const Group& g) {
 
 }  // namespace
 
-Comparison catalogue_times() {
+Comparison catalogue_times(Extent extent) {
+  constexpr std::size_t kEvery = 4;  // a fourth of the plans is a sample
   Comparison out{.name = "catalogue-times"};
+  const std::vector<Case> cases = testing::sweep::each_once_per_machine();
   testing::sweep::Sweep sweep;
   Group all;
   std::vector<Group> machines(std::size(kMachines));
   std::map<std::string, Group> materials;
   Table data{{"machine", "ratio", "share"}, {}};
-  for (const Case& c : testing::sweep::each_once_per_machine()) {
+  Table plans{{"feature, material, machine", "plan, s", "catalogue, s", "plan over it", "features not made"},
+              {}};
+  for (std::size_t i = 0; i < cases.size(); i += extent == Extent::kSample ? kEvery : 1) {
+    const Case& c = cases[i];
     const Outcome o = sweep.plan(c);
     if (!o.failed.empty()) {
       out.skipped = c.name() + ": " + o.failed;
       return out;
     }
+    plans.rows.push_back(plan_row(c, o));
     all.add(c, o);
     machines[c.machine].add(c, o);
     materials[kMaterials[c.material].group].add(c, o);
+  }
+  if (extent == Extent::kSample) {
+    out.lines = lines_of(plans);
+    return out;
   }
   Table table{{"machine or group", "plans", "whole", "median", "9 of 10 below", "worst", "which"}, {}};
   for (std::size_t k = 0; k < machines.size(); ++k) {
@@ -93,7 +116,7 @@ Comparison catalogue_times() {
   }
   for (const char* group : {"P", "M", "K", "N", "S", "H", "plastic"})
     table.rows.push_back(row_of(group, materials[group]));
-  out.text = markdown(table);
+  out.text = markdown(table) + "\n" + markdown(plans);
   out.data.emplace_back("catalogue_times.dat", columns(data));
   out.headline = std::to_string(all.planned) + " of " + std::to_string(all.asked) +
                  " plans whole; time over a catalogue's: median " + fixed(quantile(all.ratios, 0.5), 1) +

@@ -66,7 +66,7 @@ Comparison summary(const std::vector<Comparison>& all) {
 
 }  // namespace
 
-std::vector<Comparison> all_comparisons(const std::string& corpus) {
+std::vector<Comparison> all_comparisons(const std::string& corpus, Extent extent) {
   std::vector<Comparison> out;
   add_plate(corpus, out);
   out.push_back(wear(corpus));
@@ -81,12 +81,12 @@ std::vector<Comparison> all_comparisons(const std::string& corpus) {
   out.push_back(edits());
   out.push_back(plan_edits());
   out.push_back(productivity(corpus));
-  out.push_back(catalogue_times());
-  out.push_back(freecad(capstan::testing::source_dir() + "/docs/validation/freecad.csv"));
-  out.push_back(tuning());
+  out.push_back(catalogue_times(extent));
+  out.push_back(freecad(capstan::testing::source_dir() + "/docs/validation/freecad.csv", extent));
+  out.push_back(tuning(extent));
   out.push_back(plates(corpus));
   out.push_back(bind_times(capstan::testing::source_dir() + "/docs/validation/bind_times.csv"));
-  out.push_back(summary(out));
+  if (extent == Extent::kWhole) out.push_back(summary(out));
   return out;
 }
 

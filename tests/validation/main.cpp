@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
     documents.push_back(*std::move(text));
   }
   int status = 0;
-  for (const Comparison& c : capstan::validation::all_comparisons(capstan::testing::corpus_folder())) {
+  for (const Comparison& c : capstan::validation::all_comparisons(capstan::testing::corpus_folder(),
+                                                                  capstan::validation::Extent::kWhole)) {
     if (!c.skipped.empty()) {
       std::fprintf(stderr, "validation: %s is skipped: %s\n", c.name.c_str(), c.skipped.c_str());
       status = 1;

@@ -19,6 +19,12 @@ std::string line_of(const std::vector<std::string>& cells) {
 
 }  // namespace
 
+std::vector<std::string> lines_of(const Table& table) {
+  std::vector<std::string> out;
+  for (const auto& row : table.rows) out.push_back(line_of(row));
+  return out;
+}
+
 std::string markdown(const Table& table) {
   std::string out = line_of(table.head);
   out += "|";

@@ -15,15 +15,24 @@ struct Table {
 /// A table as Markdown.
 [[nodiscard]] std::string markdown(const Table& table);
 
+/// How much of a comparison is computed. A sample takes a share of the time of those that plan many parts.
+enum class Extent { kWhole, kSample };
+
 /// What one comparison came to: `text` is what stands in the document between the markers
 /// `<!-- begin NAME -->` and `<!-- end NAME -->`; `data` are the files (name, content) that its plots read.
 struct Comparison {
   std::string name;
   std::string text = {};
+  /// Of a sample: the lines that it has computed, each of which the whole text has, too. `text` is empty
+  /// then.
+  std::vector<std::string> lines = {};
   std::string headline = {};  ///< the figure that says most, for the table at the head of the document
   std::vector<std::pair<std::string, std::string>> data = {};
   std::string skipped = {};  ///< why there is nothing; empty: there is
 };
+
+/// The rows of a table as the lines of its Markdown.
+[[nodiscard]] std::vector<std::string> lines_of(const Table& table);
 
 /// Columns for gnuplot: blanks between them, quotes around cells with a blank.
 [[nodiscard]] std::string columns(const Table& table);

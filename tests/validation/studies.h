@@ -46,16 +46,16 @@ namespace capstan::validation {
 [[nodiscard]] Comparison productivity(const std::string& corpus);
 
 /// Times of plans over a catalogue's, for a sample of features, materials and machines.
-[[nodiscard]] Comparison catalogue_times();
+[[nodiscard]] Comparison catalogue_times(Extent extent);
 /// Tuned speeds and feeds in simulated shops: no cases, regression only, Gaussian process.
-[[nodiscard]] Comparison tuning();
+[[nodiscard]] Comparison tuning(Extent extent);
 
 /// The plates of the NIST test bed as cases: each plate's times and bores predicted from the others.
 [[nodiscard]] Comparison plates(const std::string& corpus);
 
 /// Roughing of pockets against FreeCAD's paths at equal limits (freecad/rivals.h); `record`: the times on
 /// LinuxCNC's simulated machine, as `capstan_rival_times` recorded them.
-[[nodiscard]] Comparison freecad(const std::string& record);
+[[nodiscard]] Comparison freecad(const std::string& record, Extent extent);
 
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);

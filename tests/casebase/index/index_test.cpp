@@ -1,9 +1,9 @@
 #include "casebase/index/index.h"
+#include "tests/support/soak.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <thread>
@@ -188,7 +188,7 @@ Points many(std::size_t n, unsigned seed, bool clustered) {
 
 /// 20,000 cases; a million where CAPSTAN_SOAK is set.
 TEST_P(IndexContract, GivesTheSameRowsAndBitsAsTheRefereeAmongMany) {
-  const bool soak = std::getenv("CAPSTAN_SOAK") != nullptr;
+  const bool soak = soaking();
   const std::size_t n = soak ? 1'000'000 : 20'000;
   const auto seed = static_cast<unsigned>(soak ? testing::UnitTest::GetInstance()->random_seed() : 1);
   const std::vector<double> weight(16, 1.0);

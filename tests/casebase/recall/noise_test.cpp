@@ -1,8 +1,8 @@
-#include <cstdlib>
 #include <random>
 
 #include "casebase/recall/recall.h"
 #include "tests/casebase/sample.h"
+#include "tests/support/soak.h"
 
 // A shop whose cuts follow a law, and whose records are wrong in one case of ten.
 
@@ -68,7 +68,7 @@ class Shop {
 // The issue asks for 95 % of queries and a tenth at 1e5 cases; a sixth of them are measured here, and all in
 // soak.
 TEST(RecallPropertyOfNoise, OneWrongCaseInTenLeavesPrecedentsAndTheirSpeed) {
-  const std::size_t cases = std::getenv("CAPSTAN_SOAK") != nullptr ? 100'000 : 16'000;
+  const std::size_t cases = soaking() ? 100'000 : 16'000;
   constexpr int kQueries = 400;
   Shop shop(static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()) + 3U);
   std::vector<Case> all;

@@ -4,6 +4,7 @@
 #include "casebase/store/row.h"
 #include "tests/casebase/postgres.h"
 #include "tests/casebase/sample.h"
+#include "tests/support/soak.h"
 
 namespace capstan::casebase {
 namespace {
@@ -126,8 +127,8 @@ TEST_F(PostgresStore, NeverGivesAnAlteredRowForAFlippedBit) {
   for (const Case& c : cases) originals[c.id] = c;
   std::mt19937 random(7);
   int left_out = 0;
-  constexpr int kFlips = 150;
-  for (int i = 0; i < kFlips && !HasFailure(); ++i) {
+  const int flips = rounds(45, 150);
+  for (int i = 0; i < flips && !HasFailure(); ++i) {
     const std::string column =
         std::vector<std::string>{"head", "body", "totals"}[static_cast<std::size_t>(i % 3)];
     const std::string table = "capstan." + (column == "totals" ? "total" : column);
@@ -142,7 +143,7 @@ TEST_F(PostgresStore, NeverGivesAnAlteredRowForAFlippedBit) {
     expect_honest(place_->uri(), originals, flip, left_out);
     place_->sql(flip);
   }
-  EXPECT_GT(left_out, kFlips / 2);  // a head or a body: two of three
+  EXPECT_GT(left_out, flips / 2);  // a head or a body: two of three
   Job job;
   EXPECT_EQ(CaseBase::open(place_->uri(), job)->size(), cases.size());
 }

@@ -21,6 +21,7 @@
 #include "tests/door/late/brought.h"
 #include "tests/support/corpus.h"
 #include "tests/support/scratch.h"
+#include "tests/support/soak.h"
 
 // Binds at deadlines from 1 ms to 1 s while two other processes keep the processor busy: the whole plan, and
 // single workingsteps that are given up at the deadline. What the code says must be so; how many binds come
@@ -95,7 +96,7 @@ std::string another(const std::string& table, std::mt19937& random) {
 }
 
 TEST(LateDeadlineSeed, WhatIsCalledInTimeIsAndEveryAnswerIsCheckedOrLate) {
-  const bool soaks = std::getenv("CAPSTAN_SOAK") != nullptr;
+  const bool soaks = soaking();
   const int binds = soaks ? 200 : 8;  // 50 repetitions of a soak: 10,000
   std::mt19937 random(static_cast<unsigned>(::testing::UnitTest::GetInstance()->random_seed()));
   const Brought early =

@@ -18,6 +18,7 @@
 #include "tests/support/scratch.h"
 #include "tests/support/seal.h"
 #include "tests/support/shop.h"
+#include "tests/support/soak.h"
 
 namespace capstan::late {
 namespace {
@@ -269,7 +270,7 @@ TEST(Late, IsLateWhenTheImprovementOverranTheDeadline) {
   EXPECT_FALSE(bound->improved);
 }
 
-TEST(Late, WhateverToolIsMissingNoStepUsesIt) {
+TEST(LateProperty, WhateverToolIsMissingNoStepUsesIt) {
   const std::string part = capstan::testing::source_dir() + "/examples/bracket.p21";
   for (const auto format : {pipeline::Format::kAp238, pipeline::Format::kJson}) {
     const Brought early = brought(part, format);
@@ -277,6 +278,8 @@ TEST(Late, WhateverToolIsMissingNoStepUsesIt) {
     ASSERT_GT(tools, 5);
     int replaced = 0;
     for (int missing = 1; missing <= tools; ++missing) {
+      // Of a sample every second in the one form, the others in the other.
+      if (!soaking() && (missing % 2 == 0) == (format == pipeline::Format::kJson)) continue;
       Job job;
       const auto bound =
           bind(early.plan, shop_of(without(early.table, missing)), {.deadline = std::nullopt}, job);

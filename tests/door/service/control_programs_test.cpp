@@ -17,6 +17,7 @@
 #include "planner/ground/vocabulary/control_options.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/soak.h"
 
 namespace capstan::service {
 namespace {
@@ -110,15 +111,13 @@ void expect_verdicts(const std::string& folder, const std::vector<std::string>& 
   }
 }
 
-bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
-
 // The check follows the plan's path in both: cycles make the moves that explicit ones are.
 TEST(ControlProgramsProperty, OfShippedPartsReadBackAsTheTableSaysWithCyclesAndWithExplicitMoves) {
   static bool done = false;  // a soak repeats what has no seed
   if (done) return;
   done = true;
   std::vector<std::string> files{"bracket.p21", "plate_bound.p21", "reference_pocket.p21", "two_setups.p21"};
-  if (soaks() || std::getenv("CAPSTAN_UPDATE") != nullptr) files.emplace_back("surface.stl");
+  if (soaking() || std::getenv("CAPSTAN_UPDATE") != nullptr) files.emplace_back("surface.stl");
   expect_verdicts(testing::source_dir() + "/examples", files, false);
 }
 
@@ -128,7 +127,7 @@ TEST(ControlProgramsProperty, OfCorpusFilesReadBackAsTheTableSays) {
   if (done) return;
   done = true;
   std::vector<std::string> files{"nist_ex1.stp"};
-  if (soaks() || std::getenv("CAPSTAN_UPDATE") != nullptr)
+  if (soaking() || std::getenv("CAPSTAN_UPDATE") != nullptr)
     files = {"nist_ex1.stp",
              "fdis_ex2.p21",
              "fdis_ex2_mended.p21",

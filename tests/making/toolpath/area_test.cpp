@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <random>
 
 #include "planner/making/toolpath/path_job.h"
 #include "tests/making/toolpath/path_helpers.h"
+#include "tests/support/soak.h"
 
 namespace capstan::toolpath {
 namespace {
@@ -131,9 +131,8 @@ PathJob random_job(unsigned seed) {
 TEST(AreaPath, HoldsForRandomPocketsToolsAndStrategies) {
   constexpr unsigned kCount = 30;
   const unsigned first =
-      100 + (std::getenv("CAPSTAN_SOAK") != nullptr
-                 ? kCount * static_cast<unsigned>(::testing::UnitTest::GetInstance()->random_seed())
-                 : 0U);
+      100 +
+      (soaking() ? kCount * static_cast<unsigned>(::testing::UnitTest::GetInstance()->random_seed()) : 0U);
   for (unsigned seed = first; seed < first + kCount; ++seed) {
     const PathJob t = random_job(seed);
     Job job;

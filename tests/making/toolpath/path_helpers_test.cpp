@@ -50,13 +50,19 @@ bool HeightMap::stamp(Vec3 p, double radius, bool cuts) {
   const auto index = [&](double v, double lo, std::size_t n) {
     return static_cast<std::size_t>(std::clamp((v - lo) / cell_, 0.0, static_cast<double>(n)));
   };
-  for (std::size_t y = index(p.y - r, lo_.y, ny_); y < std::min(ny_, index(p.y + r, lo_.y, ny_) + 1); ++y) {
-    for (std::size_t x = index(p.x - r, lo_.x, nx_); x < std::min(nx_, index(p.x + r, lo_.x, nx_) + 1); ++x) {
-      const Vec2 d = centre(y * nx_ + x) - xy(p);
-      float& z = z_[y * nx_ + x];
-      if (dot(d, d) > r * r || z <= static_cast<float>(p.z) + 1e-4F) continue;
+  const std::size_t x0 = index(p.x - r, lo_.x, nx_), x1 = std::min(nx_, index(p.x + r, lo_.x, nx_) + 1),
+                    y1 = std::min(ny_, index(p.y + r, lo_.y, ny_) + 1);
+  const float tip = static_cast<float>(p.z);
+  for (std::size_t y = index(p.y - r, lo_.y, ny_); y < y1; ++y) {
+    const double dy = lo_.y + (static_cast<double>(y) + 0.5) * cell_ - p.y;
+    float* const row = &z_[y * nx_];
+    for (std::size_t x = x0; x < x1; ++x) {
+      float& z = row[x];
+      if (z <= tip + 1e-4F) continue;
+      const double dx = lo_.x + (static_cast<double>(x) + 0.5) * cell_ - p.x;
+      if (dx * dx + dy * dy > r * r) continue;
       touched = true;
-      if (cuts) z = static_cast<float>(p.z);
+      if (cuts) z = tip;
     }
   }
   return touched;

@@ -3,11 +3,10 @@
 #include <cstdlib>
 
 #include "tests/mutation/plans/plan_study.h"
+#include "tests/support/soak.h"
 
 namespace capstan::mutation {
 namespace {
-
-bool soaks() { return std::getenv("CAPSTAN_SOAK") != nullptr; }
 
 /// Other seeds in each repetition of `./dev soak`, and in each of its parts.
 std::uint64_t next_seed() {
@@ -41,7 +40,7 @@ TEST(MutationSeed, EveryEditOfAPlansValuesIsFoundAndNoBenignOneBlamed) {
   }
   EXPECT_GT(classes, 150);
   RecordProperty("edits", edits);
-  if (soaks()) RecordProperty("first_seed", static_cast<int>(o.first_seed));
+  if (soaking()) RecordProperty("first_seed", static_cast<int>(o.first_seed));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ double to_segment(double x, double y, std::pair<double, double> a, std::pair<dou
   const double dx = b.first - a.first, dy = b.second - a.second;
   const double l2 = dx * dx + dy * dy;
   const double t = l2 > 0.0 ? std::clamp(((x - a.first) * dx + (y - a.second) * dy) / l2, 0.0, 1.0) : 0.0;
-  return std::hypot(x - a.first - t * dx, y - a.second - t * dy);
+  return length(x - a.first - t * dx, y - a.second - t * dy);
 }
 
 }  // namespace
@@ -24,12 +24,12 @@ Depth2 rounded_rectangle(double x0, double y0, double x1, double y1, double radi
   const double hx = 0.5 * (x1 - x0) - radius, hy = 0.5 * (y1 - y0) - radius;
   return [=](double x, double y) {
     const double dx = std::abs(x - cx) - hx, dy = std::abs(y - cy) - hy;
-    return radius - std::hypot(std::max(dx, 0.0), std::max(dy, 0.0)) - std::min(std::max(dx, dy), 0.0);
+    return radius - length(std::max(dx, 0.0), std::max(dy, 0.0)) - std::min(std::max(dx, dy), 0.0);
   };
 }
 
 Depth2 disc(double cx, double cy, double radius) {
-  return [=](double x, double y) { return radius - std::hypot(x - cx, y - cy); };
+  return [=](double x, double y) { return radius - length(x - cx, y - cy); };
 }
 
 Depth2 polygon(std::vector<std::pair<double, double>> points) {
@@ -75,19 +75,18 @@ Depth prism(Depth2 base, double z0, double z1) {
 }
 
 Depth along(Point from, Point to, Depth2 section) {
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const double ux = (to.x - from.x) / length, uy = (to.y - from.y) / length;
+  const double whole = length(to.x - from.x, to.y - from.y);
+  const double ux = (to.x - from.x) / whole, uy = (to.y - from.y) / whole;
   return [=, section = std::move(section)](const Point& p) {
     const double s = (p.x - from.x) * ux + (p.y - from.y) * uy;
     const double across = (p.y - from.y) * ux - (p.x - from.x) * uy;
-    return std::min(std::min(s, length - s), section(across, p.z));
+    return std::min(std::min(s, whole - s), section(across, p.z));
   };
 }
 
 Depth turned(double x, double y, Depth2 section) {
-  return [x, y, section = std::move(section)](const Point& p) {
-    return section(std::hypot(p.x - x, p.y - y), p.z);
-  };
+  return
+      [x, y, section = std::move(section)](const Point& p) { return section(length(p.x - x, p.y - y), p.z); };
 }
 
 Depth cylinder(double x, double y, double radius, double z0, double z1) {
@@ -96,15 +95,15 @@ Depth cylinder(double x, double y, double radius, double z0, double z1) {
 
 Depth cone(double x, double y, double z0, double r0, double z1, double r1) {
   const double slope = (r1 - r0) / (z1 - z0);
-  const double norm = std::hypot(1.0, slope);
+  const double norm = length(1.0, slope);
   return [=](const Point& p) {
-    const double side = (r0 + slope * (p.z - z0) - std::hypot(p.x - x, p.y - y)) / norm;
+    const double side = (r0 + slope * (p.z - z0) - length(p.x - x, p.y - y)) / norm;
     return std::min(side, std::min(p.z - z0, z1 - p.z));
   };
 }
 
 Depth sphere(Point centre, double radius) {
-  return [=](const Point& p) { return radius - std::hypot(p.x - centre.x, p.y - centre.y, p.z - centre.z); };
+  return [=](const Point& p) { return radius - length(p.x - centre.x, p.y - centre.y, p.z - centre.z); };
 }
 
 Depth both(Depth a, Depth b) {

@@ -15,7 +15,7 @@ double distance(double x, double y, const Point& a, const Point& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double l2 = dx * dx + dy * dy;
   const double t = l2 > 0.0 ? std::clamp(((x - a.x) * dx + (y - a.y) * dy) / l2, 0.0, 1.0) : 0.0;
-  return std::hypot(x - a.x - t * dx, y - a.y - t * dy);
+  return length(x - a.x - t * dx, y - a.y - t * dy);
 }
 
 }  // namespace
@@ -28,6 +28,7 @@ struct Stock::Piece {
   const Frame* frame;
   Point a, b;  ///< set-up coordinates; heights between them are all swept
   double z_lo, z_hi;
+  double reach;  ///< what is farther from the way than this is not touched
 };
 
 Stock::Stock(Box block, double cell, double cell_z) : lo_(block.lo), cell_{cell, cell, cell_z} {
@@ -40,6 +41,9 @@ Stock::Stock(Box block, double cell, double cell_z) : lo_(block.lo), cell_{cell,
   by_.assign(
       static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]),
       kPresent);
+  const std::size_t columns = static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]);
+  top_.assign(columns, static_cast<std::uint16_t>(n_[2]));
+  bottom_.assign(columns, 0);
 }
 
 // Rows and columns are shifted against each other by golden sections, so that no wall or floor, however it
@@ -52,7 +56,8 @@ Point Stock::at(int x, int y, int z) const {
 }
 
 void Stock::sweep(const Motion& m, const CutterBody& body, const Frame& frame, StepRemoval& record) {
-  Piece p{&m, &body, &record, &frame, m.from, m.to, 0.0, 0.0};
+  const double reach = std::max(body.radius() - (m.rapid ? kClear : 0.0), body.shank_radius() - kClear);
+  Piece p{&m, &body, &record, &frame, m.from, m.to, 0.0, 0.0, reach};
   const auto piece = [&](const Point& a, const Point& b) {
     p.a = a;
     p.b = b;
@@ -61,7 +66,7 @@ void Stock::sweep(const Motion& m, const CutterBody& body, const Frame& frame, S
     capsule(p);
   };
   if (m.arc) {
-    const double r = std::hypot(m.from.x - m.centre_x, m.from.y - m.centre_y);
+    const double r = length(m.from.x - m.centre_x, m.from.y - m.centre_y);
     const double a0 = std::atan2(m.from.y - m.centre_y, m.from.x - m.centre_x);
     const double most = 2.0 * std::acos(std::max(0.0, 1.0 - kChordError / std::max(r, kChordError)));
     const double height = std::abs(m.to.z - m.from.z);
@@ -78,7 +83,7 @@ void Stock::sweep(const Motion& m, const CutterBody& body, const Frame& frame, S
     }
     return;
   }
-  const double across = std::hypot(m.to.x - m.from.x, m.to.y - m.from.y);
+  const double across = length(m.to.x - m.from.x, m.to.y - m.from.y);
   const double height = std::abs(m.to.z - m.from.z);
   // Above everything nothing is cut: of a long way down only what comes near the lattice counts.
   if (across < 1e-6 || height < 1e-9) return piece(m.from, m.to);
@@ -95,7 +100,7 @@ void Stock::sweep(const Motion& m, const CutterBody& body, const Frame& frame, S
 
 void Stock::capsule(const Piece& p) {
   const double less = p.motion->rapid ? kClear : 0.0;
-  const double reach = std::max(p.body->radius() - less, p.body->shank_radius() - kClear);
+  const double reach = p.reach;
   // The box of what is swept, in lattice indices; along the tool everything above the tip.
   const std::array<double, 3> lo{std::min(p.a.x, p.b.x) - reach, std::min(p.a.y, p.b.y) - reach, p.z_lo};
   const std::array<double, 3> hi{std::max(p.a.x, p.b.x) + reach, std::max(p.a.y, p.b.y) + reach, kFarAbove};
@@ -114,7 +119,7 @@ void Stock::capsule(const Piece& p) {
   for (int y = from[1]; y <= to[1]; ++y) {
     for (int x = from[0]; x <= to[0]; ++x) {
       if (std::abs(p.frame->axis[2]) == 3) {
-        column(p, x, y, less);
+        if (!gone_above(p, x, y)) column(p, x, y, less);
       } else {
         for (int z = from[2]; z <= to[2]; ++z) single(p, x, y, z, less);
       }
@@ -130,6 +135,21 @@ Point Stock::in(const Frame& f, const Point& w) const {
   return {along(0), along(1), along(2)};
 }
 
+// A point of index k lies between k and k + 1 cells above the bottom.
+bool Stock::gone_above(const Piece& p, int x, int y) {
+  const std::size_t where =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(n_[0]) + static_cast<std::size_t>(x);
+  std::uint16_t &top = top_[where], &bottom = bottom_[where];
+  const bool up = p.frame->axis[2] > 0;
+  if (up) {
+    while (top > 0 && !present(x, y, top - 1)) --top;
+  } else {
+    while (bottom < n_[2] && !present(x, y, bottom)) ++bottom;
+  }
+  const double end = lo_.z + (up ? top : bottom) * cell_[2];
+  return top == 0 || bottom == n_[2] || (up ? end - p.frame->origin.z : p.frame->origin.z - end) < p.z_lo;
+}
+
 // Points one above the other, along the tool.
 void Stock::column(const Piece& p, int x, int y, double less) {
   const Point foot = in(*p.frame, at(x, y, 0));
@@ -142,6 +162,7 @@ void Stock::column(const Piece& p, int x, int y, double less) {
     const int k1 = static_cast<int>(std::floor(std::min(b, n_[2] - 1.0)));
     for (int k = k0; k <= k1; ++k) take(p, x, y, k, shank);
   };
+  if (r > p.reach) return;
   const CutterBody::Span edges = p.body->edges_at(r + less);
   if (!edges.empty()) span(p.z_lo + edges.lo + less, p.z_hi + edges.hi, false);
   const CutterBody::Span shank = p.body->shank_at(r + kClear);

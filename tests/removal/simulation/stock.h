@@ -55,6 +55,8 @@ class Stock {
   void column(const Piece& p, int x, int y, double less);
   void single(const Piece& p, int x, int y, int z, double less);
   void take(const Piece& p, int x, int y, int z, bool shank);
+  /// Whether no point of a column is above the piece's lowest tip, seen along the tool; for a tool along z.
+  [[nodiscard]] bool gone_above(const Piece& p, int x, int y);
   [[nodiscard]] Point in(const Frame& frame, const Point& work) const;
   [[nodiscard]] std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(n_[0]) + static_cast<std::size_t>(x)) *
@@ -66,6 +68,8 @@ class Stock {
   std::array<double, 3> cell_{};
   std::array<int, 3> n_{};
   std::vector<std::uint16_t> by_;
+  /// Of each column: no point from the index `top_` on is there, and none below `bottom_`.
+  std::vector<std::uint16_t> top_, bottom_;
 };
 
 }  // namespace capstan::testing::removal

@@ -46,13 +46,38 @@ Mean ln_lines_over_process(const testing::Summary& shops) {
   return mean_of(ln);
 }
 
+/// A row a shop: the time of its last ten parts over the handbook's, and its parts over a hidden limit.
+Table shop_by_shop(const testing::Summary& shops) {
+  Table out{{"seed", "handbook over a limit"}, {}};
+  for (std::size_t a = 1; a < testing::kArmNames.size(); ++a) {
+    out.head.push_back(std::string(testing::kArmNames[a]) + ": time");
+    out.head.emplace_back("over a limit");
+  }
+  for (const testing::Summary::Shop& shop : shops.each) {
+    std::vector<std::string> row{std::to_string(shop.seed), std::to_string(shop.over[0])};
+    for (std::size_t a = 1; a < shop.over.size(); ++a) {
+      row.push_back(fixed(shop.time_ratio[a], 3));
+      row.push_back(std::to_string(shop.over[a]));
+    }
+    out.rows.push_back(std::move(row));
+  }
+  return out;
+}
+
 std::string of(int hits, int n) { return std::to_string(hits) + " of " + std::to_string(n); }
 
 }  // namespace
 
-Comparison tuning() {
+Comparison tuning(Extent extent) {
+  constexpr int kSample = 4;  // shops
   Comparison out{.name = "tuning"};
-  const testing::Summary shops = testing::run_shops(kFirstSeed, kShops, kParts);
+  const testing::Summary shops =
+      testing::run_shops(kFirstSeed, extent == Extent::kSample ? kSample : kShops, kParts);
+  const Table each = shop_by_shop(shops);
+  if (extent == Extent::kSample) {
+    out.lines = lines_of(each);
+    return out;
+  }
   Table arms{{"speeds and feeds", "time over the handbook's, mean", "half of the shops between", "best",
               "worst", "parts over a hidden limit", "upper bound (95 %)", "the same, a shop counted as one",
               "shops with such a part", "largest load over a limit of the planner's"},
@@ -82,7 +107,8 @@ Comparison tuning() {
              " of the process's time, with an interval of 90 % from " +
              fixed(std::exp(between.value - between.half_90), 3) + " to " +
              fixed(std::exp(between.value + between.half_90), 3) + ".\n" + "\nThe other " +
-             std::to_string(shops.shops - shops.sound) + ":\n\n" + markdown(unsound);
+             std::to_string(shops.shops - shops.sound) + ":\n\n" + markdown(unsound) +
+             "\nEach shop; a time is that of the last ten parts over the handbook's:\n\n" + markdown(each);
   const bool lines = tune::TuneOptions{}.learner == tune::Learner::kRegression;
   const ArmSummary& taken =
       shops.arms[static_cast<std::size_t>(lines ? testing::Arm::kRegression : testing::Arm::kProcess)];

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 #include <string>
 
@@ -8,6 +7,7 @@
 #include "tests/support/corpus.h"
 #include "tests/support/differences/plan_difference.h"
 #include "tests/support/shop.h"
+#include "tests/support/soak.h"
 
 // A plan whose every field has a value of its own comes back from each form.
 
@@ -109,7 +109,7 @@ TEST(WrittenPlanProperty, ReadsBackWithEveryFieldFilledInEachForm) {
   ASSERT_TRUE(read);
   const auto plan = bind(*std::move(read), *in, {}, job);
   ASSERT_TRUE(plan);
-  const bool soak = std::getenv("CAPSTAN_SOAK") != nullptr;
+  const bool soak = soaking();
   constexpr unsigned kCount = 10;  // each of the 50 repetitions of a soak takes as many of its own: 500
   const unsigned first =
       soak ? 1 + kCount * static_cast<unsigned>(::testing::UnitTest::GetInstance()->random_seed()) : 1;

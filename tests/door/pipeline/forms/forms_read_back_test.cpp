@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "tests/support/corpus.h"
 #include "tests/support/differences/plan_difference.h"
 #include "tests/support/shop.h"
+#include "tests/support/soak.h"
 
 // A plan in each form that it is written in, read again, is the plan that was written.
 
@@ -110,7 +110,7 @@ TEST(CorpusEachFormOfRandomFiles, ReadsBackAsThePlanThatWasWritten) {
   const std::string corpus = testing::corpus_folder();
   if (corpus.empty()) GTEST_SKIP() << "corpus is absent";
   std::vector<std::string> files;
-  if (std::getenv("CAPSTAN_SOAK") != nullptr) {
+  if (soaking()) {
     for (const char* folder : {"/iso14649", "/ap238", "/cad"}) {
       for (const auto& e : std::filesystem::directory_iterator(corpus + folder)) {
         if (e.is_regular_file()) files.push_back(e.path().string());

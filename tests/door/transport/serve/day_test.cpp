@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,6 +13,7 @@
 
 #include "planner/door/transport/serve/wire/http.h"
 #include "tests/door/transport/serve/running_server.h"
+#include "tests/support/soak.h"
 
 namespace capstan::transport {
 namespace {
@@ -70,7 +70,7 @@ void misbehave(const std::string& socket, const std::string& session, std::uint6
 TEST(ServeProperty, OfADayOfRequestsEachIsAnsweredAndNothingIsLeft) {
   if (!http_is_built()) GTEST_SKIP() << "no Boost.Beast";
   std::mt19937_64 random(static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed()));
-  const int requests = std::getenv("CAPSTAN_SOAK") != nullptr ? kRequestsOfHalfAnHour : kSample;
+  const int requests = soaking() ? kRequestsOfHalfAnHour : kSample;
   std::map<int, std::string> programs;  // by the length of the tool
   int bound = 0, late = 0;
   double before_mb = 0.0;

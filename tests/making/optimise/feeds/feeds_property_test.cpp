@@ -8,6 +8,7 @@
 
 #include "planner/making/optimise/feeds.h"
 #include "tests/making/optimise/feeds/examples.h"
+#include "tests/support/soak.h"
 
 namespace capstan::optimise {
 namespace {
@@ -22,7 +23,7 @@ using model::MoveRole;
 TEST(FeedsProperty, AreTheSameWithWhatWasKnownBefore) {
   std::mt19937 random(20261125);
   KnownFeeds known;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < rounds(20, 60); ++round) {
     FeedQuestion q = question();
     q.explain = round % 4 == 0;
     q.cut.depth_mm += static_cast<double>(round % 20);

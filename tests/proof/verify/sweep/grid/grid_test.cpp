@@ -58,13 +58,14 @@ TEST(Grid, IsCutToTheLowestHeightOfTheCutterOnItsWay) {
     for (const Move& m : ways()) {
       // Between two places.
       const double between = 1e-6 + std::abs(m.to.z - m.from.z) / kPlaces;
+      std::vector<Vec3> tips;
+      for (int i = 0; i <= kPlaces; ++i) tips.push_back(point_of(m, static_cast<double>(i) / kPlaces));
       Grid g = block();
       (void)cut(g, m, cutter, {});
       for (int iy = 0; iy < g.ny(); ++iy) {
         for (int ix = 0; ix < g.nx(); ++ix) {
           double lowest = 10.0, nearest = 1e300, there = 0.0;
-          for (int i = 0; i <= kPlaces; ++i) {
-            const Vec3 tip = point_of(m, static_cast<double>(i) / kPlaces);
+          for (const Vec3& tip : tips) {
             const Vec2 apart = g.centre(ix, iy) - xy(tip);
             if (std::abs(apart.x) > cutter.radius_mm || std::abs(apart.y) > cutter.radius_mm) continue;
             const double d = std::sqrt(dot(apart, apart));
