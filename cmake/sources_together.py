@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Which sources of a target can be compiled together.
 
-sources_together.py MOST SOURCE...   prints a line a source: the number of its group, a blank, its path
+sources_together.py MOST LIST   LIST has a line a source: its target, a blank, its path; printed is a line a source: its
+                                target, the number of its group there, its path
 
 Sources compiled together share one unnamed namespace and one set of includes, so that two of them may not give a name
 two meanings. Each source goes, in its order, into the first group that has room and in which no name that one source
@@ -112,7 +113,12 @@ def groups(sources, most):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit("usage: sources_together.py MOST SOURCE...")
-    for group, path in groups(sys.argv[2:], int(sys.argv[1])):
-        print(group, path)
+    if len(sys.argv) != 3:
+        sys.exit("usage: sources_together.py MOST LIST")
+    of_target = {}
+    for line in read(sys.argv[2]).splitlines():
+        target, path = line.split(" ", 1)
+        of_target.setdefault(target, []).append(path)
+    for target, paths in of_target.items():
+        for group, path in groups(paths, int(sys.argv[1])):
+            print(target, group, path)
