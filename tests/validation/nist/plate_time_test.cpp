@@ -15,13 +15,14 @@ class PlateTimes : public ::testing::Test {
  protected:
   void SetUp() override {
     CAPSTAN_CORPUS_FILE(folder, "measured/nist_plate");
-    const auto read =
+    // Of all tests; what is studied refers to the plate.
+    static const auto kRead =
         read_plate(folder, capstan::testing::source_dir() + "/tests/validation/nist_plate.yaml");
-    ASSERT_TRUE(read) << to_text(read.error());
-    plate_ = *read;
-    const auto study = study_times(plate_);
-    ASSERT_TRUE(study) << to_text(study.error());
-    study_ = *study;
+    ASSERT_TRUE(kRead) << to_text(kRead.error());
+    static const auto kStudy = study_times(*kRead);
+    ASSERT_TRUE(kStudy) << to_text(kStudy.error());
+    plate_ = *kRead;
+    study_ = *kStudy;
   }
   Plate plate_;
   TimeStudy study_;

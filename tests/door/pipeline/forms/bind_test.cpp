@@ -231,31 +231,11 @@ TEST(Bind, FinishesASurfaceWithinItsTolerance) {
     EXPECT_EQ(f.severity, Severity::kNote) << f.code << " " << f.message;
 }
 
-/// A binary STL with all its lengths doubled.
-std::string twice_as_large(std::string stl) {
-  constexpr std::size_t kHead = 84, kTriangle = 50, kNormal = 12;
-  for (std::size_t t = kHead; t + kTriangle <= stl.size(); t += kTriangle) {
-    for (std::size_t n = 0; n < 9; ++n) {
-      char* const at = stl.data() + t + kNormal + n * sizeof(float);
-      float v = 0.0F;
-      std::memcpy(&v, at, sizeof v);
-      v *= 2.0F;
-      std::memcpy(at, &v, sizeof v);
-    }
-  }
-  return stl;
-}
-
-// How far a place stands from the surface is searched in rings of cells of the check's grid, which has as
-// many for every part: the larger the part, the fewer rings.
 TEST(Bind, ASurfaceThatIsRoughedOnlyIsFoundToStandTooHigh) {
   // What lacks its finish keeps terraces and half a millimetre on them.
   Inputs in = shop();
   in.material_name = "EN AW-6061";
-  Job reading;
-  auto drawn = read_plan(twice_as_large(testing::slurp(kExamples + "surface.stl")), "twice.stl", reading);
-  ASSERT_TRUE(drawn) << to_text(drawn.error());
-  model::Plan plan = bound(*std::move(drawn), in);
+  model::Plan plan = bound(part("surface.stl"), in);
   ASSERT_EQ(plan.steps.size(), 3U);
   plan.steps.erase(plan.steps.begin() + 1, plan.steps.end());
   Job job;

@@ -373,6 +373,22 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
       return z <= c.high + limit && c.keeps(p, may_stay, limit + slack);
     });
   };
+  // How far columns are aside, by their steps along x and y: asked of each pair of columns, made once.
+  const int most = std::max(grid.nx(), grid.ny());
+  std::vector<double> asides;
+  int known = 0;
+  const auto aside = [&](int dx, int dy) {
+    if (const int far = std::max(dx, dy); far >= known) {
+      known = std::min(most, 2 * far + 16);
+      asides.clear();
+      for (int y = 0; y < known; ++y) {
+        for (int x = 0; x < known; ++x)
+          asides.push_back(std::max(0.0, std::hypot(x, y) * grid.cell() - slack));
+      }
+    }
+    return asides[static_cast<std::size_t>(dy) * static_cast<std::size_t>(known) +
+                  static_cast<std::size_t>(dx)];
+  };
   double worst = 0.0, top = 0.0;
   std::size_t cells = 0, all = 0;
   Vec2 where;
@@ -388,7 +404,6 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
       double near = z - own;
       if (near <= limit) continue;
       // Rings of columns around, until they are farther away than the nearest found.
-      const int most = std::max(grid.nx(), grid.ny());
       for (int n = 1; n < most && near > limit; ++n) {
         if ((n * grid.cell()) - slack >= near) break;
         for (int dy = -n; dy <= n; ++dy) {
@@ -398,8 +413,8 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
             if (jx < 0 || jy < 0 || jx >= grid.nx() || jy >= grid.ny()) continue;
             const double column = grid.part[grid.index(jx, jy)];
             if (column <= Grid::kNothing / 2) continue;
-            const double aside = std::max(0.0, std::hypot(dx, dy) * grid.cell() - slack);
-            near = std::min(near, std::hypot(aside, std::max(0.0, z - column)));
+            const double beside = aside(std::abs(dx), std::abs(dy)), above = std::max(0.0, z - column);
+            if (beside * beside + above * above < near * near) near = std::hypot(beside, above);
           }
         }
       }
