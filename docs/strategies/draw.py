@@ -49,7 +49,7 @@ PICTURES = [
     ("drill_insert", "leaning", "HOLE drill", "time"),
     ("pocket_finish", "bracket", "POCKET area_finish", "above"),
     ("open_slot", "bracket", "SLOT area_rough", "above"),
-    ("spot", "bracket", "DOWEL HOLE 1 centre", "time"),
+    ("spot", "strategies", "DEEP HOLE centre", "time"),
     ("ream", "bracket", "DOWEL HOLE 1 ream", "time"),
     ("tap", "bracket", "M6 tap", "time"),
     ("drill", "bracket", "MOUNTING HOLES[1] drill", "time"),

@@ -117,8 +117,10 @@ class KnownFeeds {
 void enter_as_a_slot(FeedQuestion& question, double ae_mm, const model::CutterPath& path);
 
 /// Where a path of wide cuts is a slot for a diameter of its way or more, its moves turn no faster than the
-/// table's speed times deep_slot_share of the sample's depth (cut/limits.h), as far down as the spindle goes:
-/// as factors of the step's speed. A step that is all slot has that share in its own speed.
+/// table's speed times deep_slot_share of the largest depth met on that way (cut/limits.h), as far down as
+/// the spindle goes: as factors of the step's speed. One run of a slot has one speed, the lowest that one of
+/// its moves asks for, since a spindle follows no ramp move by move. A step that is all slot has that share
+/// in its own speed.
 void slow_in_deep_slots(FeedQuestion& question);
 
 /// Splits feed moves (lines and arcs) where the allowed feed of their sections changes. A move has one feed,

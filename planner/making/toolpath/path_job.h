@@ -65,6 +65,12 @@ struct Cleared {
   double allowance_side_mm = 0.0;
 };
 
+/// What the last pass of a head under an overhang takes from the walls, mm: the neck may bend within it
+/// before. Default, unsourced.
+inline constexpr double kLastSide = 0.25;
+/// Largest factor of the feed of such a thin pass against a whole one; default, unsourced.
+inline constexpr double kMostQuicker = 3.0;
+
 /// Input of one workingstep's path.
 ///
 /// Frame  everything named `_z_` is in the set-up's frame, z along the tool axis, away from the work.
@@ -128,6 +134,8 @@ struct PathJob {
   /// Under an overhang, by the feed of one edge beside the mouth: where both edges of the head cut in the
   /// middle, and where the whole front does, at most.
   double both_edges_share = 0.5, front_share = 1.0;
+  /// There too: feed of the thin last pass along the walls; nothing: that of a chip as thick as the others'.
+  std::optional<double> last_share;
 
   geometry::Region avoid;  ///< set-up frame: other walls, clamps; at every depth
   geometry::Region stock;  ///< set-up frame: outline of the raw material; empty: where the feature is

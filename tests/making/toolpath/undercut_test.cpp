@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
+#include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/path_job.h"
 #include "tests/making/toolpath/path_helpers.h"
 
@@ -161,7 +163,30 @@ TEST(UndercutPath, TakesTheWallsInAThinLastPassWhereTheHeadMovesAside) {
   std::sort(aside.begin(), aside.end());
   ASSERT_GE(aside.size(), 3U);
   EXPECT_NEAR(aside.back(), 2.5, 1e-9) << "(23 - 18) / 2";
-  EXPECT_NEAR(aside[aside.size() - 2], 2.3, 1e-9) << "0.2 mm less";
+  EXPECT_NEAR(aside[aside.size() - 2], 2.5 - kLastSide, 1e-9);
+}
+
+TEST(UndercutPath, FeedsTheLastPassAsItIsAskedFor) {
+  PathJob t = tee(true);
+  t_cutter(t, 18.0, 8.0, 8.0);
+  t.left_on_side_mm = 0.0;
+  t.last_share = 0.4;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  int last = 0;
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    const bool along = std::abs(g->path.x[i] - g->path.x[i - 1]) > 5.0 && g->path.role[i] == MoveRole::kCut;
+    if (!along) continue;
+    const bool wall = std::abs(std::abs(g->path.y[i]) - 2.5) < 1e-9;
+    if (wall) {
+      EXPECT_NEAR(g->feed_factor[i], 0.4, 1e-9);
+    } else {
+      EXPECT_GT(g->feed_factor[i], 0.45) << "the middle by half, for both edges cut; aside by 1 at least";
+    }
+    last += wall ? 1 : 0;
+  }
+  EXPECT_EQ(last, 4) << "two walls on two heights";
 }
 
 TEST(UndercutPath, GivesThinPassesTheChipOfAWholeOneAndTheWayBackAQuickerFeed) {
@@ -180,11 +205,12 @@ TEST(UndercutPath, GivesThinPassesTheChipOfAWholeOneAndTheWayBackAQuickerFeed) {
     if (along && g->path.role[i] == MoveRole::kCut) aside[std::abs(g->path.y[i])] = g->feed_factor[i];
   }
   EXPECT_GT(back, 1.0);
-  // Two passes of 1.15 mm and one of 0.2, asked for 2 mm: sqrt(2 (18 - 2)) = sqrt(1.15 (18 - 1.15)) 1.2850.
+  // Two passes of half of 2.5 mm but the last, asked for 2 mm: a chip is 2 sqrt(a (18 - a)) / 18 of the feed.
+  const double whole = 0.5 * (2.5 - kLastSide);
   ASSERT_EQ(aside.size(), 4U);
-  EXPECT_NEAR((++aside.begin())->second, 1.2850, 1e-3)
+  EXPECT_NEAR((++aside.begin())->second, std::sqrt(32.0 / (whole * (18.0 - whole))), 1e-3)
       << "the thickest chip, and with it the force of one tooth, is the same";
-  EXPECT_NEAR(aside.rbegin()->second, std::sqrt(32.0 / (0.2 * 17.8)), 1e-3);
+  EXPECT_NEAR(aside.rbegin()->second, std::sqrt(32.0 / (kLastSide * (18.0 - kLastSide))), 1e-3);
 }
 
 TEST(UndercutPath, RoundAClosedEndIsSlowerByTheTeethThatCutAtOnce) {
@@ -267,6 +293,32 @@ TEST(BackPath, MillsTheWholeRingBelowANarrowHoleAndNothingAbove) {
     EXPECT_GT(g->levels_z_mm[i], g->levels_z_mm[i - 1]);
     EXPECT_LE(g->levels_z_mm[i] - g->levels_z_mm[i - 1], 1.5 + 1e-9);
   }
+}
+
+// A straight cut of the width a and a circle of radius e inside a wall of radius w have the same contact
+// angle where w^2 = e^2 + R^2 + 2 e (R - a).
+TEST(BackPath, MakesTheWallInALastThinCircleThatTakesWhatTheNeckWasBentToo) {
+  PathJob t = far_end(18.0, 6.0, 9.0);
+  t.last_share = 2.5;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  std::set<double> aside;
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    const auto p = g->path.point(i);
+    const double e = std::hypot(p.x, p.y);
+    if (e < 1e-6) continue;
+    aside.insert(std::round(1e6 * e) / 1e6);
+    const bool wall = std::abs(e - 4.0) < 1e-6;
+    EXPECT_NEAR(g->feed_factor[i], wall ? 2.5 : 1.0, 1e-9) << e;
+  }
+  ASSERT_GE(aside.size(), 2U);
+  EXPECT_NEAR(*aside.rbegin(), 4.0, 1e-6);
+  EXPECT_NEAR(*++aside.rbegin(), 4.0 - kLastSide, 1e-6);
+  const double taken = last_circle_mm(t, 0.1);
+  const double before = 13.0 - kLastSide - 0.1;  // radius of the wall, 0.1 of it by bending
+  EXPECT_NEAR(before * before, 16.0 + 81.0 + 8.0 * (9.0 - taken), 1e-9);
+  EXPECT_GT(taken, kLastSide + 0.1) << "inside a circle the cutter is in the cut for longer";
 }
 
 TEST(BackPath, RefusesAHeadOrANeckThatDoesNotPassAndSaysWhatWould) {

@@ -32,6 +32,7 @@ namespace {
 /// Length of a slot from which it has its own speed, in diameters: on the way over to the next ring the
 /// spindle would still be changing. Default, unsourced.
 constexpr double kLongSlot = 1.0;
+constexpr double kAnySpeed = 1e300;  // 1/min
 
 }  // namespace
 
@@ -48,13 +49,16 @@ void slow_in_deep_slots(FeedQuestion& q) {
     slot_mm[s.move] += s.step_mm;
   }
   for (std::size_t i = 0; i < share.size();) {
-    double long_mm = 0.0;
+    double long_mm = 0.0, one = kAnySpeed;
     std::size_t end = i;
-    for (; end < share.size() && share[end] < 1.0; ++end) long_mm += slot_mm[end];
+    for (; end < share.size() && share[end] < 1.0; ++end) {
+      long_mm += slot_mm[end];
+      const double most = std::max(share[end] * table, speeds(q.cut).lo);
+      one = std::min({one, most, std::abs(q.n_rpm * q.speed_factor[end])});
+    }
     for (std::size_t k = i; k < end && long_mm >= kLongSlot * d; ++k) {
       const double now = std::abs(q.n_rpm * q.speed_factor[k]);
-      const double most = std::max(share[k] * table, speeds(q.cut).lo);
-      if (now > most) q.speed_factor[k] *= most / now;
+      if (now > one) q.speed_factor[k] *= one / now;
     }
     i = std::max(end, i + 1);
   }

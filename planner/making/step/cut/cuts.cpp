@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/optimise/cut/limits.h"
+#include "planner/making/step/cut/question.h"
 #include "planner/model/plan/decision/condemned.h"
 
 namespace capstan::step {
@@ -86,53 +88,89 @@ Result<optimise::CutAnswer> Cuts::answer(const draft::StepDraft& step, optimise:
   return other;
 }
 
-Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, const optimise::CutAnswer& a,
-                                             toolpath::PathJob& job) {
-  if (q.slot || !job.left_on_side_mm) return a.loads;  // asked as a slot of the whole head
-  constexpr double kLeast = 0.02;                      // of the feed; default, unsourced
-  constexpr int kHalvings = 12;                        // to a thousandth of the feed
-  const auto at = [&](double width, double edges, double share) -> Result<model::StepLoads> {
-    auto l = optimise::loads_of(q, a.ap_mm, width, a.n_rpm, share * a.feed_mm_min);
-    if (!l)
-      return fail("PIP-INFEASIBLE", "the loads of " + q.cutter.id +
-                                        " under the overhang are outside the range of the force formulas; "
-                                        "state its teeth and cutting width");
-    l->torque_nm *= edges;
-    l->power_w *= edges;
-    l->mrr_mm3_min *= edges;
-    return *l;
+namespace {
+
+/// One pass under an overhang: the width that it cuts, by how many edges of the head at once.
+struct Pass {
+  double width_mm = 0.0, edges = 1.0;
+};
+
+/// Its loads at a share of the answer's feed.
+Result<model::StepLoads> loads_of_pass(const optimise::CutQuestion& q, const optimise::CutAnswer& a,
+                                       const Pass& pass, double share) {
+  auto l = optimise::loads_of(q, a.ap_mm, pass.width_mm, a.n_rpm, share * a.feed_mm_min);
+  if (!l)
+    return fail("PIP-INFEASIBLE", "the loads of " + q.cutter.id +
+                                      " under the overhang are outside the range of the force formulas; "
+                                      "state its teeth and cutting width");
+  l->torque_nm *= pass.edges;
+  l->power_w *= pass.edges;
+  l->mrr_mm3_min *= pass.edges;
+  return *l;
+}
+
+/// The largest share of the answer's feed, up to `share`, at which the pass keeps the limits.
+/// Fails  PIP-INFEASIBLE where that would be less than a fiftieth, or its chips thinner than the cutter's
+/// least.
+Result<double> largest_share(const optimise::CutQuestion& q, const optimise::CutAnswer& a, const Pass& pass,
+                             double share) {
+  constexpr double kLeast = 0.02;  // of the feed; default, unsourced
+  constexpr int kHalvings = 12;    // to a thousandth of the feed
+  const auto holds = [&](double x) {
+    const auto l = loads_of_pass(q, a, pass, x);
+    return l && optimise::worst_excess(q, *l, a.n_rpm) <= 0.0;
   };
-  const auto most = [&](double width, double edges, double share) -> Result<double> {
-    const auto holds = [&](double x) {
-      const auto l = at(width, edges, x);
-      return l && optimise::worst_excess(q, *l, a.n_rpm) <= 0.0;
-    };
-    if (holds(share)) return share;
-    if (!holds(kLeast)) {
-      const auto l = at(width, edges, kLeast);
-      if (!l) return tl::unexpected(l.error());
-      const auto worst = optimise::worst_load(q, *l, a.n_rpm);
-      return fail("PIP-INFEASIBLE", "under the overhang, over a width of " + trimmed(width, 2) + " mm, " +
-                                        model::text_of(model::ExceededLimit{
-                                            worst.name, worst.value, worst.limit, worst.unit, {}}) +
-                                        " even at a fiftieth of the feed; use a smaller or a lower head");
-    }
-    double lo = kLeast, hi = share;
-    for (int i = 0; i < kHalvings; ++i) {
+  const auto rubs = [&](double x) {
+    const auto l = loads_of_pass(q, a, pass, x);
+    return !l || l->chip_thickness_mm < optimise::thinnest_chip_mm(q);
+  };
+  double lo = share;
+  if (!holds(share)) {
+    double hi = share;
+    lo = kLeast;
+    for (int i = 0; i < kHalvings && holds(kLeast); ++i) {
       const double x = 0.5 * (lo + hi);
       (holds(x) ? lo : hi) = x;
     }
-    return lo;
-  };
+  }
+  const bool held = holds(lo);
+  if (held && !rubs(lo)) return lo;
+  const auto l = loads_of_pass(q, a, pass, lo);
+  if (!l) return tl::unexpected(l.error());
+  const auto worst = optimise::worst_load(q, *l, a.n_rpm);
+  const std::string limit =
+      model::text_of(model::ExceededLimit{worst.name, worst.value, worst.limit, worst.unit, {}});
+  return fail("PIP-INFEASIBLE",
+              "under the overhang, over a width of " + trimmed(pass.width_mm, 2) + " mm, " +
+                  (held ? "chips would be " + trimmed(l->chip_thickness_mm, 5) + " mm thick, at least " +
+                              trimmed(optimise::thinnest_chip_mm(q), 5) + " mm (" + limit + ")"
+                        : limit + " even at a fiftieth of the feed") +
+                  "; use a smaller or a lower head, or a stiffer neck");
+}
+
+}  // namespace
+
+Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q, const optimise::CutAnswer& a,
+                                             double at_wall_mm, toolpath::PathJob& job) {
+  if (q.slot) return a.loads;  // asked as a slot of the whole head
+  if (const double last = last_width_under_overhang_mm(job, a.loads.deflection_mm); last > 0.0) {
+    optimise::CutQuestion wall = q;
+    wall.deflection_limit_mm = at_wall_mm;
+    const auto share = largest_share(wall, a, {last, 1.0}, toolpath::kMostQuicker);
+    if (!share) return tl::unexpected(share.error());
+    job.last_share = *share;
+  }
+  if (!job.left_on_side_mm) return a.loads;
   // At no angle do the forces of both edges together exceed those of one at its worst (checked for heads of
   // 16 to 40 mm with 6 and 8 teeth, edges a twentieth to a fifth of the diameter wide).
-  const auto both = most(a.ae_mm, 2.0, 1.0);
+  const Pass middle{a.ae_mm, 2.0};
+  const auto both = largest_share(q, a, middle, 1.0);
   if (!both) return tl::unexpected(both.error());
-  const auto front = most(q.cutter.cutting_diameter_mm, 1.0, job.front_share);
+  const auto front = largest_share(q, a, {q.cutter.cutting_diameter_mm, 1.0}, job.front_share);
   if (!front) return tl::unexpected(front.error());
   job.both_edges_share = *both;
   job.front_share = *front;
-  return at(a.ae_mm, 2.0, job.both_edges_share);
+  return loads_of_pass(q, a, middle, job.both_edges_share);
 }
 
 }  // namespace capstan::step

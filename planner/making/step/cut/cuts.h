@@ -58,10 +58,12 @@ class Cuts {
 /// Bounds the feed of passes under an overhang, whose sections are not measured along the path. Where both
 /// edges of the head or its whole front cut (PathJob::both_edges_share, front_share), the loads of that cut
 /// must stay within torque and power. Torques of the two edges add up; their forces across the neck oppose
-/// each other. The whole front cuts as in a slot. Returns the loads of the middle pass.
+/// each other. The whole front cuts as in a slot. A thin last pass (PathJob::last_share) may bend the neck by
+/// `at_wall_mm`, and takes beside its width what the others were bent. No feed is below the least chip of
+/// the cutter. Returns the loads of the middle pass of a slot; else the answer's.
 /// Fails  PIP-INFEASIBLE where no feed holds the limits.
 [[nodiscard]] Result<model::StepLoads> hold_under_overhang(const optimise::CutQuestion& q,
                                                            const optimise::CutAnswer& answer,
-                                                           toolpath::PathJob& job);
+                                                           double at_wall_mm, toolpath::PathJob& job);
 
 }  // namespace capstan::step

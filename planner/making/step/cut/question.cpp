@@ -235,12 +235,18 @@ void under_an_overhang(optimise::CutQuestion& q, const toolpath::PathJob& job) {
   q.ae_mm = q.width_mm = d;
   q.fz_start_mm *= kFeedShare;
   const auto u = toolpath::undercut_of(job.shape);
-  if (!u || u->flank_rad > 0.0 || !job.left_on_side_mm) return;
+  if (!u || !job.left_on_side_mm) return;
   q.slot = false;
   q.ae_mm = q.width_mm = toolpath::undercut_width_mm(job, *u);
-  // Where the head moves aside, a last thin pass makes the walls: the others may bend it within that.
-  if (u->widest_mm - job.allowance_side_mm - 0.5 * d > toolpath::kLastSide)
-    q.deflection_limit_mm = std::max(q.deflection_limit_mm, kWallOfZone * toolpath::kLastSide);
+}
+
+/// Where a thin last pass makes the walls under an overhang, the others may bend the neck within it.
+void bend_within_last_pass(optimise::CutQuestion& q, const toolpath::PathJob& job) {
+  const double left = last_width_under_overhang_mm(job, 0.0);
+  if (left > 0.0 && !q.slot)
+    q.deflection_limit_mm =
+        std::max(q.deflection_limit_mm,
+                 bending_in_allowance_mm(std::min(left, toolpath::kLastSide), q.cutter, q.material));
 }
 
 /// The operator's limits on feed and speed, as if the machine did no more.
@@ -287,6 +293,19 @@ double bending_of_finish_mm(double zone_mm) {
 
 double tip_beside_wall_mm(double wall_error_mm) {
   return std::max(kWallOfZone / kDeflectionShare * wall_error_mm, mechanics::kQuietDeflectionMm);
+}
+
+double last_width_under_overhang_mm(const toolpath::PathJob& job, double bent_mm) {
+  if (job.shape.kind == ShapeKind::kHole)
+    return job.hole_above_mm > 0.0 && toolpath::cuts_from_below(job) ? toolpath::last_circle_mm(job, bent_mm)
+                                                                     : 0.0;
+  const auto u = toolpath::undercut_of(job.shape);
+  const double left = u ? toolpath::last_side_mm(job, *u) : 0.0;
+  return left > 0.0 ? std::min(left + bent_mm, job.cutter.cutting_diameter_mm) : 0.0;
+}
+
+double bending_of_last_pass_mm(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job) {
+  return bending_of_finish_mm(zone_across(p, step, job, width_of(job.shape)));
 }
 
 bool leaves_terraces(const model::FeatureShape& s) {
@@ -398,15 +417,16 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
     q.width_mm = std::min(q.width_mm, d);
   }
-  if (model::has(step.cutter.cutter_class, model::CutterTrait::kUndercuts) &&
-      model::has(step.cutter.cutter_class, model::CutterTrait::kNecked))
-    under_an_overhang(q, job);
+  const bool under = model::has(step.cutter.cutter_class, model::CutterTrait::kUndercuts) &&
+                     model::has(step.cutter.cutter_class, model::CutterTrait::kNecked);
+  if (under) under_an_overhang(q, job);
   if (q.slot && job.shape.kind == model::ShapeKind::kHole && toolpath::cuts_from_below(job)) {
     const auto most = toolpath::back_cut(job);
     q.slot = false;
     q.ap_mm = q.depth_mm = most.ap_mm;
     q.ae_mm = q.width_mm = most.ae_mm;
   }
+  if (under) bend_within_last_pass(q, job);
   const bool cone = model::has(step.cutter.cutter_class, model::CutterTrait::kSinks);
   // A broken edge: as wide as it is deep.
   if (cone && q.kind == CutKind::kFinish && q.ap_mm) q.width_mm = std::max(0.05, *q.ap_mm);

@@ -46,6 +46,13 @@ namespace capstan::step {
 /// be off at all, so that the wall is within its tolerance even if it were pushed off by all of it.
 [[nodiscard]] double tip_beside_wall_mm(double wall_error_mm);
 
+/// Under an overhang, where a thin last pass makes the walls: its width, as that of a straight cut with the
+/// same contact angle, mm, where the neck is bent by `bent_mm` in the passes before; 0: no such pass.
+[[nodiscard]] double last_width_under_overhang_mm(const toolpath::PathJob& job, double bent_mm);
+/// What the neck may bend in that pass, mm: as in a finish of this feature.
+[[nodiscard]] double bending_of_last_pass_mm(const PlanSoFar& p, const draft::StepDraft& step,
+                                             const toolpath::PathJob& job);
+
 /// True if levels leave terraces on the shape's walls: a slot whose section is not square, a hole that
 /// narrows downwards.
 [[nodiscard]] bool leaves_terraces(const model::FeatureShape& shape);

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/hole/hole_paths.h"
 #include "planner/making/toolpath/link/path_writer.h"
 #include "planner/making/toolpath/refuse.h"
@@ -31,11 +32,19 @@ struct Back {
   double low_z = 0.0, high_z = 0.0;
 };
 
+/// How far off the middle the last circle is, mm.
+double aside_of(const PathJob& task) {
+  const double widest = task.cutter.cutter_class == CutterClass::kBackCountersink
+                            ? task.shape.bottom_diameter_mm
+                            : task.shape.diameter.middle() - 2.0 * task.allowance_side_mm;
+  return 0.5 * (widest - task.cutter.cutting_diameter_mm);
+}
+
 Result<Back> sized(const PathJob& task) {
   const auto& c = task.cutter;
   const auto& s = task.shape;
   Back b{c.cutting_diameter_mm, c.cutting_width_mm > 0.0 ? c.cutting_width_mm : c.maximum_depth_of_cut_mm,
-         c.neck_diameter_mm};
+         c.neck_diameter_mm, aside_of(task)};
   if (!(b.height_mm > 0.0))
     return refuse(task, "TPA-TOOL",
                   "cutter " + c.id + ": the height of its head is missing; state its cutting width");
@@ -63,10 +72,8 @@ Result<Back> sized(const PathJob& task) {
       return refuse(task, "TPA-NO-FIT",
                     "the cutter's cone is " + trimmed(cone, 3) + " mm high, the hole's " +
                         trimmed(s.depth_mm, 3) + " mm, the head " + trimmed(b.height_mm, 3) + " mm");
-    b.aside_mm = wide - b.head_mm / 2.0;
     b.low_z = b.high_z = bottom - (b.height_mm - cone);
   } else {
-    b.aside_mm = half - task.allowance_side_mm - 0.5 * b.head_mm;
     b.high_z = top - b.height_mm;
     // From below: the first level takes the lowest part, the rest of the head hangs in the air below.
     const double low = s.through ? bottom + back_cut(task).ap_mm - b.height_mm : bottom;
@@ -91,7 +98,8 @@ Status passes(const PathJob& task, const Back& b) {
   const double room = 0.5 * (hole - b.neck_mm) - model::kNeckClearMm;
   if (b.head_mm <= hole - 2.0 * model::kHeadClearMm + 1e-9 && b.aside_mm <= room + 1e-9) return {};
   const double most = hole - 2.0 * model::kHeadClearMm;
-  const double neck = hole - 2.0 * model::kNeckClearMm - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
+  const double neck =
+      hole - 2.0 * model::kNeckClearMm - 2.0 * b.aside_mm - b.head_mm + std::min(b.head_mm, most);
   return fail({.code = "TPA-NO-FIT",
                .message = task.shape.name + ": the cutter " + task.cutter.id + " with a head of " +
                           trimmed(b.head_mm, 3) + " mm and a neck of " + trimmed(b.neck_mm, 3) +
@@ -113,6 +121,15 @@ BackCut back_cut(const PathJob& task) {
   return {task.shape.through ? kHeightPart * head : head, ae};
 }
 
+double last_circle_mm(const PathJob& task, double bent_mm) {
+  const double r = 0.5 * task.cutter.cutting_diameter_mm;
+  const double aside = aside_of(task);
+  if (!(aside > 0.0)) return 0.0;
+  const double w = std::max(0.5 * task.hole_above_mm, r + aside - kLastSide) - bent_mm;
+  const double flat = 0.5 * (w * w - aside * aside - r * r) / aside;
+  return std::clamp(r - flat, 0.0, 2.0 * r);
+}
+
 bool cuts_from_below(const PathJob& task) {
   return task.cutter.cutter_class == CutterClass::kTSlotMill ||
          task.cutter.cutter_class == CutterClass::kBackCountersink;
@@ -126,11 +143,12 @@ Result<GeneratedPath> back_path(const PathJob& task, Job&) {
   if (auto ok = passes(task, *b); !ok) return tl::unexpected(ok.error());
   const BackCut most = back_cut(task);
   // Circles whose contact angle is that of a straight cut of the width allowed: the next centre e follows
-  // from the wall w that the last one left by w^2 = e^2 + R^2 + 2 e (R - ae).
+  // from the wall w that the last one left by w^2 = e^2 + R^2 + 2 e (R - ae). The last takes kLastSide.
   std::vector<double> circles;
   const double r = 0.5 * b->head_mm;
   double wall = 0.5 * task.hole_above_mm;
-  while (circles.empty() || circles.back() < b->aside_mm - 1e-9) {
+  const double rough = b->aside_mm - kLastSide;
+  while (wall < rough + r - 1e-9) {
     const double flat = r - most.ae_mm;
     const double e = -flat + std::sqrt(flat * flat - r * r + wall * wall);
     if (circles.size() >= kMost || !(e > (circles.empty() ? 0.0 : circles.back() + 1e-6)))
@@ -138,9 +156,10 @@ Result<GeneratedPath> back_path(const PathJob& task, Job&) {
                     "the cutter's head of " + trimmed(b->head_mm, 3) +
                         " mm is too small for what it mills: it takes more than " + std::to_string(kMost) +
                         " circles; take a larger one");
-    circles.push_back(std::min(e, b->aside_mm));
+    circles.push_back(std::min(e, rough));
     wall = circles.back() + r;
   }
+  circles.push_back(b->aside_mm);
   const double rise = b->high_z - b->low_z;
   const double levels_most = rise / most.ap_mm;
   if (!(levels_most <= kMost))
@@ -161,13 +180,15 @@ Result<GeneratedPath> back_path(const PathJob& task, Job&) {
     if (i > 0) w.line({c.x, c.y, z}, MoveRole::kLink);
     for (std::size_t k = 0; k < circles.size(); ++k) {
       const double e = circles[k];
+      const bool last = k + 1 == circles.size();
+      w.factors(last ? task.last_share.value_or(1.0) : 1.0, 1.0);
       // Out on a half circle, round, and back to the middle on another: the wall is met and left along it.
       w.arc({c.x + e, c.y, z}, {c.x + 0.5 * e, c.y}, cw, MoveRole::kCut);
       w.arc({c.x - e, c.y, z}, c, cw, MoveRole::kCut);
       w.arc({c.x + e, c.y, z}, c, cw, MoveRole::kCut);
-      w.arc({c.x, c.y, z}, {c.x + 0.5 * e, c.y}, cw,
-            k + 1 < circles.size() ? MoveRole::kCut : MoveRole::kRetract);
+      w.arc({c.x, c.y, z}, {c.x + 0.5 * e, c.y}, cw, last ? MoveRole::kRetract : MoveRole::kCut);
     }
+    w.factors(1.0, 1.0);
     heights.push_back(z);
   }
   // Up through the narrow hole at feed, in its middle.

@@ -28,6 +28,10 @@ struct BackCut {
   double ap_mm = 0.0, ae_mm = 0.0;
 };
 [[nodiscard]] BackCut back_cut(const PathJob& task);
+/// Width of the last circle of such a path, which makes the wall, as that of a straight cut with the same
+/// contact angle, mm. `bent_mm`: how far off the wall the neck was bent in the circles before. Needs a head
+/// smaller than what it mills; else 0.
+[[nodiscard]] double last_circle_mm(const PathJob& task, double bent_mm);
 /// True if the cutter has a head that cuts above itself, on a neck.
 [[nodiscard]] bool cuts_from_below(const PathJob& task);
 

@@ -181,7 +181,7 @@ class Contours {
         solid.from_mm = level_.above_mm;
         auto in = c_.enter(solid, t, nullptr);
         if (!in) return tl::unexpected(in.error());
-        c_.writer.follow(*in, level_.z_mm, MoveRole::kCut);
+        c_.follow(level_, *in);
       }
     }
     return {};
@@ -190,7 +190,7 @@ class Contours {
   /// Writes the pending track, which has been reached but not followed yet.
   void flush() {
     if (pending_.segments.empty()) return;
-    c_.writer.follow(pending_, level_.z_mm, MoveRole::kCut);
+    c_.follow(level_, pending_);
     pending_ = {};
   }
 
@@ -249,7 +249,7 @@ class Contours {
   }
 
   void cut(std::size_t i, const Track& t) {
-    c_.writer.follow(t, level_.z_mm, MoveRole::kCut);
+    c_.follow(level_, t);
     done_[i].push_back(t);
   }
 
@@ -355,7 +355,7 @@ bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
       }
       const Vec2 p = lead.track.start;
       cutter.writer.arc({p.x, p.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
-      cutter.writer.follow(lead.track, level.z_mm, MoveRole::kCut);
+      if (!cutter.follow(level, lead.track)) return true;
       cutter.writer.arc({lead.to.x, lead.to.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
       return true;
     }

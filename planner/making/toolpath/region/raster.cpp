@@ -69,7 +69,14 @@ class Raster {
     lo += margin;
     hi -= margin;
     const double step = std::min(c_.step_mm, 1.98 * c_.radius_mm);
+    // Beyond an open side the first line is where the pass would only touch the piece; it is not cut.
+    const auto [from, to] = met_by_passes(lo, hi);
+    const bool air_before = from > lo, air_behind = to < hi;
+    lo = from;
+    hi = to;
     const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil((hi - lo) / step - 1e-9)));
+    const std::size_t first = air_before && n > 0 ? 1 : 0;
+    const std::size_t last = air_behind && n > first ? n - 1 : n;
     std::vector<std::vector<Crossing>> met(n + 1);
     const auto height = [&](std::size_t k) {
       return lo + (hi - lo) * static_cast<double>(k) / static_cast<double>(n);
@@ -91,7 +98,7 @@ class Raster {
         }
       }
     }
-    for (std::size_t k = 0; k <= n; ++k) {
+    for (std::size_t k = first; k <= last; ++k) {
       std::sort(met[k].begin(), met[k].end(), [](const Crossing& x, const Crossing& y) {
         if (x.u != y.u) return x.u < y.u;
         return x.loop != y.loop ? x.loop < y.loop : x.edge < y.edge;
@@ -100,6 +107,22 @@ class Raster {
         passes_.push_back({height(k), met[k][i], met[k][i + 1], k, false});
       }
     }
+  }
+
+  /// The lines between which passes meet the piece at all, of those from lo to hi.
+  [[nodiscard]] std::pair<double, double> met_by_passes(double lo, double hi) const {
+    if (!c_.area.open || c_.task.stock.empty()) return {lo, hi};
+    const geometry::Region there =
+        geometry::intersect(c_.area.material, geometry::offset(level_.centres, c_.radius_mm));
+    double near = 1e300, far = -1e300;
+    for (const Loop& loop : there.loops) {
+      for (const Vec2 p : loop) {
+        near = std::min(near, v(p));
+        far = std::max(far, v(p));
+      }
+    }
+    if (!(near < far)) return {lo, hi};
+    return {std::max(lo, near - c_.radius_mm), std::min(hi, far + c_.radius_mm)};
   }
 
   [[nodiscard]] Vec2 point(const Pass& p, bool at_b) const { return xy_of(at_b ? p.b.u : p.a.u, p.v); }
@@ -210,6 +233,27 @@ class Raster {
     return {};
   }
 
+  /// Whether roughing passes ran along all of a wall's track but what is beside the piece.
+  [[nodiscard]] bool cut_by_passes(const Track& t) const {
+    if (!(c_.task.allowance_side_mm > 0.0) || !c_.area.open || c_.task.stock.empty() || o_.walls_first)
+      return false;
+    constexpr double kApart = 0.25;  // of the radius
+    constexpr double kMost = 4000.0;
+    const double length = length_of(t), pieces = std::ceil(length / (kApart * c_.radius_mm));
+    if (!(pieces <= kMost)) return false;
+    const auto on_pass = [&](Vec2 p) {
+      return std::any_of(passes_.begin(), passes_.end(), [&](const Pass& q) {
+        return q.done && std::abs(v(p) - q.v) <= kInsideSlack && u(p) >= q.a.u - kInsideSlack &&
+               u(p) <= q.b.u + kInsideSlack;
+      });
+    };
+    for (double k = 0.0; k <= pieces; k += 1.0) {
+      const Vec2 p = at_length(t, length * k / std::max(1.0, pieces)).point;
+      if (!level_.material.clear_of(p, c_.radius_mm) && !on_pass(p)) return false;
+    }
+    return true;
+  }
+
   Status walls() {
     for (std::size_t l = 0; l < level_.centres.loops.size(); ++l) {
       if (o_.wall_of != nullptr) {
@@ -219,6 +263,7 @@ class Raster {
           continue;
       }
       Track t = track_of(level_.centres.loops[l]);
+      if (cut_by_passes(t)) continue;
       if (!walls_on_right(c_.task)) t = reversed(t);
       // A pass that ends on this loop has cleared the way to it.
       const Pass* meets = nullptr;
@@ -237,7 +282,7 @@ class Raster {
         if (!in) return tl::unexpected(in.error());
         t = *in;
       }
-      c_.writer.follow(t, level_.z_mm, MoveRole::kCut);
+      c_.follow(level_, t);
     }
     return {};
   }

@@ -131,6 +131,29 @@ TEST(FormFeatures, FarEndsOfHolesAreMilledFromBelowThroughTheNarrowHole) {
   }
 }
 
+TEST(FormFeatures, UndercutsInSteelAreMadeWithinTheLifeOfAnEdge) {
+  Inputs in = shop();
+  in.material_name = "C45";
+  for (const char* part : {"far_ends", "dovetails", "form_features"}) {
+    const model::Plan plan = planned("/tests/door/pipeline/parts/" + std::string(part) + ".p21", in);
+    expect_sound(plan);
+    Job job;
+    for (const auto& f : findings_of(plan, job))
+      EXPECT_NE(f.code, "CHK-EDGES") << f.step << ": " << f.message;
+  }
+}
+
+TEST(FormFeatures, ADovetailsCutterTakesWhatStandsBesideTheMouthNotASlotOfItsDiameter) {
+  const model::Plan plan = planned("/tests/door/pipeline/parts/dovetails.p21", shop());
+  for (const char* name : {"DRAWN dovetail_finish", "ANGLED dovetail_finish"}) {
+    const auto* s = step(plan, name);
+    ASSERT_NE(s, nullptr) << name;
+    const model::Cutter* c = model::find_cutter(plan, s->cutter_id);
+    ASSERT_NE(c, nullptr);
+    EXPECT_LT(s->radial_depth_mm, 0.5 * c->cutting_diameter_mm) << name;
+  }
+}
+
 TEST(FormFeatures, AHeadThatTurnsOutInsideTheNarrowHoleIsFound) {
   model::Plan plan = planned("/tests/door/pipeline/parts/far_ends.p21", shop());
   for (auto& s : plan.steps) {

@@ -84,6 +84,28 @@ TEST(DeepSlots, AreCutAtThreeQuartersOfTheTablesSpeedWhereOneDiameterDeep) {
   EXPECT_EQ(q.speed_factor[3], 1.0);
 }
 
+// A ramp ends 10 mm deep: 0.75 of the speed there, 0.875 where it is 7.5 mm deep (linear between 0.5 D and 1
+// D).
+TEST(DeepSlots, HaveOneSpeedFromEndToEndWhichIsThatOfTheirDeepestPlace) {
+  FeedQuestion q = rings();
+  q.samples = {{.move = 1, .ap_mm = 7.5, .ae_mm = 10.0, .step_mm = 20.0, .exit_rad = kPi},
+               {.move = 2, .ap_mm = 10.0, .ae_mm = 10.0, .step_mm = 20.0, .exit_rad = kPi},
+               {.move = 3, .ap_mm = 10.0, .ae_mm = 9.0, .step_mm = 20.0, .exit_rad = 0.8 * kPi}};
+  slow_in_deep_slots(q);
+  EXPECT_NEAR(q.speed_factor[1], 0.75, 1e-9);
+  EXPECT_NEAR(q.speed_factor[2], 0.75, 1e-9);
+  EXPECT_EQ(q.speed_factor[3], 1.0);
+}
+
+TEST(DeepSlots, HaveTheSpeedOfAMoveThatWasSlowerAlready) {
+  FeedQuestion q = rings();
+  q.samples[1] = {.move = 2, .ap_mm = 10.0, .ae_mm = 10.0, .step_mm = 20.0, .exit_rad = kPi};
+  q.speed_factor[2] = 0.5;
+  slow_in_deep_slots(q);
+  EXPECT_EQ(q.speed_factor[2], 0.5);
+  EXPECT_NEAR(q.speed_factor[1], 0.5, 1e-9);
+}
+
 TEST(DeepSlots, AreNotCutMoreSlowlyWhereTheSpindleIsSlowerThanThatAlready) {
   FeedQuestion q = rings();
   q.cut.vc_table_m_min *= 2.0;

@@ -18,6 +18,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostTurns = 5'000;
 constexpr double kSameHeight = 1e-6;  // mm
+constexpr double kAirPiece = 0.25;    // of the radius: how finely ways beside the piece are told
+constexpr double kMostAirPieces = 4'000;
 
 std::vector<Vec2> air_points(const WorkArea& w, const Region& centres, const Inside& material,
                              double radius) {
@@ -157,6 +159,38 @@ bool LevelCutter::cut_to(const Level& level, Vec2 p) {
   return true;
 }
 
+bool LevelCutter::follow(const Level& level, const Track& track) {
+  const double length = length_of(track);
+  const double pieces = std::ceil(length / (kAirPiece * radius_mm));
+  const bool open = area.open || task.shape.kind == model::ShapeKind::kOutside;
+  if (!open || task.stock.empty() || !(pieces <= kMostAirPieces) || pieces < 1.0) {
+    writer.follow(track, level.z_mm, MoveRole::kCut);
+    return true;
+  }
+  const int n = static_cast<int>(pieces);
+  const double apart = length / n;
+  const auto beside = [&](int k) {
+    return level.material.clear_of(at_length(track, k * apart).point, radius_mm + kAirBeside + 0.5 * apart);
+  };
+  // Stretches between pieces of which both ends are beside the piece, long enough to be told apart.
+  std::vector<std::pair<double, double>> air;
+  for (int k = 0; k <= n; ++k) {
+    const int from = k;
+    while (k <= n && beside(k)) ++k;
+    if ((k - 1 - from) * apart > 2.0 * radius_mm)
+      air.emplace_back(from * apart, k > n ? length : (k - 1) * apart);
+  }
+  double written = 0.0;
+  for (const auto& [from, to] : air) {
+    if (from > written) writer.follow(part_of(track, written, from), level.z_mm, MoveRole::kCut);
+    if (to < length) writer.follow(part_of(track, from, to), level.z_mm, MoveRole::kLink);
+    written = to;
+  }
+  if (written < length)
+    writer.follow(air.empty() ? track : part_of(track, written, length), level.z_mm, MoveRole::kCut);
+  return written < length;
+}
+
 std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& track) {
   if (level.air.empty()) return std::nullopt;
   std::vector<std::pair<double, Vec2>> near;
@@ -170,9 +204,10 @@ std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& 
   for (const auto& [d, a] : near) {
     const Spot spot = track.closed ? nearest(track, a) : Spot{.point = track.start};
     if (!level.inside.contains(a, spot.point)) continue;
-    writer.over(a);
+    const bool there = norm(a - spot.point) < 2.0 * kInsideSlack;
+    writer.over(there ? spot.point : a);
     writer.descend(level.z_mm, level.z_mm);
-    writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
+    if (!there) writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
     return track.closed ? begun_at(track, spot) : track;
   }
   return std::nullopt;

@@ -93,12 +93,12 @@ Status cut_around(const Around& a, LevelCutter& c, double z, double from,
       if (shell) level.from_mm = from;
       const Spot spot = c.writer.begun() ? nearest(t, xy(c.writer.at())) : Spot{};
       if (!first && c.cut_to(level, spot.point)) {
-        c.writer.follow(begun_at(t, spot), z, MoveRole::kCut);
+        c.follow(level, begun_at(t, spot));
         continue;
       }
       auto in = c.enter(level, t, nullptr);
       if (!in) return tl::unexpected(in.error());
-      c.writer.follow(*in, z, MoveRole::kCut);
+      c.follow(level, *in);
     }
     first = false;
   }

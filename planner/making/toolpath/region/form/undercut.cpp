@@ -24,8 +24,6 @@ constexpr int kMostPasses = 200;
 /// Factor of the feed on the way back through a slot just cut: the head meets no material, but chips that
 /// could not leave upwards. Default, unsourced.
 constexpr double kBackFree = 4.0;
-/// Largest factor of the feed of a thin pass against one that moves a whole step aside; default, unsourced.
-constexpr double kMostQuicker = 3.0;
 
 /// The cutter's head: what cuts under the mouth.
 struct Head {
@@ -115,6 +113,13 @@ std::vector<double> taken_by(const std::vector<double>& sides) {
   return out;
 }
 
+/// Share of the feed in pass i of those aside; the last one makes the walls.
+double share_of_pass(const PathJob& task, const Undercut& u, const std::vector<double>& taken,
+                     std::size_t i) {
+  if (i + 1 == taken.size() && task.last_share) return *task.last_share;
+  return quicker(task, u, taken[i]);
+}
+
 /// Begins at, or goes on to, the start of a pass at its height.
 void go_to(PathWriter& writer, Vec2 p, double z) {
   if (writer.begun()) {
@@ -131,7 +136,7 @@ Status cut_through(const PathJob& task, const Undercut& u, const std::vector<Vec
   const std::vector<double> taken = taken_by(sides);
   std::vector<std::pair<double, double>> passes = {{0.0, task.both_edges_share}};  // aside; share of the feed
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const double share = quicker(task, u, taken[i]);
+    const double share = share_of_pass(task, u, taken, i);
     passes.emplace_back(sides[i], share);
     passes.emplace_back(-sides[i], share);
   }
@@ -198,7 +203,7 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
     writer.factors(kBackFree, 1.0);
     writer.follow(reversed(middle), z, MoveRole::kRetract);
     for (std::size_t i = 0; i < loops.size(); ++i) {
-      const double along_walls = quicker(task, u, taken[i]);
+      const double along_walls = share_of_pass(task, u, taken, i);
       writer.factors(along_walls, 1.0);
       go_to(writer, loops[i].in.start, z);
       writer.follow(loops[i].in, z, MoveRole::kCut);
@@ -206,7 +211,8 @@ Status cut_to_the_end(const PathJob& task, const Undercut& u, const WorkArea& w,
       // the front half cut at once.
       const double asked = undercut_width_mm(task, u);
       const double more = teeth_in(task, d) / teeth_in(task, asked);
-      writer.factors(std::min(task.front_share, thickest_chip(task, asked) / std::max(1.0, more)), 1.0);
+      const double round_it = std::min(task.front_share, thickest_chip(task, asked) / std::max(1.0, more));
+      writer.factors(std::min(round_it, along_walls), 1.0);
       writer.follow(loops[i].end, z, MoveRole::kCut);
       writer.factors(along_walls, 1.0);
       writer.follow(loops[i].out, z, MoveRole::kCut);
@@ -225,8 +231,13 @@ double side_step(const PathJob& task, double diameter_mm) {
 
 double undercut_width_mm(const PathJob& task, const Undercut& u) {
   const double d = task.cutter.cutting_diameter_mm;
-  if (u.flank_rad > 0.0 || !task.left_on_side_mm) return d;
+  if (!task.left_on_side_mm) return d;
   return std::clamp(0.5 * d - (u.mouth_mm - *task.left_on_side_mm), side_step(task, d), d);
+}
+
+double last_side_mm(const PathJob& task, const Undercut& u) {
+  const double aside = u.widest_mm - task.allowance_side_mm - 0.5 * task.cutter.cutting_diameter_mm;
+  return std::clamp(aside, 0.0, kLastSide);
 }
 
 std::optional<Undercut> undercut_of(const model::FeatureShape& s) {
@@ -314,7 +325,7 @@ Result<GeneratedPath> undercut_path(const PathJob& task, const Undercut& u, Slot
   std::vector<double> sides;
   if (aside > 1e-6) {
     const double step = side_step(task, head->diameter_mm);
-    const double rough = std::max(0.0, aside - kLastSide);
+    const double rough = aside - last_side_mm(task, u);
     const int n = static_cast<int>(std::ceil(rough / step - 1e-9));
     if (n > kMostPasses)
       return refuse(task, "TPA-NO-FIT",

@@ -21,13 +21,14 @@ struct Undercut {
 /// The same job for the upright slot as wide as the mouth, which is milled first.
 [[nodiscard]] PathJob neck_of(const PathJob& task, const Undercut& u);
 
-/// Width of the head's last pass along the walls, where it moves aside, mm. Default, unsourced.
-inline constexpr double kLastSide = 0.2;
+/// What that pass takes, mm; 0: the head fills the slot, and one pass makes both walls.
+[[nodiscard]] double last_side_mm(const PathJob& task, const Undercut& u);
 /// Distance that a pass of the head moves aside from the one before, mm.
 [[nodiscard]] double side_step(const PathJob& task, double diameter_mm);
 
 /// Largest width that one edge of the head cuts, mm: beside the mouth that was milled before, or the distance
-/// that it moves aside in one pass; its diameter if no mouth was milled.
+/// that it moves aside in one pass; its diameter if no mouth was milled. Under a dovetail's flank that is the
+/// width on the floor, the largest.
 [[nodiscard]] double undercut_width_mm(const PathJob& task, const Undercut& u);
 
 /// The course of a slot, set-up frame.
