@@ -52,6 +52,16 @@ TEST(SimulatedShopProperty, WhereTheHandbookItselfIsTooMuchTheTunerIsNotWorse) {
   }
 }
 
+TEST(SimulatedShopProperty, ForcesExceedTheLoadsOfTheCorrectedCardNoMoreOftenThanTheMarginStates) {
+  const auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
+  const ForceForecasts all = soaks() ? forecast_forces(1000 * seed, 40) : forecast_forces(1, 15);
+  EXPECT_GE(all.taken, all.shops / 2);
+  // The usual margin: 84 of 100 cuts stay below (mechanics/loads/margin.h).
+  EXPECT_LE(clopper_pearson_upper(all.over_cases, all.cuts), 0.16) << all.over_cases << " of " << all.cuts;
+  EXPECT_GE(all.within_90, 0.8 * all.sharp) << all.within_90 << " of " << all.sharp;
+  EXPECT_LT(all.ln_margin_cases, all.ln_margin_card);
+}
+
 TEST(SimulatedShop, IsTheSameForTheSameSeed) {
   const Campaign a = run_campaign(3, Arm::kProcess, 8), b = run_campaign(3, Arm::kProcess, 8);
   for (std::size_t i = 0; i < a.parts.size(); ++i) {
