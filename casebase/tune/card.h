@@ -18,6 +18,8 @@
 /// specific
 ///         force that the plan of the case used, times observed over predicted peak force without its margin.
 ///         One factor is fitted to them, each edge a group of its own, with the card's spread as its prior.
+///         Kienzle's law is taken for a rake of 0 and the rake of a case's mill taken out of its force, so
+///         that what raked mills saved does not count for mills without a rake.
 /// Life    the extended Taylor law, as `correct_life`.
 namespace capstan::casebase::tune {
 

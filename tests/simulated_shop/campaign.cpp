@@ -291,9 +291,10 @@ ForceForecasts forecast_forces(std::uint64_t first_seed, int shops) {
     const tune::CardCorrection& by = found.front();
     mechanics::ForceMargin by_cases = by_card;
     by_cases.spread = by.spread;
-    // The planner's law for a mill with a rake; the correction's is for none.
     const double expected = planned.planned.step.predicted.peak_force_n / planned.planned.force_margin;
-    const double corrected = expected * by.factor / model::kienzle_share(card, planned.question.cutter);
+    const double corrected = expected * by.factor;
+    // The set that planning makes of it is Kienzle's law for no rake.
+    const double held = corrected / model::kienzle_share(card, planned.question.cutter) * by_cases.factor();
     double truth = 0.0;
     int cuts = 0;
     for (int k = 0; k < kFurtherEdges; ++k) {
@@ -303,7 +304,7 @@ ForceForecasts forecast_forces(std::uint64_t first_seed, int shops) {
         ++cuts;
         truth += std::log(force_n);
         out.over_card += force_n > expected * by_card.factor() ? 1 : 0;
-        out.over_cases += force_n > corrected * by_cases.factor() ? 1 : 0;
+        out.over_cases += force_n > held ? 1 : 0;
         if (part > 0) continue;
         ++out.sharp;
         constexpr double kTwoSided90 = 1.645;
@@ -311,8 +312,8 @@ ForceForecasts forecast_forces(std::uint64_t first_seed, int shops) {
       }
     }
     out.cuts += cuts;
-    out.ln_margin_card += std::log(expected * by_card.factor()) - truth / cuts;
-    out.ln_margin_cases += std::log(corrected * by_cases.factor()) - truth / cuts;
+    out.ln_held_card.push_back(std::log(expected * by_card.factor()) - truth / cuts);
+    out.ln_held_cases.push_back(std::log(held) - truth / cuts);
   }
   return out;
 }

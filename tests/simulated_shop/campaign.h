@@ -77,8 +77,8 @@ struct ForceForecasts {
   int shops = 0, taken = 0;  ///< taken: those whose cases the correction is taken of
   int cuts = 0, over_card = 0, over_cases = 0;
   int within_90 = 0, sharp = 0;  ///< of the first cuts of edges: within 1.645 standard deviations of `spread`
-  double ln_margin_card = 0.0,
-         ln_margin_cases = 0.0;  ///< sums over the shops of ln(load held / true mean force)
+  /// Of each shop that is taken: ln of the load held over the true mean force.
+  std::vector<double> ln_held_card = {}, ln_held_cases = {};
 };
 [[nodiscard]] ForceForecasts forecast_forces(std::uint64_t first_seed, int shops);
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
@@ -59,7 +60,12 @@ TEST(SimulatedShopProperty, ForcesExceedTheLoadsOfTheCorrectedCardNoMoreOftenTha
   // The usual margin: 84 of 100 cuts stay below (mechanics/loads/margin.h).
   EXPECT_LE(clopper_pearson_upper(all.over_cases, all.cuts), 0.16) << all.over_cases << " of " << all.cuts;
   EXPECT_GE(all.within_90, 0.8 * all.sharp) << all.within_90 << " of " << all.sharp;
-  EXPECT_LT(all.ln_margin_cases, all.ln_margin_card);
+  // How far it lies above the true force differs less from shop to shop.
+  const auto range = [](const std::vector<double>& ln) {
+    const auto [low, high] = std::minmax_element(ln.begin(), ln.end());
+    return *high - *low;
+  };
+  EXPECT_LT(range(all.ln_held_cases), 0.5 * range(all.ln_held_card));
 }
 
 TEST(SimulatedShop, IsTheSameForTheSameSeed) {

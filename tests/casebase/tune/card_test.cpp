@@ -31,6 +31,13 @@ model::WorkMaterial card() {
   return m;
 }
 
+model::Cutter mill(const std::string& kind) {
+  model::Cutter c;
+  c.substrate = model::Substrate::kCarbide;
+  c.cutter_class = model::cutter_class_from_text(kind).value();
+  return c;
+}
+
 /// A cut whose force was `factor` of what the card's law expects; three on each edge, 4 % from cut to cut.
 Case cut(int i, double factor) {
   Case c;
@@ -43,7 +50,7 @@ Case cut(int i, double factor) {
   c.bound.mean_chip_mm = 0.05;
   c.predicted.peak_force_n = kPlannedN;
   c.predicted.force_margin = kMargin;
-  c.predicted.specific_force_n_mm2 = 1800.0 * std::pow(0.05, -0.2);
+  c.predicted.specific_force_n_mm2 = model::specific_force_n_mm2(card(), mill("endmill"), 0.05);
   c.observed.peak_force_n = Figure{.value = factor * kPlannedN / kMargin * (1.0 + 0.04 * (i % 3 - 1))};
   c.from.tool_instance = "E" + std::to_string(i / 3);
   c.from.source = "log";
@@ -75,12 +82,25 @@ TEST(CardCorrections, FindTheFactorOfTheForceAndNarrowItsSpread) {
 TEST(CardCorrections, AreTheSameWhateverThePlansOfTheCasesExpected) {
   // The later half was planned with what the earlier half had corrected, at another margin.
   auto cases = cuts(18, 0.8);
+  const double share = model::kienzle_share(card(), mill("endmill"));  // the corrected law is for no rake
   for (std::size_t i = 9; i < cases.size(); ++i) {
-    cases[i].predicted.specific_force_n_mm2 *= 0.8;
+    cases[i].predicted.specific_force_n_mm2 *= 0.8 / share;
     cases[i].predicted.force_margin = 1.3;
-    cases[i].predicted.peak_force_n = 0.8 * 1.3 * kPlannedN / kMargin;
+    cases[i].predicted.peak_force_n = 0.8 / share * 1.3 * kPlannedN / kMargin;
   }
   EXPECT_NEAR(corrections(cases).front().factor, corrections(cuts(18, 0.8)).front().factor, 1e-9);
+}
+
+TEST(CardCorrections, RakedMillsSayNothingTooLittleOfMillsWithout) {
+  // Each as its own law expects: the factor is of the law, not of the rake.
+  auto cases = cuts(9, 1.0);
+  for (int i = 9; i < 18; ++i) {
+    Case c = cut(i, 1.0);
+    c.asked.tool_class = "carbide/facemill";
+    c.predicted.specific_force_n_mm2 = model::specific_force_n_mm2(card(), mill("facemill"), 0.05);
+    cases.push_back(c);
+  }
+  EXPECT_NEAR(corrections(cases).front().factor, 1.0, 0.01);
 }
 
 TEST(CardCorrections, OfTwoEdgesAreToldAndNotTaken) {
