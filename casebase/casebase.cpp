@@ -57,16 +57,18 @@ struct CaseBase::Impl {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (!entries[i].removed && holds(entries[i])) live.push_back(static_cast<std::uint32_t>(i));
     }
+    const auto by_id = [&](std::uint32_t a, std::uint32_t b) { return entries[a].id < entries[b].id; };
     if (live.size() > most) {
-      const auto by_id = [&](std::uint32_t a, std::uint32_t b) { return entries[a].id < entries[b].id; };
       std::nth_element(live.begin(), live.begin() + static_cast<std::ptrdiff_t>(most), live.end(), by_id);
       live.resize(most);
     }
+    // In order before they are read: a case is a hundred times as large as its place.
+    std::sort(live.begin(), live.end(), by_id);
     std::vector<Case> out;
+    out.reserve(live.size());
     for (std::optional<Case>& c : log.load(live)) {
       if (c) out.push_back(*std::move(c));
     }
-    std::sort(out.begin(), out.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
     return out;
   }
 
