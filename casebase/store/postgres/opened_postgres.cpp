@@ -11,7 +11,9 @@
 namespace capstan::casebase {
 namespace {
 
-Result<ConnectPostgres*> opened() {
+using Connect = decltype(capstan_connect_postgres);
+
+Result<Connect*> opened() {
   const auto places = places_beside(kPostgresLibrary);
   std::error_code none;
   const auto at = std::find_if(places.begin(), places.end(), [&](const std::string& place) {
@@ -24,7 +26,7 @@ Result<ConnectPostgres*> opened() {
   }
   const auto library = Library::open(*at);
   if (!library) return tl::unexpected(library.error());
-  ConnectPostgres* connect = nullptr;
+  Connect* connect = nullptr;
   if (const Status taken = library->take(kConnectPostgres, connect); !taken)
     return tl::unexpected(taken.error());
   return connect;
@@ -33,7 +35,7 @@ Result<ConnectPostgres*> opened() {
 }  // namespace
 
 Result<std::unique_ptr<Store>> connect_postgres(const std::string& uri, Missing missing, Job& job) {
-  static const Result<ConnectPostgres*> connect = opened();
+  static const Result<Connect*> connect = opened();
   const std::string name = name_of(uri);
   if (!connect) {
     return fail(Diagnostic{.code = "CASE-URI",
