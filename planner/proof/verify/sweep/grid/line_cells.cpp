@@ -49,9 +49,9 @@ std::uint64_t all_of(int count) {
 std::uint64_t marks_by_two(const LineCells::Line& l, const double* stock, int count, Vec2 first,
                            double cell) {
   constexpr int kWidth = 2;
-#define CAPSTAN_BITS(floor, stands, s, most) \
-  __builtin_ia32_movmskpd(                   \
-      __builtin_ia32_andpd(__builtin_ia32_cmpltpd(floor, stands), __builtin_ia32_cmplepd(s, most)))
+#define CAPSTAN_BITS(floor, stands, s, most)                        \
+  (__builtin_ia32_movmskpd(__builtin_ia32_cmpltpd(floor, stands)) & \
+   __builtin_ia32_movmskpd(__builtin_ia32_cmplepd(s, most)))
   CAPSTAN_MARKS(__builtin_ia32_minpd, __builtin_ia32_maxpd, CAPSTAN_BITS);
 #undef CAPSTAN_BITS
 }
@@ -60,9 +60,9 @@ std::uint64_t marks_by_two(const LineCells::Line& l, const double* stock, int co
                                                     Vec2 first, double cell) {
   constexpr int kWidth = 4;
   constexpr int kLess = 0x11, kNotMore = 0x12;  // ordered, quiet
-#define CAPSTAN_BITS(floor, stands, s, most)                                                        \
-  __builtin_ia32_movmskpd256(__builtin_ia32_andpd256(__builtin_ia32_cmppd256(floor, stands, kLess), \
-                                                     __builtin_ia32_cmppd256(s, most, kNotMore)))
+#define CAPSTAN_BITS(floor, stands, s, most)                                   \
+  (__builtin_ia32_movmskpd256(__builtin_ia32_cmppd256(floor, stands, kLess)) & \
+   __builtin_ia32_movmskpd256(__builtin_ia32_cmppd256(s, most, kNotMore)))
   CAPSTAN_MARKS(__builtin_ia32_minpd256, __builtin_ia32_maxpd256, CAPSTAN_BITS);
 #undef CAPSTAN_BITS
 }
