@@ -2,6 +2,7 @@
 # those of GNUInstallDirs; tests/install/files.txt lists every file.
 #
 #   libexec/capstan/capstan-brep  what reads the shapes of STEP files for it, where OpenCASCADE is there
+#   libexec/capstan/capstan-postgres.so  how servers of PostgreSQL are reached, where libpqxx is there
 #   bin/capstan                 the command; share/man/man1 its manual pages, and bash's completion of it
 #   lib/libcapstan.so           capstan::capstan, capstan.pc, with include/capstan/capstan.h
 #   lib/libcapstan_late.so      capstan::late, capstan_late.pc, the C interface of late binding
@@ -66,6 +67,9 @@ endif()
 if(TARGET capstan-brep)
   install(TARGETS capstan-brep RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/capstan)
 endif()
+if(TARGET capstan_postgres)  # opened, not linked
+  install(TARGETS capstan_postgres LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/capstan)
+endif()
 
 if(TARGET capstan_manual_pages)
   install(DIRECTORY ${CAPSTAN_MANUAL_FOLDER}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
@@ -74,7 +78,7 @@ endif()
 
 # What `cmake --install` needs, and no test: `./dev demo` builds this.
 add_custom_target(capstan_installed)
-foreach(target IN LISTS capstan_exported ITEMS capstan capstan-brep capstan_manual_pages)
+foreach(target IN LISTS capstan_exported ITEMS capstan capstan-brep capstan_postgres capstan_manual_pages)
   if(TARGET ${target})
     add_dependencies(capstan_installed ${target})
   endif()

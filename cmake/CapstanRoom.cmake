@@ -126,6 +126,18 @@ function(capstan_room name)
   endif()
 endfunction()
 
+# capstan_loaded_name(<variable> <library>)
+#
+# The name by which the system's loader finds a shared library ("libzip.so.4"), for one that is opened when it is
+# needed and not linked (ground/base/loading/library.h).
+function(capstan_loaded_name variable library)
+  execute_process(COMMAND ${CMAKE_READELF} --wide --dynamic ${library} OUTPUT_VARIABLE entries ERROR_QUIET)
+  if(NOT entries MATCHES "\\(SONAME\\)[^\n]*\\[([^]\n]+)\\]")
+    message(FATAL_ERROR "${library} is no shared library: it states no name by which it is loaded")
+  endif()
+  set(${variable} ${CMAKE_MATCH_1} PARENT_SCOPE)
+endfunction()
+
 # capstan_compile_as_test(<target>)
 #
 # With the precompiled header of the tests, and with its options. What tests do themselves runs once: less

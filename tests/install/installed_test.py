@@ -48,7 +48,8 @@ class Tree(unittest.TestCase):
         lines = read(os.path.join(GIVEN.source, "tests/install/files.txt"))
         for key, value in {"LIBDIR": GIVEN.libdir, "VERSION": GIVEN.version,
                            "MINOR": GIVEN.version.rpartition(".")[0],
-                           "BREP": "libexec/capstan/capstan-brep" if GIVEN.brep else ""}.items():
+                           "BREP": "libexec/capstan/capstan-brep" if GIVEN.brep else "",
+                           "POSTGRES": "libexec/capstan/capstan-postgres.so" if GIVEN.postgres else ""}.items():
             lines = lines.replace(f"@{key}@", value)
         wanted = {line for line in lines.split("\n") if line and not line.startswith("#")}
         below = {line[:-2] for line in wanted if line.endswith("/**")}
@@ -209,5 +210,6 @@ if __name__ == "__main__":
     for name in ("source", "built", "scratch", "libdir", "version", "cmake", "generator", "cxx", "cc"):
         arguments.add_argument("--" + name, required=True)
     arguments.add_argument("--brep", action="store_true")
+    arguments.add_argument("--postgres", action="store_true")
     GIVEN, rest = arguments.parse_known_args()
     unittest.main(argv=[sys.argv[0], *rest], verbosity=2)

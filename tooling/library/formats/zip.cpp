@@ -4,15 +4,52 @@
 
 #include <memory>
 
-// The one file that knows libzip.
+#include "planner/ground/base/loading/library.h"
+
+// The one file that knows libzip. The library is opened with the first archive: with libcrypto, which it
+// needs itself, it would take a tenth of the start of every command.
 
 namespace capstan::tooling {
 namespace {
 
+/// Its functions, of the types that its header declares.
+struct Zip {
+#define CAPSTAN_ZIP_FUNCTIONS(row)                                                                       \
+  row(close) row(discard) row(fclose) row(file_add) row(file_set_dostime) row(fopen_index) row(fread)    \
+      row(get_num_entries) row(open_from_source) row(set_file_compression) row(source_buffer)            \
+          row(source_buffer_create) row(source_close) row(source_free) row(source_keep) row(source_open) \
+              row(source_read) row(source_seek) row(source_tell) row(stat_index) row(stat_init)
+#define CAPSTAN_ZIP_ROW(name) decltype(&zip_##name) name = nullptr;
+  CAPSTAN_ZIP_FUNCTIONS(CAPSTAN_ZIP_ROW)
+#undef CAPSTAN_ZIP_ROW
+};
+
+Result<Zip> opened() {
+  const auto library = Library::open(CAPSTAN_ZIP_LIBRARY);
+  if (!library) return tl::unexpected(library.error());
+  Zip f;
+#define CAPSTAN_ZIP_ROW(name) \
+  if (auto taken = library->take("zip_" #name, f.name); !taken) return tl::unexpected(taken.error());
+  CAPSTAN_ZIP_FUNCTIONS(CAPSTAN_ZIP_ROW)
+#undef CAPSTAN_ZIP_ROW
+  return f;
+}
+
+/// Null where the library is not there, and then `why` says so.
+const Zip* zip(Diagnostic& why) {
+  static const Result<Zip> functions = opened();
+  if (functions) return &*functions;
+  why = {.code = "ZIP-LIBRARY",
+         .message = functions.error().message,
+         .hint = "install libzip (Debian: libzip4)"};
+  return nullptr;
+}
+
 struct Closer {
-  void operator()(zip_t* z) const { zip_discard(z); }
-  void operator()(zip_file_t* f) const { zip_fclose(f); }
-  void operator()(zip_source_t* s) const { zip_source_free(s); }
+  const Zip* of = nullptr;
+  void operator()(zip_t* z) const { of->discard(z); }
+  void operator()(zip_file_t* f) const { of->fclose(f); }
+  void operator()(zip_source_t* s) const { of->source_free(s); }
 };
 using Archive = std::unique_ptr<zip_t, Closer>;
 using File = std::unique_ptr<zip_file_t, Closer>;
@@ -27,18 +64,19 @@ Diagnostic fault(const std::string& file, const char* code, std::string message,
           .hint = "export it again, or unpack it and give the file within"};
 }
 
-Result<std::string> unpack(zip_t* z, zip_uint64_t index, const zip_stat_t& stat, const std::string& file) {
-  const File f(zip_fopen_index(z, index, 0));
+Result<std::string> unpack(const Zip& with, zip_t* z, zip_uint64_t index, const zip_stat_t& stat,
+                           const std::string& file) {
+  const File f(with.fopen_index(z, index, 0), {&with});
   if (!f) return fail(fault(file, "ZIP-SYNTAX", "an entry cannot be opened", stat.name));
   std::string bytes(stat.size, '\0');
   std::size_t have = 0;
   while (have < bytes.size()) {
-    const auto n = zip_fread(f.get(), bytes.data() + have, bytes.size() - have);
+    const auto n = with.fread(f.get(), bytes.data() + have, bytes.size() - have);
     if (n <= 0) return fail(fault(file, "ZIP-SYNTAX", "an entry is broken", stat.name));
     have += static_cast<std::size_t>(n);
   }
   char more = 0;
-  if (zip_fread(f.get(), &more, 1) != 0)  // also checks the sum
+  if (with.fread(f.get(), &more, 1) != 0)  // also checks the sum
     return fail(fault(file, "ZIP-SYNTAX", "an entry is broken or longer than it says", stat.name));
   return bytes;
 }
@@ -52,12 +90,18 @@ bool is_zip(std::string_view bytes) {
 
 Result<std::vector<ZipEntry>> read_zip(std::string_view bytes, const std::string& file,
                                        bool (*wanted)(std::string_view name), const ZipCaps& caps) {
-  Source source(zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr));
+  Diagnostic none;
+  const Zip* const with = zip(none);
+  if (with == nullptr) {
+    none.file = file;
+    return fail(std::move(none));
+  }
+  Source source(with->source_buffer_create(bytes.data(), bytes.size(), 0, nullptr), {with});
   if (!source) return fail(fault(file, "ZIP-SYNTAX", "the archive cannot be read"));
-  const Archive z(zip_open_from_source(source.get(), ZIP_RDONLY | ZIP_CHECKCONS, nullptr));
+  const Archive z(with->open_from_source(source.get(), ZIP_RDONLY | ZIP_CHECKCONS, nullptr), {with});
   if (!z) return fail(fault(file, "ZIP-SYNTAX", "this is no whole zip archive"));
   (void)source.release();  // the archive's now
-  const auto count = static_cast<zip_uint64_t>(zip_get_num_entries(z.get(), 0));
+  const auto count = static_cast<zip_uint64_t>(with->get_num_entries(z.get(), 0));
   if (count > caps.entries)
     return fail(fault(
         file, "ZIP-CAP",
@@ -66,8 +110,8 @@ Result<std::vector<ZipEntry>> read_zip(std::string_view bytes, const std::string
   std::size_t total = 0;
   for (zip_uint64_t i = 0; i < count; ++i) {
     zip_stat_t stat;
-    zip_stat_init(&stat);
-    if (zip_stat_index(z.get(), i, 0, &stat) != 0 || (stat.valid & ZIP_STAT_NAME) == 0 ||
+    with->stat_init(&stat);
+    if (with->stat_index(z.get(), i, 0, &stat) != 0 || (stat.valid & ZIP_STAT_NAME) == 0 ||
         (stat.valid & ZIP_STAT_SIZE) == 0)
       return fail(fault(file, "ZIP-SYNTAX", "an entry has no name or size"));
     const std::string_view name = stat.name;
@@ -86,7 +130,7 @@ Result<std::vector<ZipEntry>> read_zip(std::string_view bytes, const std::string
           fault(file, "ZIP-CAP",
                 std::to_string(stat.comp_size) + " bytes claim to unpack to " + std::to_string(stat.size),
                 stat.name));
-    auto one = unpack(z.get(), i, stat, file);
+    auto one = unpack(*with, z.get(), i, stat, file);
     if (!one) return fail(one.error());
     out.push_back({std::string(name), *std::move(one)});
   }
@@ -95,35 +139,38 @@ Result<std::vector<ZipEntry>> read_zip(std::string_view bytes, const std::string
 
 Result<std::string> write_zip(const std::vector<ZipEntry>& entries) {
   const auto broken = [] { return fail("ZIP-WRITE", "the archive cannot be written"); };
-  Source target(zip_source_buffer_create(nullptr, 0, 0, nullptr));
+  Diagnostic none;
+  const Zip* const with = zip(none);
+  if (with == nullptr) return fail(std::move(none));
+  Source target(with->source_buffer_create(nullptr, 0, 0, nullptr), {with});
   if (!target) return broken();
-  zip_source_keep(target.get());  // one for the archive, one for us
-  Archive z(zip_open_from_source(target.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr));
+  with->source_keep(target.get());  // one for the archive, one for us
+  Archive z(with->open_from_source(target.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr), {with});
   if (!z) {
-    zip_source_free(target.get());
+    with->source_free(target.get());
     return broken();
   }
   constexpr zip_uint16_t kDate = (0 << 9) | (1 << 5) | 1;  // 1980-01-01: the first a zip can hold
   for (const ZipEntry& e : entries) {
-    zip_source_t* s = zip_source_buffer(z.get(), e.bytes.data(), e.bytes.size(), 0);
+    zip_source_t* s = with->source_buffer(z.get(), e.bytes.data(), e.bytes.size(), 0);
     if (s == nullptr) return broken();
-    const auto i = zip_file_add(z.get(), e.name.c_str(), s, ZIP_FL_ENC_UTF_8);
+    const auto i = with->file_add(z.get(), e.name.c_str(), s, ZIP_FL_ENC_UTF_8);
     if (i < 0) {
-      zip_source_free(s);
+      with->source_free(s);
       return broken();
     }
-    zip_file_set_dostime(z.get(), static_cast<zip_uint64_t>(i), 0, kDate, 0);
-    zip_set_file_compression(z.get(), static_cast<zip_uint64_t>(i), ZIP_CM_DEFLATE, 9);
+    with->file_set_dostime(z.get(), static_cast<zip_uint64_t>(i), 0, kDate, 0);
+    with->set_file_compression(z.get(), static_cast<zip_uint64_t>(i), ZIP_CM_DEFLATE, 9);
   }
-  if (zip_close(z.get()) != 0) return broken();
+  if (with->close(z.get()) != 0) return broken();
   (void)z.release();
-  if (zip_source_open(target.get()) != 0) return broken();
-  zip_source_seek(target.get(), 0, SEEK_END);
-  const auto size = zip_source_tell(target.get());
-  zip_source_seek(target.get(), 0, SEEK_SET);
+  if (with->source_open(target.get()) != 0) return broken();
+  with->source_seek(target.get(), 0, SEEK_END);
+  const auto size = with->source_tell(target.get());
+  with->source_seek(target.get(), 0, SEEK_SET);
   std::string out(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  const auto got = zip_source_read(target.get(), out.data(), out.size());
-  zip_source_close(target.get());
+  const auto got = with->source_read(target.get(), out.data(), out.size());
+  with->source_close(target.get());
   if (got < 0 || static_cast<std::size_t>(got) != out.size()) return broken();
   return out;
 }

@@ -1,6 +1,5 @@
 #include "planner/files/exchange/brep/read_brep.h"
 
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "planner/files/exchange/brep/process.h"
 #include "planner/files/exchange/brep/read_pmi.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/loading/beside.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::exchange {
@@ -23,28 +23,6 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = "capstan-brep";
 constexpr const char* kExport = "export the part again from the CAD system";
 
-/// Where the helper may lie, best first.
-std::vector<std::string> places() {
-  std::vector<std::string> out;
-  const auto beside = [&out](const fs::path& file) {
-    const fs::path folder = file.parent_path();
-    if (folder.empty()) return;
-    for (const fs::path& place :
-         {folder / kProgram, folder.parent_path() / "libexec" / "capstan" / kProgram}) {
-      if (std::find(out.begin(), out.end(), place) == out.end()) out.push_back(place);
-    }
-  };
-  std::error_code none;
-  beside(fs::read_symlink("/proc/self/exe", none));
-  // In a library that another program links: beside that. Of a program the loader gives the name by which it
-  // was called, which says nothing of its folder: no file of the working folder may be run.
-  Dl_info library{};
-  if (::dladdr(reinterpret_cast<const void*>(&places), &library) != 0 && library.dli_fname != nullptr &&
-      fs::path(library.dli_fname).is_absolute())
-    beside(fs::canonical(library.dli_fname, none));
-  return out;
-}
-
 bool executable(const std::string& path) {
   return ::access(path.c_str(), X_OK) == 0 && !fs::is_directory(path);
 }
@@ -52,7 +30,7 @@ bool executable(const std::string& path) {
 Result<std::string> find_helper(const BrepLimits& limits) {
   const char* said = std::getenv("CAPSTAN_BREP");
   const std::string named = !limits.helper.empty() ? limits.helper : said != nullptr ? said : "";
-  const auto tried = named.empty() ? places() : std::vector<std::string>{named};
+  const auto tried = named.empty() ? places_beside(kProgram) : std::vector<std::string>{named};
   const auto at = std::find_if(tried.begin(), tried.end(), executable);
   if (at != tried.end()) return *at;
   std::string list;

@@ -82,13 +82,17 @@ bool Heights::lower(double x0, double x1, double z_mm) {
   }
   if (first != pieces_.begin()) --first;
   if (last != pieces_.end()) ++last;
-  changed_.clear();
+  const auto before = last - first;
+  const auto most = 3 * static_cast<std::size_t>(before);  // of each piece its middle and what is beside it
+  if (changed_.size() < most) changed_.resize(most);
+  Piece* const begin = changed_.data();
+  Piece* end = begin;
   const auto push = [&](double a, double b, double z) {
     if (!(b > a)) return;
-    if (!changed_.empty() && changed_.back().z_mm == z) {
-      changed_.back().x1 = b;
+    if (end != begin && end[-1].z_mm == z) {
+      end[-1].x1 = b;
     } else {
-      changed_.push_back({a, b, z});
+      *end++ = {a, b, z};
     }
   };
   for (auto p = first; p != last; ++p) {
@@ -100,14 +104,11 @@ bool Heights::lower(double x0, double x1, double z_mm) {
     push(std::max(p->x0, x0), std::min(p->x1, x1), z_mm);
     push(x1, p->x1, p->z_mm);
   }
-  const auto before = last - first;
-  const auto now = static_cast<std::ptrdiff_t>(changed_.size());
-  if (now <= before) {
-    const auto end = std::copy(changed_.begin(), changed_.end(), first);
-    pieces_.erase(end, last);
+  if (end - begin <= before) {
+    pieces_.erase(std::copy(begin, end, first), last);
   } else {
-    const auto rest = std::copy(changed_.begin(), changed_.begin() + before, first);
-    pieces_.insert(rest, changed_.begin() + before, changed_.end());
+    const auto rest = std::copy(begin, begin + before, first);
+    pieces_.insert(rest, begin + before, end);
   }
   return true;
 }

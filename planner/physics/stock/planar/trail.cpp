@@ -160,7 +160,8 @@ bool Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
     for (int k = 0; k < n; ++k) {
       const double from = x0 + (x1 - x0) * k / n;
       const double to = x0 + (x1 - x0) * (k + 1) / n;
-      const double z = std::max(above_mm, floor_at(probe.at(0.5 * (from + to))));
+      const double floor = n == 1 && to == x1 ? zm : floor_at(probe.at(0.5 * (from + to)));
+      const double z = std::max(above_mm, floor);
       any = heights.lower(from, to, z) || any;
     }
   }

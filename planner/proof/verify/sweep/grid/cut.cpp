@@ -79,12 +79,14 @@ void pass(Knife& k, const Way& way) {
     const auto [x0, x1] = k.grid.columns(xa, xb);
     if (x0 >= x1) continue;
     k.grid.cut_cells(iy, x0, x1);
-    for (int ix = x0; ix < x1; ++ix) {
-      const double stands = k.grid.stock[k.grid.index(ix, iy)];
-      if (stands <= way.zmin()) continue;
+    const double* const row = k.grid.stock.data() + k.grid.index(0, iy);
+    const Vec2 first = k.grid.centre(0, iy);
+    way.candidates(row, x0, x1, first, k.grid.cell(), [&](int ix) {
+      const double stands = row[ix];
+      if (stands <= way.zmin()) return;
       const Vec2 p = k.grid.centre(ix, iy);
       if (way.meets(p, stands, at)) k.take(ix, iy, way, p, at);
-    }
+    });
   }
 }
 

@@ -56,6 +56,8 @@ double lowest_of(const ProfilePiece& p, const CutterOutline& o, double fall, dou
 
 CutterOutline::CutterOutline(CutterProfile profile) : profile_(std::move(profile)) {
   const auto& p = profile_.pieces;
+  ball_ = p.size() == 1 && p[0].radius_mm > 0.0 && p[0].rc_mm == 0.0;
+  sphere_ = ball_ && p[0].r1_mm >= profile_.radius_mm;
   if (!p.empty() && p.front().radius_mm == 0.0 && p.front().slope == 0.0) flat_ = p.front().r1_mm;
   if (!p.empty() && p.back().r1_mm == profile_.radius_mm) top_ = profile_.height(profile_.radius_mm);
   // A bin's least height is that of its inner edge, for heights do not fall; less what rounding of the square
@@ -67,6 +69,24 @@ CutterOutline::CutterOutline(CutterProfile profile) : profile_(std::move(profile
     const double square = r2 * static_cast<double>(i) / static_cast<double>(kBins);
     floor_[i] = height(std::sqrt(square) * (1.0 - kRounding)) - kRounding;
   }
+  // As steep as the outline rises over its inner half, and over a rim of as much again. Default, unsourced.
+  constexpr std::size_t kInner = kBins / 4, kRim = kBins / 2;
+  const auto rise = [&](std::size_t from, std::size_t to) {
+    return r2 > 0.0
+               ? std::max(0.0, (floor_[to] - floor_[from]) / (r2 * static_cast<double>(to - from) / kBins))
+               : 0.0;
+  };
+  floors_ = {floor_of(rise(0, kInner)), floor_of(rise(kRim, kBins - kInner / 2))};
+}
+
+CutterOutline::Floor CutterOutline::floor_of(double per_square) const {
+  // In a bin the outline is no lower than the bin's floor, and the line highest at its end.
+  Floor out{1e300, per_square};
+  for (std::size_t i = 0; i <= kBins; ++i) {
+    const double end = bins_per_square_ > 0.0 ? static_cast<double>(i + 1) / bins_per_square_ : 0.0;
+    out.at_0 = std::min(out.at_0, floor_[i] - per_square * end);
+  }
+  return out;
 }
 
 double CutterOutline::middle() const {
@@ -83,7 +103,8 @@ double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot,
   // Downhill from the foot: before it the surface over the point only sinks.
   const double begin = dz < 0.0 ? from - foot : foot - to, end = dz < 0.0 ? to - foot : foot - from;
   const double z_foot = z0 + foot / length * dz;
-  const auto f = [&](double v) { return z_foot - fall * v + o.height(std::sqrt(d * d + v * v)); };
+  const double square = d * d;
+  const auto f = [&](double v) { return z_foot - fall * v + o.height(std::sqrt(square + v * v)); };
   if (end <= 0.0) return f(end);
   const double first = std::max(begin, 0.0);
   if (const ProfilePiece* ball = o.ball())  // of one sphere the place is known

@@ -6,6 +6,7 @@
 
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/proof/verify/moves.h"
+#include "planner/proof/verify/sweep/grid/line_cells.h"
 #include "planner/proof/verify/sweep/grid/outline.h"
 
 // How a move passes over a point: how low the cutter comes there, and how thick a chip its front takes. One
@@ -94,7 +95,9 @@ class LineWay : public Way {
         a_(xy(m.from)),
         d_(xy(m.to) - xy(m.from)),
         length_(norm(d_)),
-        dz_(m.to.z - m.from.z) {
+        dz_(m.to.z - m.from.z),
+        way_(std::hypot(length_, dz_)),
+        cells_(o, a_, d_, std::min(m.from.z, m.to.z)) {
     zmin_ = std::min(m.from.z, m.to.z);
     // Of a torus, by less than a thousandth of the radius along the way (`least_between`).
     if (!level_) searched_ = 1e-3 * r_ * std::abs(dz_) / length_;
@@ -136,6 +139,13 @@ class LineWay : public Way {
     return norm(p - (a_ + t * d_));
   }
 
+  /// Calls f(ix) for the cells from..to - 1 of a row that it may lower; `first`: centre of cell 0.
+  template <class F>
+  void candidates(const double* stock, int from, int to, geometry::Vec2 first, double cell,
+                  const F& f) const {
+    cells_.each(stock, from, to, first, cell, f);
+  }
+
   /// Whether the cutter may come below `stands` over p.
   [[nodiscard]] bool meets(geometry::Vec2 p, double stands, Over& at) const {
     const double foot = length_ < 1e-9 ? 0.0 : dot(p - a_, d_) / (length_ * length_);
@@ -154,7 +164,13 @@ class LineWay : public Way {
       return true;
     }
     const geometry::Vec2 aside = p - (a_ + foot * d_);
-    at.z = std::max(at.bound, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(dot(aside, aside)), length_));
+    const double off2 = dot(aside, aside);
+    if (const geometry::ProfilePiece* ball = o_.ball()) {
+      // On a line without ends it would come lower, to that; where it takes nothing it has no chip either.
+      const double half = std::sqrt(std::max(0.0, ball->radius_mm * ball->radius_mm - off2));
+      if (stands <= z0_ + foot * dz_ + ball->zc_mm - way_ / length_ * half - kSlack) return false;
+    }
+    at.z = std::max(at.bound, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(off2), length_));
     at.tip = z0_ + t * dz_;
     return true;
   }
@@ -182,7 +198,7 @@ class LineWay : public Way {
   /// what stays. Material over the ball's middle is met by the shank, whose normal is level.
   [[nodiscard]] double ball_chip(geometry::Vec2 p, double stands, double advance, const Over& at) const {
     if (stands <= at.z) return 0.0;
-    const double way = std::hypot(length_, dz_), down = dz_ / way, square = r_ * r_;
+    const double way = way_, down = dz_ / way, square = r_ * r_;
     const geometry::Vec2 side = p - a_;
     const double ahead = dot(side, d_) / way;
     const double top = stands - z0_ - r_;  // over the centre, at the start
@@ -227,6 +243,8 @@ class LineWay : public Way {
 
   geometry::Vec2 a_, d_;
   double length_, dz_;
+  double way_;  ///< length in space
+  LineCells cells_;
 };
 
 /// An arc whose ends are not as far from its centre runs at the mean of both.
@@ -282,6 +300,11 @@ class ArcWay : public Way {
     const geometry::Vec2 q = p - centre_;
     const double ends = std::min(norm(p - from_), norm(p - to_)), beside = std::abs(norm(q) - ra_);
     return gap_ + (ahead_of(q) <= sweep_ ? beside : std::max(beside, ends));
+  }
+
+  template <class F>
+  void candidates(const double*, int from, int to, geometry::Vec2, double, const F& f) const {
+    for (int ix = from; ix < to; ++ix) f(ix);
   }
 
   [[nodiscard]] bool meets(geometry::Vec2 p, double stands, Over& at) const {

@@ -8,9 +8,8 @@
 #include <cstring>
 #include <pqxx/pqxx>
 
-#include "casebase/casebase.h"
+#include "casebase/store/postgres/postgres_library.h"
 #include "casebase/store/row.h"
-#include "casebase/store/server.h"
 
 // One schema of a PostgreSQL database: a table of heads, a table of bodies, a row of totals, as in a file of
 // SQLite. The schema's comment states its version. It has to be ours by the catalogue: the same columns and
@@ -400,10 +399,9 @@ tl::unexpected<Diagnostic> no_uri(std::string name) {
                          .expected = "postgresql://user@host:port/database, other signs percent-encoded"});
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Store>> connect_postgres(const std::string& uri, Missing missing, Job& job) {
-  const std::string name = name_of(uri);
+/// As `connect_postgres` (server.h).
+Result<std::unique_ptr<Store>> connected(const std::string& uri, const std::string& name, Missing missing,
+                                         Job& job) {
   const std::unique_ptr<PQconninfoOption, FreeOptions> options(PQconninfoParse(uri.c_str(), nullptr));
   if (!options) return no_uri(name);
   std::vector<std::string> secrets;
@@ -426,4 +424,11 @@ Result<std::unique_ptr<Store>> connect_postgres(const std::string& uri, Missing 
   return store;
 }
 
+}  // namespace
 }  // namespace capstan::casebase
+
+void capstan_connect_postgres(const std::string& uri, const std::string& name,
+                              capstan::casebase::Missing missing, capstan::Job& job,
+                              capstan::Result<std::unique_ptr<capstan::casebase::Store>>& to) {
+  to = capstan::casebase::connected(uri, name, missing, job);
+}
