@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/compared/compare.h"
@@ -38,6 +39,7 @@ void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& 
   }
   for (const PlannersReading& e : planner) {
     if (e.shapes.empty()) continue;
+    poll();
     const auto at = first.find(e.feature);
     const std::size_t order = at == first.end() ? 0 : at->second + 1;
     const std::string step = at == first.end() ? std::string() : ids[at->second];
