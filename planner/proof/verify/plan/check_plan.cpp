@@ -41,7 +41,7 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_order(plan, part, findings, before);
   check_coverage(plan, findings, before);
   poll();
-  check_meaning(plan, findings, before != nullptr);
+  check_meaning(plan, findings, before != nullptr, known);
   poll();
   check_setups(plan, part, findings);
   poll();
