@@ -177,6 +177,7 @@ Result<LateOutcome> judged(pipeline::Checked made, const Case& c, bool allow_fin
 std::optional<LateOutcome> still_holds(const Case& c, Duration& checking, Job& job) {
   const std::vector<Diagnostic> said = job.diagnostics();
   auto as_brought = as_it_is(c.plan, c.inputs, c.window, job);
+  poll();
   if (as_brought && c.acceptable(*as_brought)) {
     const auto before = c.cut_before();
     auto out = judged(
@@ -231,6 +232,7 @@ void improve(LateOutcome& out, const Case& c, pipeline::Reopen reopen, Job& tria
 /// What is told of an answer, and recorded in it.
 void finish(LateOutcome& out, const model::Plan& brought, const Case& c,
             const std::vector<std::string>& reopened, Job& job) {
+  const SharedStopScope to_its_end(nullptr);  // it is checked: who stops the call now is given it
   out.reopened = reopened;
   const bool part = c.window.has_value();
   out.changes = changes(brought, out.plan, part);
@@ -274,11 +276,7 @@ Diagnostic as_stopped(const Diagnostic& why, const LatePolicy& policy, TimePoint
   const bool at_deadline =
       policy.stop_at_deadline && policy.deadline && job.now() >= began + *policy.deadline;
   if (!at_deadline || why.code != kStoppedPlanning) return why;
-  return {.code = "LATE-NONE",
-          .message =
-              "no workingstep was bound and checked when the deadline of " + ms(*policy.deadline) + " came",
-          .file = why.file,
-          .hint = "retract and stop; give it more time, or bind fewer workingsteps at once"};
+  return none_in_time(*policy.deadline, why.file);
 }
 
 /// The improvement: only in the time left, with twice the time of one check in reserve.
@@ -312,7 +310,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
   // The improvement repeats most of the fallback.
   if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
   if (!inputs.proofs) inputs.proofs = std::make_shared<memo::Memo>();
-  if (policy.stop_at_deadline && policy.deadline) job.set_deadline(began + *policy.deadline);
+  poll();
   const std::size_t bound = policy.next && policy.next->from ? *policy.next->from - 1 : plan.steps.size();
   const auto ways = take_branches(plan, policy.measured, magazine, policy.may, bound);
   if (!ways) return tl::unexpected(ways.error());
@@ -321,6 +319,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
   if (!ways->empty() && plan.steps.size() > bound) plan.steps.resize(bound);
   std::optional<pipeline::Window> window;
   std::set<model::AnyRef> operations;
+  poll();
   if (policy.next) {
     std::vector<model::AnyRef> steps = given::steps_in_order(plan);
     if (operations_open(plan, steps)) {
@@ -329,19 +328,24 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
       plan = *std::move(chosen);
       steps = given::steps_in_order(plan);
     }
+    poll();
     auto meant = window_of(plan, *policy.next, steps);
     if (!meant) return tl::unexpected(meant.error());
     window = *meant;
     if (auto ok = cut_as_bound(plan, *policy.next, *window, steps); !ok) return tl::unexpected(ok.error());
     operations = operations_of(plan, *window, steps);
   }
+  poll();
   model::settle_edits(plan.model, plan.ledger);
+  poll();
   // Of a large plan a copy costs more than a workingstep: it is made where a tool will be re-opened.
   std::optional<model::Plan> as_it_came;
   const auto missing = [&](model::AnyRef op) { return given::missing_tool(plan, op, magazine).has_value(); };
   if (!window || std::any_of(operations.begin(), operations.end(), missing)) as_it_came = plan;
+  poll();
   auto reopened = given::match_loaded(plan, inputs.library, job, window ? &operations : nullptr);
   if (!reopened) return tl::unexpected(reopened.error());
+  poll();
   const model::Plan& brought = as_it_came ? *as_it_came : plan;
   why.insert(why.end(), reopened->begin(), reopened->end());
   const Case c{plan,
@@ -412,9 +416,20 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
 
 }  // namespace
 
+Diagnostic none_in_time(std::chrono::milliseconds deadline, const std::string& file) {
+  return {.code = "LATE-NONE",
+          .message = "no workingstep was bound and checked when the deadline of " + ms(deadline) + " came",
+          .file = file,
+          .hint = "retract and stop; give it more time, or bind fewer workingsteps at once"};
+}
+
 Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
   const TimePoint began = policy.began.value_or(job.now());
-  return bind_case(std::move(plan), std::move(inputs), policy, began, {}, job);
+  if (policy.stop_at_deadline && policy.deadline) job.set_deadline(began + *policy.deadline);
+  const Diagnostic none = pipeline::stopped_planning(plan);
+  return stoppable(
+      job, [&] { return bind_case(std::move(plan), std::move(inputs), policy, began, {}, job); },
+      [&]() -> Result<LateOutcome> { return tl::unexpected(as_stopped(none, policy, began, job)); });
 }
 
 }  // namespace capstan::late

@@ -90,4 +90,7 @@ struct LateOutcome {
 [[nodiscard]] Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
                                        Job& job);
 
+/// What there is instead of a workingstep where a call is given up at its deadline (LATE-NONE).
+[[nodiscard]] Diagnostic none_in_time(std::chrono::milliseconds deadline, const std::string& file);
+
 }  // namespace capstan::late

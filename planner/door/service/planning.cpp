@@ -262,13 +262,24 @@ Outcome<Planned> bind(const Request& request, Source source, std::chrono::steady
   });
 }
 
-Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, model::Plan plan,
+Outcome<Planned> bind_in(const pipeline::Inputs& shop, const Request& request, const model::Plan& plan,
                          std::chrono::steady_clock::time_point began, Job& job) {
-  const std::string name = plan.file_name;
-  return to_its_end(name, job, [&]() -> Outcome<Planned> {
-    if (auto ok = take_choices(request, plan, shop, job); !ok)
+  const auto all = [&]() -> Outcome<Planned> {
+    poll();
+    pipeline::Inputs inputs = shop;
+    poll();
+    if (auto ok = take_choices(request, plan, inputs, job); !ok)
       return failed(ok.error(), code_of(ok.error(), Code::kUnreadable));
-    return bound(request, std::move(plan), std::move(shop), began, job);
+    model::Plan mine = plan;
+    poll();
+    return bound(request, std::move(mine), std::move(inputs), began, job);
+  };
+  return stoppable(job, all, [&]() -> Outcome<Planned> {
+    const bool at_deadline =
+        request.stop_at_deadline && request.deadline && job.now() >= began + *request.deadline;
+    return failed(
+        at_deadline ? late::none_in_time(*request.deadline, plan.file_name) : stopped_call(plan.file_name),
+        Code::kImpossible);
   });
 }
 

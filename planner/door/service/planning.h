@@ -54,8 +54,10 @@ struct Planned {
                                     std::chrono::steady_clock::time_point began, Job& job);
 /// The same of a plan that was read, in a shop that is open (open_shop); what reading said of it is among the
 /// job's diagnostics.
-[[nodiscard]] Outcome<Planned> bind_in(pipeline::Inputs shop, const Request& request, model::Plan plan,
-                                       std::chrono::steady_clock::time_point began, Job& job);
+/// Both are copied, a deadline that stops the job looked at between.
+[[nodiscard]] Outcome<Planned> bind_in(const pipeline::Inputs& shop, const Request& request,
+                                       const model::Plan& plan, std::chrono::steady_clock::time_point began,
+                                       Job& job);
 
 /// What a format is written of: a program of the workingsteps that were bound, a plan of all.
 [[nodiscard]] inline const model::Plan& plan_for(const Planned& planned, const Format& format) {

@@ -52,6 +52,7 @@ Code Session::set(std::string_view name, const std::string& text) {
     message_.clear();
     if (auto ok = service::set(request_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
     if (std::find(kOfOneCall.begin(), kOfOneCall.end(), name) == kOfOneCall.end()) {
+      if (shop_ && in_shop_ && !in_shop_->rules) shipped_rules_ = std::move(shop_->rules);
       shop_.reset();
       in_shop_.reset();
       failed_ = false;
@@ -71,7 +72,7 @@ Code Session::opened(Job& job) {
     if (!with) return end(code_of(with.error(), Code::kUsage), to_text(with.error()));
     in_shop_ = *std::move(with);
   }
-  auto shop = open_shop(*in_shop_, model::Plan{}, job);
+  auto shop = open_shop(*in_shop_, model::Plan{}, job, shipped_rules_ ? &*shipped_rules_ : nullptr);
   for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
   failed_ = !shop;
   if (!shop) return end(Code::kUnreadable, to_text(shop.error()));

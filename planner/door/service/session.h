@@ -89,6 +89,7 @@ class Session {
   std::optional<Request> in_shop_;  ///< with what its shop file says beside it; nothing: not read yet
   Job::Progress progress_;
   std::optional<pipeline::Inputs> shop_;
+  std::optional<rules::RuleBase> shipped_rules_;  ///< of a shop without its own that was open before
   std::shared_ptr<memo::Memo> memo_ = std::make_shared<memo::Memo>();    ///< of all shops that name no folder
   std::shared_ptr<memo::Memo> proofs_ = std::make_shared<memo::Memo>();  ///< Inputs::proofs
   std::optional<Read> read_;

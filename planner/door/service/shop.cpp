@@ -304,7 +304,8 @@ Status name_material(pipeline::Inputs& in, const std::string& given, Job& job) {
   return take_material(in, *std::move(own));
 }
 
-Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Job& job) {
+Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Job& job,
+                                   const rules::RuleBase* shipped) {
   pipeline::Inputs in;
   if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
   take_control(o, in, job);
@@ -335,9 +336,13 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   }
 
   poll();
-  auto rules = rules::load_rules(o.rules.value_or(""), job);
-  if (!rules) return tl::unexpected(rules.error());
-  in.rules = *std::move(rules);
+  if (shipped != nullptr && !o.rules) {
+    in.rules = *shipped;
+  } else {
+    auto rules = rules::load_rules(o.rules.value_or(""), job);
+    if (!rules) return tl::unexpected(rules.error());
+    in.rules = *std::move(rules);
+  }
   in.provenance.push_back({"rules",
                            o.rules ? "shipped tables and " + *o.rules : std::string("shipped tables"),
                            o.rules ? option(o, "rules " + *o.rules) : kDefault});

@@ -12,12 +12,14 @@ namespace capstan::service {
 
 /// Opens a shop: machine, tool library, materials, rules, fixtures' files and cases as the request names
 /// them; else the machine of the plan; else the built-in ones. Each stands in Inputs::provenance, a default
-/// as "built-in default". A session that binds many plans opens its shop once.
+/// as "built-in default". A session that binds many plans opens its shop once. `shipped`: the rules without
+/// a shop's own, where the caller has read them; null: they are read.
 ///
 /// Warns  of what a shop's own rule tables lack or say twice: planning goes on, for the rows that do decide
 ///        are sound.
 /// Fails  as the rooms that read these.
-[[nodiscard]] Result<pipeline::Inputs> open_shop(const Request& request, const model::Plan& plan, Job& job);
+[[nodiscard]] Result<pipeline::Inputs> open_shop(const Request& request, const model::Plan& plan, Job& job,
+                                                 const rules::RuleBase* shipped = nullptr);
 
 /// Adds to an open shop what the request chooses for this plan (material, stock, objective, tolerances,
 /// workholding, ...); what the plan itself was made with stays, unless another is named.

@@ -24,6 +24,25 @@ add_test(NAME LateInterface.TheExampleForCBindsEachWorkingstepInItsTurn
 set_tests_properties(LateInterface.TheExampleForCBindsEachWorkingstepInItsTurn PROPERTIES
   PASS_REGULAR_EXPRESSION "workingstep 5 of 5\n" FAIL_REGULAR_EXPRESSION "not bound")
 
+# One session in two threads of a control; its own locks are watched by the thread sanitizer, where no other is.
+find_package(Threads REQUIRED)
+add_executable(late_threads ${CMAKE_SOURCE_DIR}/examples/late_threads.c)
+target_link_libraries(late_threads PRIVATE capstan::late_shared Threads::Threads)
+if(NOT CAPSTAN_SANITIZE)
+  target_compile_options(late_threads PRIVATE -fsanitize=thread)
+  target_link_options(late_threads PRIVATE -fsanitize=thread)
+endif()
+add_test(NAME LateInterface.AReaderAndABinderShareASession
+  COMMAND late_threads ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
+          ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000)
+add_test(NAME LateInterface.AReaderStopsTheBindOfAnotherThread
+  COMMAND late_threads ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
+          ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000 stop)
+set_tests_properties(LateInterface.AReaderAndABinderShareASession PROPERTIES
+  PASS_REGULAR_EXPRESSION "bound after progress was shown.*\nM2" FAIL_REGULAR_EXPRESSION "ThreadSanitizer")
+set_tests_properties(LateInterface.AReaderStopsTheBindOfAnotherThread PROPERTIES
+  PASS_REGULAR_EXPRESSION "retract and stop \\(code 4\\)" FAIL_REGULAR_EXPRESSION "ThreadSanitizer")
+
 # The page for a builder of controls says what the header and the command say.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME LateInterface.ThePageForBuildersSaysWhatTheHeaderSays

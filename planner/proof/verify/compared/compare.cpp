@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/volumes/number_text.h"
 
 // The planner's shapes against the own reading, place by place. A place counts only where either reading says
@@ -283,6 +284,7 @@ std::optional<Disagreement> disagreement(const Reading& own, const std::vector<F
   const Own mine(own);
   const double tolerance = agreed(own, planner);
   const auto differ = [&](Vec3 p) -> std::optional<Disagreement> {
+    tick();
     if (!raw.empty() && (p.x < raw.lo.x || p.x > raw.hi.x || p.y < raw.lo.y || p.y > raw.hi.y ||
                          p.z < raw.lo.z || p.z > raw.hi.z))
       return std::nullopt;
@@ -319,6 +321,7 @@ std::vector<PlannersReading> planners_readings(const model::Model& m, const std:
   std::vector<PlannersReading> out;
   for (const auto f : m.all_below(model::TypeId::kManufacturingFeature)) {
     if (of != nullptr && !of->contains(f)) continue;
+    poll();
     if (auto shapes = model::shapes_of(m, model::Ref<model::ManufacturingFeature>(f)))
       out.push_back({f, *std::move(shapes)});
   }

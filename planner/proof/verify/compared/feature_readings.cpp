@@ -1,7 +1,10 @@
 #include "planner/proof/verify/compared/feature_readings.h"
 
 #include <map>
+#include <optional>
 
+#include "planner/ground/base/stopping.h"
+#include "planner/ground/memo/remembered.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/compared/compare.h"
@@ -9,6 +12,8 @@
 namespace capstan::verify {
 
 namespace {
+
+constexpr memo::Stage kMeaning = memo::Stage::kPart;  ///< of what is remembered of the part
 
 std::string name_of(const model::Model& m, model::AnyRef f) {
   const auto* named = m.get<model::ManufacturingFeature>(f);
@@ -20,14 +25,15 @@ std::string place(geometry::Vec3 p) { return "X" + plain(p.x) + " Y" + plain(p.y
 
 }  // namespace
 
-void check_meaning(const model::Plan& plan, Findings& findings, bool cut_only) {
+void check_meaning(const model::Plan& plan, Findings& findings, bool cut_only, memo::Memo* known) {
   std::set<model::AnyRef> cut;
   for (const model::StepResult& s : plan.steps)
     if (const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step)) cut.insert(ws->its_feature);
-  check_meaning(plan, planners_readings(plan.model, cut_only ? &cut : nullptr), findings);
+  check_meaning(plan, planners_readings(plan.model, cut_only ? &cut : nullptr), findings, known);
 }
 
-void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings) {
+void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& planner, Findings& findings,
+                   memo::Memo* known) {
   const volumes::Source source = volumes::source_of(plan.model, plan.stock.box);
   const std::set<model::AnyRef> pieces = volumes::parts_of_others(plan.model);
   const std::vector<std::string> ids = model::step_ids(plan);
@@ -38,6 +44,7 @@ void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& 
   }
   for (const PlannersReading& e : planner) {
     if (e.shapes.empty()) continue;
+    poll();
     const auto at = first.find(e.feature);
     const std::size_t order = at == first.end() ? 0 : at->second + 1;
     const std::string step = at == first.end() ? std::string() : ids[at->second];
@@ -56,7 +63,13 @@ void check_meaning(const model::Plan& plan, const std::vector<PlannersReading>& 
                 own.unread);
       continue;
     }
+    std::optional<memo::Key> agree;
+    if (known != nullptr) {
+      agree = memo::key_of(kMeaning, own, e.shapes, plan.stock.box);
+      if (known->find(kMeaning, *agree) != nullptr) continue;
+    }
     const auto d = volumes::disagreement(own, e.shapes, plan.stock.box);
+    if (!d && agree) known->keep(kMeaning, *agree, "agree");
     if (!d) continue;
     const std::string text = d->what.empty()
                                  ? "feature " + name + " is read in two ways: at " + place(d->at) +

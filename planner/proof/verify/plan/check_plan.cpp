@@ -16,6 +16,7 @@ namespace {
 bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* known,
            const CutBefore* before) {
   const std::vector<StepMoves> steps = moves_of(plan, findings);
+  poll();
   check_ranges(plan, findings);
   check_twice(plan, findings);
   if (const std::string beyond = model::beyond_range(plan); !beyond.empty()) {
@@ -25,9 +26,11 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
                        "the plan's file");
     return true;
   }
+  poll();
   check_tools(plan, steps, findings);
   check_tool_materials(plan, findings);
   check_limits(plan, steps, findings);
+  poll();
   check_coolant(plan, steps, findings);
   check_life(steps, findings);
   check_machine(plan, findings);
@@ -38,9 +41,10 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_order(plan, part, findings, before);
   check_coverage(plan, findings, before);
   poll();
-  check_meaning(plan, findings, before != nullptr);
+  check_meaning(plan, findings, before != nullptr, known);
   poll();
   check_setups(plan, part, findings);
+  poll();
   check_within(plan, part, findings);
   poll();
   std::vector<double> speed_shares;

@@ -1,3 +1,4 @@
+#include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/program/readers.h"
@@ -99,13 +100,17 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
   if (reader == nullptr) return findings.take();
   check_to_its_end(job, findings, [&] {
     const Program program = reader->program(text.text, machine);
+    poll();
     // Moves refer to the cutters.
     const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
     const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
     const std::vector<StepMoves> steps = judge_text(*reader, program, text, plan, machine, tools, findings);
-    if (plan != nullptr &&
-        !check_removal(*plan, shapes_of_part(*plan), steps, findings, job, nullptr, known, before))
-      return false;
+    poll();
+    if (plan != nullptr) {
+      const PartShapes part = shapes_of_part(*plan);
+      poll();
+      if (!check_removal(*plan, part, steps, findings, job, nullptr, known, before)) return false;
+    }
     job.progress("check", 1.0);
     return true;
   });

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
@@ -31,9 +32,12 @@ struct Scene {
         const KnownSteps& known, const std::optional<geometry::Box2>& near)
       : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
     if (near) target.only_near(*near);
+    poll();
     known.remember(target, grid);
     target.fill(grid);
+    poll();
     earlier.begin(grid);
+    poll();
   }
   [[nodiscard]] SweptSetup swept() { return {target, grid, earlier, squares}; }
 };

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "planner/ground/memo/memo.h"
 #include "planner/proof/verify/compared/compare.h"
 #include "planner/proof/verify/compared/feature_readings.h"
 #include "planner/proof/verify/verify.h"
@@ -40,6 +41,25 @@ TEST(MeaningFinding, NamesFeatureStepPlaceAndBothReadings) {
        {"is read in two ways", "of the workpiece", "ROUND_HOLE at X15 Y15 Z0, 20 mm deep",
         "hole at X0 Y0 Z0, 20 mm deep", "do not cut it"})
     EXPECT_NE(f.message.find(part_of), std::string::npos) << f.message;
+}
+
+TEST(MeaningFinding, ReadingsThatAgreedBeforeAreKnownAndOneThatDiffersIsFoundEachTime) {
+  const PlanMaker k = testing::good_plan();
+  memo::Memo known;
+  Findings right;
+  std::vector<PlannersReading> part = planners_readings(k.plan.model);
+  check_meaning(k.plan, part, right, &known);
+  EXPECT_TRUE(right.take().empty());
+  EXPECT_EQ(known.counts(memo::Stage::kPart).made, part.size());
+  for (auto& e : part) {
+    if (e.shapes.at(0).kind == model::ShapeKind::kHole) e.shapes[0].frame.origin = {0, 0, 0};
+  }
+  for (int i = 0; i < 2; ++i) {
+    Findings findings;
+    check_meaning(k.plan, part, findings, &known);
+    EXPECT_EQ(findings.take(), meaning(k.plan, part)) << "time " << i + 1;
+  }
+  EXPECT_EQ(known.counts(memo::Stage::kPart).found, 2 * (part.size() - 1));
 }
 
 TEST(MeaningFinding, WhatNoStepCutsIsAWarning) {

@@ -45,6 +45,17 @@ std::pair<int, int> Raster::rows(double a, double b) const {
           static_cast<int>(std::clamp(last + 1.0, 0.0, static_cast<double>(ny_)))};
 }
 
+void Grid::begin_level(double stock_mm, double base_mm) {
+  std::fill(stock.begin(), stock.end(), stock_mm);
+  std::fill(base.begin(), base.end(), base_mm);
+  std::fill(row_top_.begin(), row_top_.end(), stock_mm);
+  std::fill(block_top_.begin(), block_top_.end(), stock_mm);
+  for (int iy = 0; iy < ny_; ++iy) nothing_cut(iy);
+  cut_from_ = ny_;
+  cut_to_ = 0;
+  top_ = stock_mm;
+}
+
 void Grid::find_top() {
   for (int iy = 0; iy < ny_; ++iy) cut_cells(iy, 0, nx_);
   find_top_after_cuts();

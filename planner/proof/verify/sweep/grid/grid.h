@@ -66,6 +66,8 @@ class Grid : public Raster {
     b.from = std::min(b.from, from / kBlock);
     b.to = std::max(b.to, (to - 1) / kBlock + 1);
   }
+  /// Stock as high everywhere, and its underside.
+  void begin_level(double stock_mm, double base_mm);
   /// Finds the tops of all rows: for stock that was written other than by `cut`.
   void find_top();
   /// Finds those of the rows that were cut since.

@@ -10,11 +10,14 @@
 #include "planner/proof/verify/sweep/known/known_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/memo/packed.h"
 #include "planner/ground/memo/remembered.h"
 #include "planner/model/nouns/all.h"
@@ -91,6 +94,7 @@ Window window_of(const StepMoves& step, const Grid& grid, double radius_mm) {
 void lowered(const Grid& grid, const Window& w, const std::vector<double>& before, Known& out) {
   std::size_t k = 0;
   for (int iy = w.y0; iy < w.y1; ++iy) {
+    tick(4);
     for (int ix = w.x0; ix < w.x1; ++ix, ++k) {
       const std::size_t i = grid.index(ix, iy);
       if (grid.stock[i] == before[k]) continue;
@@ -171,6 +175,7 @@ std::vector<char> CutSquares::touched(const StepMoves& step, double reach_mm, do
   const auto at = [](double v, double begin, double wide) {
     return static_cast<int>(std::clamp(std::floor((v - begin) / wide), 0.0, kSquares - 1.0));
   };
+  std::array<int, 4> last = {-1, -1, -1, -1};
   for (const Move& m : step.moves) {
     if (m.kind == MoveKind::kDwell || (!rapids && !feeds(m))) continue;
     const geometry::Box3 box = box_of(m);
@@ -180,6 +185,8 @@ std::vector<char> CutSquares::touched(const StepMoves& step, double reach_mm, do
     const int x1 = std::min(kSquares - 1, at(box.hi.x + reach_mm, lo_.x, square_.x) + 1);
     const int y0 = std::max(0, at(box.lo.y - reach_mm, lo_.y, square_.y) - 1);
     const int y1 = std::min(kSquares - 1, at(box.hi.y + reach_mm, lo_.y, square_.y) + 1);
+    const std::array<int, 4> now = {x0, x1, y0, y1};
+    if (std::exchange(last, now) == now) continue;
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) out[static_cast<std::size_t>(y * kSquares + x)] = 1;
   }
@@ -229,11 +236,17 @@ void KnownSteps::begin(SweptSetup setup, bool carried) const {
   setup.squares.begin(setup.grid, key_of_setup(setup.target, setup.grid), carried);
 }
 
+const Key& KnownSteps::key_of_cutter(const model::Cutter& cutter) const {
+  const auto [at, is_new] = of_cutters_.try_emplace(&cutter);
+  if (is_new) at->second = memo::key_of(Stage::kSweep, cutter);
+  return at->second;
+}
+
 /// All that StepChecks asks: who adds a question there adds it here.
 Key KnownSteps::key_of(const StepMoves& step, const SweptSetup& setup, bool begun, double reach_mm) const {
   std::string bytes;
   memo::pack(bytes, placeless(step, true));
-  memo::pack(bytes, *step.cutter);
+  memo::pack(bytes, key_of_cutter(*step.cutter));
   memo::pack(bytes, begun);
   memo::pack(bytes, step.planned != nullptr);
   if (step.planned != nullptr) {
@@ -289,13 +302,16 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
       const Findings::Recording recording(findings, said);
       out = anew();
     }
+    poll();
     Known made{{}, {}, {}, out.cuts, out.speed_share};
     lowered(setup.grid, w, before, made);
+    poll();
     auto placed = by_place(std::move(said), step);
     if (placed && placed->size() <= kMostSaid && made.cells.size() <= kMostCells) {
       made.said = *std::move(placed);
       std::string bytes;
       memo::pack(bytes, made);
+      poll();
       memo_->keep(Stage::kSweep, key, std::move(bytes));
     }
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "planner/ground/memo/memo.h"
@@ -67,9 +68,12 @@ class KnownSteps {
   [[nodiscard]] memo::Key key_of_setup(const Target& target, const Grid& grid) const;
   [[nodiscard]] memo::Key key_of(const StepMoves& step, const SweptSetup& setup, bool begun,
                                  double reach_mm) const;
+  /// All that a cutter is, packed once for its steps.
+  [[nodiscard]] const memo::Key& key_of_cutter(const model::Cutter& cutter) const;
   const model::Plan& plan_;
   memo::Memo* memo_;
   memo::Key of_plan_;  ///< machine, material and the part's own reading
+  mutable std::map<const model::Cutter*, memo::Key> of_cutters_;
 };
 
 }  // namespace capstan::verify

@@ -252,14 +252,14 @@ double Target::height(Vec2 p) const {
 void Target::fill(Grid& grid) {
   grid_ = &grid;
   grid.floor = stock_.lo.z;
-  std::fill(grid.base.begin(), grid.base.end(), stock_.lo.z);
-  std::fill(grid.stock.begin(), grid.stock.end(), stock_.hi.z);
+  grid.begin_level(stock_.hi.z, stock_.lo.z);
+  poll();
   for (int iy = 0; iy < grid.ny() && (turned_ || round_); ++iy) {
     poll();
     for (int ix = 0; ix < grid.nx(); ++ix)
       if (beside_stock(grid.centre(ix, iy))) grid.stock[grid.index(ix, iy)] = Grid::kNothing;
   }
-  grid.find_top();
+  if (turned_ || round_) grid.find_top();
   if (memo_ == nullptr) return fill_part(grid);
   const Key key = memo::key_of(Stage::kPart, of_setup_, std::string("part"));
   if (const auto bytes = memo_->find(Stage::kPart, key)) {
@@ -267,7 +267,10 @@ void Target::fill(Grid& grid) {
     memo_->reject(Stage::kPart);
   }
   fill_part(grid);
-  memo_->keep(Stage::kPart, key, Runs::packed(grid.part));
+  poll();
+  std::string bytes = Runs::packed(grid.part);
+  poll();
+  memo_->keep(Stage::kPart, key, std::move(bytes));
 }
 
 void Target::fill_piece(Grid& grid) const {

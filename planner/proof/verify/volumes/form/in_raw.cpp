@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 
 // Forms against the piece that they are cut from, by lines along a form's axis.
 //
@@ -82,6 +83,8 @@ Spans common(const Spans& a, const Spans& b) {
 
 void cut_out(Spans& spans, double from, double to) {
   if (!(from < to)) return;
+  const auto met = [&](const auto& span) { return span.first < to && from < span.second; };
+  if (std::none_of(spans.begin(), spans.end(), met)) return;
   Spans out;
   for (const auto& [lo, hi] : spans) {
     if (lo < std::min(hi, from)) out.emplace_back(lo, std::min(hi, from));
@@ -322,6 +325,7 @@ std::string buried(const Form& f, const std::vector<Form>& others, const Piece& 
   double above = 0.0, volume = 0.0;
   Vec3 at;
   for (int i = 0; i < kLines * kLines; ++i) {
+    tick(4);
     const Vec2 p{lo.x + (i % kLines + 0.5) * cell.x, lo.y + (i / kLines + 0.5) * cell.y};
     const auto own = floor_at(f, p);
     if (!own || *own > -kLidMm) continue;
