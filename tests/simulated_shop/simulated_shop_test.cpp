@@ -53,7 +53,7 @@ TEST(SimulatedShopProperty, WhereTheHandbookItselfIsTooMuchTheTunerIsNotWorse) {
 
 TEST(SimulatedShopProperty, ForcesExceedTheLoadsOfTheCorrectedCardNoMoreOftenThanTheMarginStates) {
   const auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
-  const ForceForecasts all = soaks() ? forecast_forces(1000 * seed, 40) : forecast_forces(1, 15);
+  const ForceForecasts all = soaking() ? forecast_forces(1000 * seed, 40) : forecast_forces(1, 15);
   EXPECT_GE(all.taken, all.shops / 2);
   // The usual margin: 84 of 100 cuts stay below (mechanics/loads/margin.h).
   EXPECT_LE(clopper_pearson_upper(all.over_cases, all.cuts), 0.16) << all.over_cases << " of " << all.cuts;
