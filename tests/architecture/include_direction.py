@@ -32,7 +32,8 @@ READER_ROOMS = {f"{READERS}/{name}": f"{name}_reader" for name in sorted(os.list
 TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
-    "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/copies": "copies",
+    "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/sweep/target": "target",
+    "planner/proof/verify/copies": "copies",
     "planner/proof/verify/shape": "finished", **READER_ROOMS,
     "planner/model/features/fit": "fit",
     # What a tool library is made of, whatever file it came from; on it the formats, and on these the reader of any.
@@ -96,10 +97,12 @@ ALLOWED = {
     "compared": MODEL + " volumes verify",
     # Heights that moves cut: of the check it knows what a move is.
     "grid": GROUND + " nouns plan copies verify",
+    # What the part's features leave, as the check reads them, and what stands above it.
+    "target": PROVEN + " volumes copies verify grid",
     # The finished part against a CAD shape: moves as the check reads them, swept over its own points.
-    "finished": PROVEN + " copies verify grid",
+    "finished": PROVEN + " copies verify grid target",
     **{room: GROUND + " plan copies verify" for room in READER_ROOMS.values()},
-    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid", *READER_ROOMS.values()]),
+    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid target", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "report": MODEL + " mechanics motion optimise step",
