@@ -12,7 +12,6 @@
 #include "planner/model/nouns/operation.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/setup_position.h"
-#include "planner/model/plan/resources/specific_force.h"
 
 namespace capstan::casebase {
 namespace {
@@ -263,12 +262,7 @@ Result<Case> made(const model::Plan& plan, const model::StepResult& step, const 
                  .torque_nm = step.loads.torque_nm,
                  .power_w = step.loads.power_w,
                  .deflection_mm = step.loads.deflection_mm,
-                 .tool_life_min = step.loads.tool_life_min,
-                 .force_margin = step.loads.force_margin,
-                 .specific_force_n_mm2 =
-                     model::is_a(ws->its_operation.type, model::TypeId::kDrillingTypeOperation)
-                         ? 0.0
-                         : model::specific_force_n_mm2(plan.material, *cutter, c.bound.mean_chip_mm)};
+                 .tool_life_min = step.loads.tool_life_min};
   const auto simulated = [](double v) {
     return v > 0.0 ? std::optional(Figure{v, 0.0, Origin::kSimulated}) : std::nullopt;
   };

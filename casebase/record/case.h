@@ -77,10 +77,6 @@ struct Bound {
 struct Predicted {
   double time_s = 0.0, peak_force_n = 0.0, torque_nm = 0.0, power_w = 0.0;
   double deflection_mm = 0.0, tool_life_min = 0.0;
-  /// What the forces were computed with: the factor of the plan's margin in them, and, of a mill, the
-  /// specific force of the plan's law at the mean chip of `Bound` (model/plan/resources/specific_force.h).
-  /// Without them nobody can tell what an observed force says of the law.
-  double force_margin = 0.0, specific_force_n_mm2 = 0.0;
   bool operator==(const Predicted&) const = default;
 };
 

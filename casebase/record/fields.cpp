@@ -97,9 +97,6 @@ auto table() {
       Field{54, "predicted_deflection_mm", "mm", NumberAt{at<kPredicted, &P::deflection_mm>}, 0.0,
             kDeviationMax},
       Field{55, "predicted_tool_life_min", "min", NumberAt{at<kPredicted, &P::tool_life_min>}, 0.0, 1e12},
-      Field{56, "predicted_force_margin", "1", NumberAt{at<kPredicted, &P::force_margin>}, 0.0, 100.0},
-      Field{57, "predicted_specific_force_n_mm2", "N/mm2", NumberAt{at<kPredicted, &P::specific_force_n_mm2>},
-            0.0, 1e6},
 
       Field{70, "time_s", "s", FigureAt{at<kObserved, &O::time_s>}, 0.0, kTimeMax},
       Field{71, "spindle_load_percent", "%", FigureAt{at<kObserved, &O::spindle_load_percent>}, -1000.0,

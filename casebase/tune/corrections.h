@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,18 +54,6 @@ struct ForceCorrection {
 [[nodiscard]] std::optional<ForceCorrection> correct_force(std::span<const ForceSample> samples,
                                                            const ForceHandbook& handbook);
 
-/// One factor on a law of force, whatever its form.
-struct FactorCorrection {
-  double factor = 1.0, spread = 1.0;  ///< spread: of a further edge, one standard deviation
-  double chip_mm = 0.0;               ///< mean of the chips observed (geometric)
-  std::size_t cases = 0, edges = 0;
-};
-/// The factor that the samples ask of `law`, the specific force in N/mm2 at a chip in mm, whose own spread is
-/// `spread`. Nothing without a usable sample.
-[[nodiscard]] std::optional<FactorCorrection> correct_force_factor(std::span<const ForceSample> samples,
-                                                                   const std::function<double(double)>& law,
-                                                                   double spread);
-
 /// Wear of one edge after a time in the cut.
 struct WearReading {
   double time_min = 0.0, wear_mm = 0.0;
@@ -116,9 +103,7 @@ struct TimeCorrection {
   [[nodiscard]] double factor(double block_s) const;
   [[nodiscard]] double ln_std_dev(double block_s) const;
 };
-/// `leave_out`: whether `how.left_out` is asked for, which costs a fit for each part.
-[[nodiscard]] std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples,
-                                                         bool leave_out = true);
+[[nodiscard]] std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples);
 
 /// The deviation of a bore's diameter from what was programmed, and what it was milled with.
 struct BoreSample {
@@ -134,8 +119,7 @@ struct BoreCorrection {
   [[nodiscard]] double deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const;
   [[nodiscard]] double std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const;
 };
-[[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples,
-                                                          bool leave_out = true);
+[[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples);
 
 /// What planning may take: every member by itself.
 struct Corrections {

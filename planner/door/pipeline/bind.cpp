@@ -162,15 +162,6 @@ void put_workpiece(model::Plan& plan, Resolved resolved, const Inputs& inputs) {
   if (inputs.stock) piece::state_raw_piece(plan.model, plan.stock.box);
 }
 
-/// Puts what measured cases say of the material's card into it, and tells it.
-void take_cases(model::Plan& plan, const casebase::CaseBase& cases, Tries& tries, Job& job) {
-  if (!tries.card || tries.card->of != plan.material.id)
-    tries.card = corrected_card(cases, plan.material, plan.machine.id);
-  plan.material = tries.card->card;
-  plan.provenance.insert(plan.provenance.end(), tries.card->rows.begin(), tries.card->rows.end());
-  for (const Diagnostic& d : tries.card->told) job.report(d);
-}
-
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
 Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inputs, const Policy& policy,
                                              double earning_per_min, Tries& tries, Job& job) {
@@ -191,7 +182,6 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (!resolved) return tl::unexpected(resolved.error());
   const mechanics::MarginPolicy margin = resolved->margin.policy;
   put_workpiece(plan, *std::move(resolved), inputs);
-  if (inputs.cases) take_cases(plan, *inputs.cases, tries, job);
   const Asked asked{.inputs = inputs,
                     .policy = policy,
                     .bans = tries.bans,
