@@ -1,20 +1,30 @@
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace capstan::casebase {
 
-/// Appends an unsigned integer, little endian.
+/// The bytes of an unsigned integer, little endian.
+template <class U>
+std::array<char, sizeof(U)> bytes_of(U v) {
+  static_assert(std::is_unsigned_v<U>);
+  std::array<char, sizeof(U)> out;
+  for (std::size_t i = 0; i < sizeof(U); ++i)
+    out[i] = static_cast<char>(static_cast<std::uint8_t>(static_cast<std::uint64_t>(v) >> (8 * i)));
+  return out;
+}
+/// Appends them.
 template <class U>
 void put(std::string& to, U v) {
-  static_assert(std::is_unsigned_v<U>);
-  for (std::size_t i = 0; i < sizeof(U); ++i) {
-    to += static_cast<char>(static_cast<std::uint8_t>(static_cast<std::uint64_t>(v) >> (8 * i)));
-  }
+  const auto bytes = bytes_of(v);
+  to.append(bytes.data(), bytes.size());
 }
 /// Appends a number; -0 and 0 are one.
 inline void put(std::string& to, double v) { put(to, std::bit_cast<std::uint64_t>(v + 0.0)); }
@@ -34,11 +44,17 @@ class Bytes {
 
   template <class U>
   U integer() {
-    std::uint64_t v = 0;
+    static_assert(std::is_unsigned_v<U>);
     const std::string_view bytes = take(sizeof(U));
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-      v |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(bytes[i])) << (8 * i);
-    return static_cast<U>(v);
+    if (bytes.empty()) return 0;
+    U v = 0;
+    if constexpr (std::endian::native == std::endian::little) {
+      std::memcpy(&v, bytes.data(), sizeof(U));
+    } else {
+      for (std::size_t i = sizeof(U); i-- > 0;)
+        v = static_cast<U>(static_cast<std::uint64_t>(v) << 8 | static_cast<std::uint8_t>(bytes[i]));
+    }
+    return v;
   }
   double number() { return std::bit_cast<double>(integer<std::uint64_t>()); }
   std::string_view text() { return take(integer<std::uint16_t>()); }

@@ -1,6 +1,7 @@
 #include "casebase/store/row.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -38,16 +39,28 @@ std::optional<std::string_view> opened(std::string_view bytes, std::uint64_t see
 /// limits of its field, teeth and coolant are whole. The dimensions stand in the order of the question's
 /// numbers, from the diameter on; coolant is the last.
 bool can_be(const Key& key) {
-  const auto fields = question_fields();
-  const auto first =
-      std::find_if(fields.begin(), fields.end(), [](const Field& f) { return f.name == "diameter_mm"; });
+  struct Limit {
+    double most = 0.0;
+    bool whole = false;
+  };
+  static const std::array<Limit, kDimensions> kLimits = [] {
+    const auto fields = question_fields();
+    const auto first =
+        std::find_if(fields.begin(), fields.end(), [](const Field& f) { return f.name == "diameter_mm"; });
+    std::array<Limit, kDimensions> out;
+    for (std::size_t i = 0; i < kDimensions; ++i) {
+      const Field& field = *(first + static_cast<std::ptrdiff_t>(i));
+      const bool word = i + 1 == kDimensions;
+      out[i] = {word ? static_cast<double>(Coolant::kThrough) : field.high,
+                word || std::holds_alternative<CountAt>(field.at)};
+    }
+    return out;
+  }();
   for (std::size_t i = 0; i < kDimensions; ++i) {
     if ((key.known >> i & 1U) == 0) continue;
-    const Field& field = *(first + static_cast<std::ptrdiff_t>(i));
-    const bool word = i + 1 == kDimensions;
     const double v = key.raw[i];
-    if (!(v > 0.0 && v <= (word ? static_cast<double>(Coolant::kThrough) : field.high))) return false;
-    if ((word || std::holds_alternative<CountAt>(field.at)) && v != std::floor(v)) return false;
+    if (!(v > 0.0 && v <= kLimits[i].most)) return false;
+    if (kLimits[i].whole && v != std::floor(v)) return false;
   }
   return true;
 }
@@ -139,10 +152,15 @@ std::optional<Remark> remark_of(std::string_view bytes) {
 void Totals::count(std::string_view head) {
   ++rows;
   // The head's own seal stands for its bytes: it was looked at before.
-  std::string link;
-  put_sum(link, chain);
-  link += head.substr(head.size() - std::min(head.size(), kSumBytes));
-  chain = sum_of(link);
+  std::array<char, 2 * sizeof(std::uint64_t) + kSumBytes> link;
+  char* end = link.data();
+  for (const std::uint64_t half : {chain.high, chain.low}) {
+    const auto bytes = bytes_of(half);
+    end = std::copy(bytes.begin(), bytes.end(), end);
+  }
+  const std::string_view seal = head.substr(head.size() - std::min(head.size(), kSumBytes));
+  end = std::copy(seal.begin(), seal.end(), end);
+  chain = sum_of({link.data(), static_cast<std::size_t>(end - link.data())});
 }
 
 std::string bytes_of(const Totals& totals) {
