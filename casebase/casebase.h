@@ -43,12 +43,14 @@ class CaseBase {
  public:
   /// Opens an existing store: a file of SQLite ("path", "sqlite:path"), or a database of PostgreSQL
   /// ("postgresql://user@host:port/database"). While a server cannot be reached a local copy of it is read,
-  /// and what is added waits for it (CASE-OFFLINE, a warning to `job`; store/server.h). Rows that were
+  /// and what is added waits for it (CASE-OFFLINE, or CASE-LIBRARY where what reaches servers is missing
+  /// here: a warning to `job`; store/server.h). Rows that were
   /// altered or are gone are reported to `job` (CASE-ROW) and left out; then `add` refuses (CASE-DAMAGED).
   /// When it is opened, the heads of all rows are verified; the rest of a case is when it is used: what is
   /// found then is reported by `take_faults`.
   ///
-  /// Fails   CASE-URI no such store; CASE-OPEN missing or unreadable; CASE-SCHEMA not a case base, or of a
+  /// Fails   CASE-URI no such store; CASE-LIBRARY what reaches servers is missing or of another build, and
+  ///         there is no local copy; CASE-OPEN missing or unreadable; CASE-SCHEMA not a case base, or of a
   ///         newer version, or with a table, index, trigger or view that is not ours; CASE-BUSY;
   ///         CASE-DAMAGED it cannot be read.
   [[nodiscard]] static Result<CaseBase> open(const std::string& uri, Job& job);

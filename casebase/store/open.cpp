@@ -8,6 +8,10 @@ namespace {
 
 using Open = Result<std::unique_ptr<Store>> (*)(const std::string& rest, Missing missing, Job& job);
 
+Result<std::unique_ptr<Store>> of_server(const std::string& uri, Missing missing, Job& job) {
+  return open_server(uri, missing, job);
+}
+
 /// A kind of store: what its URIs begin with, and whether its opener gets the URI with that.
 struct Kind {
   std::string_view prefix;
@@ -17,8 +21,8 @@ struct Kind {
 constexpr std::array kKinds = {
     Kind{"sqlite:", false,
          [](const std::string& path, Missing missing, Job& job) { return open_sqlite(path, missing, job); }},
-    Kind{"postgresql:", true, open_server},
-    Kind{"postgres:", true, open_server},
+    Kind{"postgresql:", true, of_server},
+    Kind{"postgres:", true, of_server},
 };
 
 tl::unexpected<Diagnostic> no_store(const std::string& uri) {

@@ -47,8 +47,8 @@ struct Copied {
 
 class ServerStore final : public Store {
  public:
-  ServerStore(std::string uri, LocalFiles files)
-      : uri_(std::move(uri)), name_(name_of(uri_)), files_(std::move(files)) {}
+  ServerStore(std::string uri, LocalFiles files, ConnectServer to_server)
+      : uri_(std::move(uri)), name_(name_of(uri_)), files_(std::move(files)), connect_(to_server) {}
 
   Status connect(Missing missing, Job& job);
 
@@ -61,6 +61,7 @@ class ServerStore final : public Store {
  private:
   std::string uri_, name_;
   LocalFiles files_;
+  ConnectServer connect_;
   std::unique_ptr<Store> server_;  // none while it cannot be reached
   std::unique_ptr<Store> local_;   // then
   std::vector<Diagnostic> told_;
@@ -75,29 +76,36 @@ class ServerStore final : public Store {
 };
 
 Status ServerStore::connect(Missing missing, Job& job) {
-  Result<std::unique_ptr<Store>> server = connect_postgres(uri_, missing, job);
+  Result<std::unique_ptr<Store>> server = connect_(uri_, missing, job);
   if (server) {
     server_ = *std::move(server);
     if (!files_.outbox.empty() && exists(files_.outbox)) return drain(job);
     return {};
   }
   Diagnostic why = server.error();
-  if (why.code != "CASE-OFFLINE") return fail(std::move(why));
-  if (files_.copy.empty() ||
-      (missing == Missing::kRefuse && !exists(files_.copy) && !exists(files_.outbox))) {
-    why.code = "CASE-OPEN";
-    why.hint = "there is no local copy of it yet";
+  // The library's fault is this machine's, not the server's: the copy of a server that was reached before
+  // serves until it is mended; nothing is begun for one that never was.
+  const bool no_library = why.code == "CASE-LIBRARY";
+  if (why.code != "CASE-OFFLINE" && !no_library) return fail(std::move(why));
+  const bool reached = !files_.copy.empty() && (exists(files_.copy) || exists(files_.outbox));
+  if (files_.copy.empty() || (!reached && (no_library || missing == Missing::kRefuse))) {
+    if (!no_library) {
+      why.code = "CASE-OPEN";
+      why.hint = "there is no local copy of it yet";
+    }
     return fail(std::move(why));
   }
   Result<LocalBase> local = open_local(files_, name_);
   if (!local) return fail(local.error());
   local_ = std::move(local->store);
-  job.report(warning("CASE-OFFLINE",
-                     fmt::format("{}: its local copy of {} is used, what is added waits for it "
-                                 "({} so far)",
+  job.report(warning(why.code,
+                     fmt::format("{}: the local copy of the server's base, {}, is used, what is added waits "
+                                 "for the server ({} so far)",
                                  why.message, counted(static_cast<std::size_t>(local->copied), "row", "rows"),
                                  counted(static_cast<std::size_t>(local->waiting), "row", "rows")),
-                     name_, "the next call that reaches the server adds what waits in " + files_.outbox));
+                     name_,
+                     (no_library ? why.hint + "; " : "") +
+                         "the next call that reaches the server adds what waits in " + files_.outbox));
   return {};
 }
 
@@ -149,7 +157,7 @@ Status ServerStore::drain(Job& job) {
     }
   }
   Job quiet;  // the log that is opened for this says nothing that the one to come does not
-  Result<std::unique_ptr<Store>> store = connect_postgres(uri_, Missing::kRefuse, quiet);
+  Result<std::unique_ptr<Store>> store = connect_(uri_, Missing::kRefuse, quiet);
   if (!store) return waits_on(store.error());
   Result<Log> log = Log::open(*std::move(store), quiet);
   if (!log) return waits_on(log.error());
@@ -368,10 +376,11 @@ Status ServerStore::append(std::int64_t after, const TakeHead& take, const Decid
 
 }  // namespace
 
-Result<std::unique_ptr<Store>> open_server(const std::string& uri, Missing missing, Job& job) {
+Result<std::unique_ptr<Store>> open_server(const std::string& uri, Missing missing, Job& job,
+                                           ConnectServer connect) {
   const Result<LocalFiles> files = local_files(name_of(uri));
   if (!files) job.report(warning("CASE-COPY", files.error().message, files.error().file, files.error().hint));
-  auto store = std::make_unique<ServerStore>(uri, files ? *files : LocalFiles{});
+  auto store = std::make_unique<ServerStore>(uri, files ? *files : LocalFiles{}, connect);
   if (Status s = store->connect(missing, job); !s) return fail(s.error());
   return store;
 }

@@ -68,7 +68,8 @@ class Store {
 };
 
 /// Opens the store that a URI names: "path", "sqlite:path", or what open.cpp has a row for.
-/// Fails CASE-URI when it names none, CASE-OPEN when it is missing or cannot be opened.
+/// Fails CASE-URI when it names none, CASE-LIBRARY when what reaches servers is missing, CASE-OPEN when it is
+/// missing or cannot be opened.
 [[nodiscard]] Result<std::unique_ptr<Store>> open_store(const std::string& uri, Missing missing, Job& job);
 
 /// One file of SQLite. Reads files of version 1, too, and turns one into version 2 when it first adds to it.

@@ -48,8 +48,9 @@ class Tree(unittest.TestCase):
         lines = read(os.path.join(GIVEN.source, "tests/install/files.txt"))
         for key, value in {"LIBDIR": GIVEN.libdir, "VERSION": GIVEN.version,
                            "MINOR": GIVEN.version.rpartition(".")[0],
-                           "BREP": "libexec/capstan/capstan-brep" if GIVEN.brep else "",
-                           "POSTGRES": "libexec/capstan/capstan-postgres.so" if GIVEN.postgres else ""}.items():
+                           "BREP": f"{GIVEN.libexecdir}/capstan/capstan-brep" if GIVEN.brep else "",
+                           "POSTGRES": f"{GIVEN.libexecdir}/capstan/capstan-postgres.so" if GIVEN.postgres
+                           else ""}.items():
             lines = lines.replace(f"@{key}@", value)
         wanted = {line for line in lines.split("\n") if line and not line.startswith("#")}
         below = {line[:-2] for line in wanted if line.endswith("/**")}
@@ -120,6 +121,100 @@ class Consumer(unittest.TestCase):
             program = os.path.join(GIVEN.scratch, package + "_by_pkg_config")
             run(*compiler, os.path.join(self.SOURCE, source), "-o", program, *flags)
             self.assertEqual(run(program, env=linked).strip(), says)
+
+
+class OpenedFiles(unittest.TestCase):
+    """What the library opens and runs is found from where the library is installed."""
+
+    # Nobody is there: what is said tells whether that was found out, or could not be asked.
+    CASES = "postgresql://nobody@/none?host=/nonexistent"
+
+    def said(self, part, cases):
+        program = os.path.join(GIVEN.scratch, "alone", "bin", "opens")  # with nothing of Capstan's beside it
+        if not os.path.exists(program):
+            os.makedirs(os.path.dirname(program))
+            run(GIVEN.cxx, "-std=c++20", os.path.join(GIVEN.source, "tests/install/consumer/opens.cpp"), "-o", program,
+                "-I", in_prefix("include"), "-L", in_prefix(GIVEN.libdir), "-lcapstan")
+        alone = {name: value for name, value in os.environ.items() if name != "CAPSTAN_BREP"}
+        alone.update(LD_LIBRARY_PATH=in_prefix(GIVEN.libdir), CAPSTAN_CASES=os.path.join(GIVEN.scratch, "cases"))
+        return run(program, os.path.join(GIVEN.source, "examples", part), cases, env=alone)
+
+    def said_with_and_without(self, file, *asked):
+        there = in_prefix(GIVEN.libexecdir, "capstan", file)
+        found = self.said(*asked)
+        os.rename(there, there + ".away")
+        try:
+            missed = self.said(*asked)
+        finally:
+            os.rename(there + ".away", there)
+        self.assertIn(os.path.realpath(there), missed)
+        return found, missed
+
+    def test_the_library_for_servers_is(self):
+        if not GIVEN.postgres:
+            self.skipTest("built without PostgreSQL")
+        found, missed = self.said_with_and_without("capstan-postgres.so", "bracket.p21", self.CASES)
+        self.assertIn("CASE-OPEN", found)
+        self.assertIn("CASE-LIBRARY", missed)
+
+    def test_the_program_for_shapes_is(self):
+        if not GIVEN.brep:
+            self.skipTest("built without OpenCASCADE")
+        found, missed = self.said_with_and_without("capstan-brep", "cover.step", "")
+        self.assertNotIn("BREP-HELPER", found)
+        self.assertIn("BREP-HELPER", missed)
+
+    def test_are_where_the_build_was_told_also_from_folders_below_lib(self):
+        script = os.path.join(GIVEN.scratch, "libexec.cmake")
+        for libdir, libexecdir, way in (("lib", "libexec", "../libexec/capstan"),
+                                        ("lib/x86_64-linux-gnu", "libexec", "../../libexec/capstan"),
+                                        ("lib64", "lib/helpers", "../lib/helpers/capstan"),
+                                        ("lib", "/opt/libexec", "/opt/libexec/capstan")):
+            with open(script, "w", encoding="utf-8") as file:
+                file.write(f"include({GIVEN.source}/cmake/LibexecPath.cmake)\n"
+                           f"set(CMAKE_INSTALL_LIBEXECDIR {libexecdir})\n"
+                           f"set(CMAKE_INSTALL_FULL_LIBEXECDIR {os.path.join('/usr', libexecdir)})\n"
+                           f"capstan_libexec_from(way /usr/{libdir})\nmessage(STATUS ${{way}})\n")
+            self.assertEqual(run(GIVEN.cmake, "-P", script).split()[-1], way)
+
+
+class Identity(unittest.TestCase):
+    """What capstan-postgres.so and who opens it are held together by."""
+
+    def identity(self, version="1.2.3", **headers):
+        root = os.path.join(GIVEN.scratch, "identity")
+        os.makedirs(root, exist_ok=True)
+        files = {"door.h": '#pragma once\n\n#include <string>\n\n#include "inner.h"\n', "inner.h": "struct A {};\n"}
+        files.update({name + ".h": text for name, text in headers.items()})
+        for name, text in files.items():
+            with open(os.path.join(root, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        script = os.path.join(root, "identity.cmake")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(f"cmake_minimum_required(VERSION 3.25)\nset(CMAKE_SOURCE_DIR {root})\n"
+                       f"set(PROJECT_VERSION {version})\ninclude({GIVEN.source}/cmake/BuildIdentity.cmake)\n"
+                       "capstan_build_identity(it door.h)\nmessage(STATUS ${it})\n")
+        return run(GIVEN.cmake, "-P", script).split()[-1]
+
+    def test_is_of_the_version_and_of_all_headers_between(self):
+        first = self.identity()
+        self.assertRegex(first, r"^1\.2\.3-[0-9a-f]{16}$")
+        self.assertEqual(self.identity(), first)
+        self.assertNotEqual(self.identity(inner="struct A { int more; };\n"), first)
+        self.assertNotEqual(self.identity(door='#include "inner.h"\n'), first)
+        self.assertEqual(self.identity(version="1.2.4"), first.replace("1.2.3", "1.2.4"))
+
+    def test_of_what_is_installed_is_the_same_in_all_that_hold_it(self):
+        if not GIVEN.postgres:
+            self.skipTest("built without PostgreSQL")
+        found = set()
+        for path in (in_prefix("bin/capstan"), library("capstan"),
+                     in_prefix(GIVEN.libexecdir, "capstan", "capstan-postgres.so")):
+            with open(path, "rb") as file:
+                stated = set(re.findall(rb"%s-[0-9a-f]{16}(?![0-9a-f])" % re.escape(GIVEN.version.encode()), file.read()))
+            self.assertEqual(len(stated), 1, path)
+            found |= stated
+        self.assertEqual(len(found), 1)
 
 
 class Manual(unittest.TestCase):
@@ -207,7 +302,7 @@ class Manual(unittest.TestCase):
 
 if __name__ == "__main__":
     arguments = argparse.ArgumentParser()
-    for name in ("source", "built", "scratch", "libdir", "version", "cmake", "generator", "cxx", "cc"):
+    for name in ("source", "built", "scratch", "libdir", "libexecdir", "version", "cmake", "generator", "cxx", "cc"):
         arguments.add_argument("--" + name, required=True)
     arguments.add_argument("--brep", action="store_true")
     arguments.add_argument("--postgres", action="store_true")

@@ -5,7 +5,7 @@ if(TARGET capstan_facade AND TARGET capstan_late_shared AND TARGET capstan_manua
   add_test(NAME Install.HoldsWhatIsPromised
     COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_LIST_DIR}/installed_test.py
       --source ${CMAKE_SOURCE_DIR} --built ${CMAKE_BINARY_DIR} --scratch ${CMAKE_BINARY_DIR}/install-test
-      --libdir ${CMAKE_INSTALL_LIBDIR} --version ${PROJECT_VERSION} --cmake ${CMAKE_COMMAND}
+      --libdir ${CMAKE_INSTALL_LIBDIR} --libexecdir ${CMAKE_INSTALL_LIBEXECDIR} --version ${PROJECT_VERSION} --cmake ${CMAKE_COMMAND}
       --generator ${CMAKE_GENERATOR} --cxx ${CMAKE_CXX_COMPILER} --cc ${CMAKE_C_COMPILER}
       $<$<TARGET_EXISTS:capstan-brep>:--brep> $<$<TARGET_EXISTS:capstan_postgres>:--postgres>
     COMMAND_EXPAND_LISTS)

@@ -432,3 +432,5 @@ void capstan_connect_postgres(const std::string& uri, const std::string& name,
                               capstan::Result<std::unique_ptr<capstan::casebase::Store>>& to) {
   to = capstan::casebase::connected(uri, name, missing, job);
 }
+
+const char* capstan_postgres_identity() { return CAPSTAN_POSTGRES_IDENTITY; }

@@ -2,7 +2,9 @@
 
 #include <zip.h>
 
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "planner/ground/base/loading/library.h"
 
@@ -24,8 +26,8 @@ struct Zip {
 #undef CAPSTAN_ZIP_ROW
 };
 
-Result<Zip> opened() {
-  const auto library = Library::open(CAPSTAN_ZIP_LIBRARY);
+Result<Zip> opened(const std::string& name) {
+  const auto library = Library::open(name);
   if (!library) return tl::unexpected(library.error());
   Zip f;
 #define CAPSTAN_ZIP_ROW(name) \
@@ -35,14 +37,19 @@ Result<Zip> opened() {
   return f;
 }
 
-/// Null where the library is not there, and then `why` says so.
-const Zip* zip(Diagnostic& why) {
-  static const Result<Zip> functions = opened();
-  if (functions) return &*functions;
-  why = {.code = "ZIP-LIBRARY",
-         .message = functions.error().message,
-         .hint = "install libzip (Debian: libzip4)"};
-  return nullptr;
+/// By the library's name; null: as this was built. Fails  ZIP-LIBRARY: it is not there.
+Result<const Zip*> zip(const char* library) {
+  static std::mutex one_at_a_time;
+  static std::map<std::string, Result<Zip>> known;
+  const std::string name = library != nullptr ? library : CAPSTAN_ZIP_LIBRARY;
+  const std::lock_guard lock(one_at_a_time);
+  auto at = known.find(name);
+  if (at == known.end()) at = known.emplace(name, opened(name)).first;
+  if (at->second) return &*at->second;
+  return fail(Diagnostic{.code = "ZIP-LIBRARY",
+                         .message = at->second.error().message,
+                         .hint = "install libzip (Debian: libzip4); a server that runs (capstan serve) looks "
+                                 "for it once: start it again"});
 }
 
 struct Closer {
@@ -89,13 +96,15 @@ bool is_zip(std::string_view bytes) {
 }
 
 Result<std::vector<ZipEntry>> read_zip(std::string_view bytes, const std::string& file,
-                                       bool (*wanted)(std::string_view name), const ZipCaps& caps) {
-  Diagnostic none;
-  const Zip* const with = zip(none);
-  if (with == nullptr) {
+                                       bool (*wanted)(std::string_view name), const ZipCaps& caps,
+                                       const char* library) {
+  const auto opened_zip = zip(library);
+  if (!opened_zip) {
+    Diagnostic none = opened_zip.error();
     none.file = file;
     return fail(std::move(none));
   }
+  const Zip* const with = *opened_zip;
   Source source(with->source_buffer_create(bytes.data(), bytes.size(), 0, nullptr), {with});
   if (!source) return fail(fault(file, "ZIP-SYNTAX", "the archive cannot be read"));
   const Archive z(with->open_from_source(source.get(), ZIP_RDONLY | ZIP_CHECKCONS, nullptr), {with});
@@ -137,11 +146,11 @@ Result<std::vector<ZipEntry>> read_zip(std::string_view bytes, const std::string
   return out;
 }
 
-Result<std::string> write_zip(const std::vector<ZipEntry>& entries) {
+Result<std::string> write_zip(const std::vector<ZipEntry>& entries, const char* library) {
   const auto broken = [] { return fail("ZIP-WRITE", "the archive cannot be written"); };
-  Diagnostic none;
-  const Zip* const with = zip(none);
-  if (with == nullptr) return fail(std::move(none));
+  const auto opened_zip = zip(library);
+  if (!opened_zip) return fail(opened_zip.error());
+  const Zip* const with = *opened_zip;
   Source target(with->source_buffer_create(nullptr, 0, 0, nullptr), {with});
   if (!target) return broken();
   with->source_keep(target.get());  // one for the archive, one for us

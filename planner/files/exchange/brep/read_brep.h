@@ -21,8 +21,8 @@ struct BrepLimits {
   std::uint64_t wall_s = 300;
   std::uint64_t memory_bytes = std::uint64_t{6} << 30;
   std::uint64_t message_bytes = std::uint64_t{1} << 30;
-  /// The program capstan-brep. Empty: what the environment's CAPSTAN_BREP names; else beside the program
-  /// (or the library) that runs, else in ../libexec/capstan beside its folder.
+  /// The program capstan-brep. Empty: what the environment's CAPSTAN_BREP names; else in the places of
+  /// ground/base/loading/beside.h.
   std::string helper = {};
 };
 

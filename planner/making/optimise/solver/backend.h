@@ -31,7 +31,8 @@ struct Attempt {
 using Backend = Result<std::vector<double>> (*)(Evaluator& evaluator, const Attempt& attempt);
 
 /// solve_with_nlopt (NLopt 2.7), solve_with_ipopt …: each answers OPT-BACKEND-ABSENT when built without its
-/// library.
+/// library, or where that is opened when it is needed and is not there; OPT-IPOPT where Ipopt is there and
+/// does not begin.
 #define CAPSTAN_SOLVER(noun, word) \
   [[nodiscard]] Result<std::vector<double>> solve_with_##word(Evaluator& evaluator, const Attempt& attempt);
 #include "planner/making/optimise/solver/solvers.inc"

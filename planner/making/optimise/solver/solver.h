@@ -65,7 +65,8 @@ inline constexpr double kOptimalityTolerance = 1e-4;
 /// Determinism   same problem, same options, same budget: same bytes. Starts are fixed; budgets count
 ///               points, not time. Only a stop request or a deadline on `job` may cut it short.
 /// Fails         OPT-PROBLEM (see validate); OPT-BACKEND-ABSENT when the asked solver was not built or not
-///               brought; OPT-MODEL when the model is not finite at every start.
+///               brought, or its library is not there; OPT-IPOPT when Ipopt does not begin; OPT-MODEL when
+///               the model is not finite at every start.
 /// Throws        whatever the model throws, unchanged.
 [[nodiscard]] Result<Solution> solve(const Problem& problem, const Options& options, Job& job);
 

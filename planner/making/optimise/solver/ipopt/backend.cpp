@@ -1,13 +1,16 @@
-#include "planner/making/optimise/solver/backend.h"
-
 #include <IpStdCInterface.h>
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 
 #include "planner/ground/base/loading/library.h"
+#include "planner/making/optimise/solver/backend.h"
+#include "planner/making/optimise/solver/ipopt/library.h"
 
 // Ipopt through its C interface. Its library is opened when a problem first comes here: with what it needs
 // itself (MUMPS, LAPACK, the Fortran runtime) it would take a sixth of the start of every command.
@@ -29,8 +32,8 @@ struct Ipopt {
   decltype(&IpoptSolve) solve = nullptr;
 };
 
-Result<Ipopt> opened() {
-  const auto library = Library::open(CAPSTAN_IPOPT_LIBRARY);
+Result<Ipopt> opened(const std::string& file) {
+  const auto library = Library::open(file);
   if (!library) return tl::unexpected(library.error());
   Ipopt f;
   Status all;
@@ -99,6 +102,9 @@ class Bridge {
     return !of(bridge).thrown_ && !of(bridge).evaluator_.exhausted();
   }
 
+  /// Whether a point was asked for: what fails before is no run.
+  [[nodiscard]] bool asked() const { return asked_; }
+
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
   }
@@ -107,6 +113,7 @@ class Bridge {
   static Bridge& of(UserDataPtr bridge) { return *static_cast<Bridge*>(bridge); }
 
   const Evaluation* at(Index n, const Number* u, bool want_slopes) {
+    asked_ = true;
     if (thrown_ || evaluator_.exhausted()) return nullptr;
     try {
       const Evaluation& e = evaluator_.at({u, static_cast<std::size_t>(n)}, want_slopes);
@@ -119,7 +126,19 @@ class Bridge {
 
   Evaluator& evaluator_;
   std::exception_ptr thrown_;
+  bool asked_ = false;
 };
+
+/// Why there was no run; null: there was one, and what its point is worth is measured by the caller. `status`
+/// is what IpoptSolve gave, nothing where it threw. It initialises first, and its statuses for that are those
+/// of a run, too (IpReturnCodes_inc.h): where no point was asked for, it has not solved anything.
+const char* never_ran(const std::optional<ApplicationReturnStatus>& status, bool asked) {
+  if (status == Invalid_Option) return "refused an option, or lacks what it asks for";
+  if (status == Invalid_Problem_Definition) return "refused the problem";
+  if (asked) return nullptr;
+  return status == Insufficient_Memory ? "had not enough memory to begin"
+                                       : "ended before it asked for a point";
+}
 
 std::mutex& one_at_a_time() {
   static std::mutex mutex;
@@ -143,36 +162,62 @@ bool set_options(const Ipopt& ipopt, IpoptProblem problem, const Attempt& attemp
          number("tol", std::max(attempt.relative_tolerance, 1e-9)) && whole("max_iter", most);
 }
 
+/// Its functions, or why they are not there. Needs the lock.
+const Result<Ipopt>& ipopt_of(const std::string& library) {
+  static std::map<std::string, Result<Ipopt>> known;
+  auto at = known.find(library);
+  if (at == known.end()) at = known.emplace(library, opened(library)).first;
+  return at->second;
+}
+
+/// The problem as Ipopt holds it; null where it refuses it.
+std::unique_ptr<IpoptProblemInfo, decltype(Ipopt::free)> problem_of(const Ipopt& ipopt, std::size_t n,
+                                                                    std::size_t m) {
+  std::vector<Number> lower(n, 0.0), upper(n, 1.0), c_lower(m, kNoBound), c_upper(m, 0.0);
+  const auto variables = static_cast<Index>(n), limits = static_cast<Index>(m);
+  return {ipopt.create(variables, lower.data(), upper.data(), limits, c_lower.data(), c_upper.data(),
+                       variables * limits, 0, kCountFrom0, &Bridge::objective, &Bridge::constraints,
+                       &Bridge::gradient, &Bridge::jacobian, &Bridge::hessian),
+          ipopt.free};
+}
+
+tl::unexpected<Diagnostic> no_run(const std::string& why) { return fail("OPT-IPOPT", "Ipopt " + why); }
+
 }  // namespace
 
 Result<std::vector<double>> solve_with_ipopt(Evaluator& evaluator, const Attempt& attempt) {
+  return solve_with_ipopt_of(CAPSTAN_IPOPT_LIBRARY, evaluator, attempt);
+}
+
+Result<std::vector<double>> solve_with_ipopt_of(const std::string& library, Evaluator& evaluator,
+                                                const Attempt& attempt) {
   const std::lock_guard lock(one_at_a_time());
-  static const Result<Ipopt> ipopt = opened();
+  const Result<Ipopt>& ipopt = ipopt_of(library);
   if (!ipopt) {
     return fail(Diagnostic{.code = "OPT-BACKEND-ABSENT",
                            .message = "Ipopt is not there: " + ipopt.error().message,
-                           .hint = "install it (Debian: coinor-libipopt1v5)"});
+                           .hint = "install it (Debian: coinor-libipopt1v5); a server that runs (capstan "
+                                   "serve) looks for it once: start it again"});
   }
-  const std::size_t n = evaluator.variables(), m = evaluator.constraints();
-  std::vector<Number> lower(n, 0.0), upper(n, 1.0), c_lower(m, kNoBound), c_upper(m, 0.0);
-  const auto variables = static_cast<Index>(n), limits = static_cast<Index>(m);
-  const IpoptProblem problem =
-      ipopt->create(variables, lower.data(), upper.data(), limits, c_lower.data(), c_upper.data(),
-                    variables * limits, 0, kCountFrom0, &Bridge::objective, &Bridge::constraints,
-                    &Bridge::gradient, &Bridge::jacobian, &Bridge::hessian);
-  if (problem == nullptr) return fail("OPT-IPOPT", "Ipopt refused the problem");
-  const std::unique_ptr<IpoptProblemInfo, decltype(ipopt->free)> owned(problem, ipopt->free);
-  if (!set_options(*ipopt, problem, attempt) || ipopt->ask_between(problem, &Bridge::between) == FALSE)
-    return fail("OPT-IPOPT", "Ipopt refused its options");
   Bridge bridge(evaluator);
   std::vector<double> u = attempt.start;
+  bool began = false;
+  std::optional<ApplicationReturnStatus> end;
   try {
-    // The status is not looked at: what the point is worth is measured by the caller.
-    static_cast<void>(ipopt->solve(problem, u.data(), nullptr, nullptr, nullptr, nullptr, nullptr, &bridge));
+    const auto problem = problem_of(*ipopt, evaluator.variables(), evaluator.constraints());
+    if (!problem) return no_run("refused the problem");
+    if (!set_options(*ipopt, problem.get(), attempt) ||
+        ipopt->ask_between(problem.get(), &Bridge::between) == FALSE)
+      return no_run("refused its options");
+    began = true;
+    end = ipopt->solve(problem.get(), u.data(), nullptr, nullptr, nullptr, nullptr, nullptr, &bridge);
   } catch (...) {
-    // An Ipopt fault inside a run, which is of its own types: the point reached is judged like any other.
+    // An Ipopt fault, which is of its own types. Inside a run: the point reached is judged like any other.
+    if (!began) return no_run("failed as it was prepared");
   }
   bridge.rethrow();
+  const char* const why = never_ran(end, bridge.asked());
+  if (why != nullptr) return no_run(why + (end ? " (status " + std::to_string(*end) + ")" : std::string()));
   return u;
 }
 
