@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/path_job.h"
 #include "tests/making/toolpath/path_helpers.h"
 
@@ -18,7 +19,7 @@ using model::StrategyKind;
 TEST(BesideThePiece, NoRingIsFollowedBesideThePieceAtTheFeedOfACut) {
   PathJob t = area_job(geometry::rectangle({0, 0}, {90, 40}), 6.0, 10.0);
   t.stock = geometry::rectangle({-20, -20}, {60, 60});
-  constexpr double kClear = 60.0 + 5.0 + 0.2;
+  constexpr double kClear = 60.0 + 5.0 + kAirBeyond;
   for (const auto operation :
        {model::TypeId::kBottomAndSideRoughMilling, model::TypeId::kBottomAndSideFinishMilling}) {
     t.operation = operation;

@@ -143,7 +143,8 @@ Result<double> largest_share(const optimise::CutQuestion& q, const optimise::Cut
   return fail("PIP-INFEASIBLE",
               "under the overhang, over a width of " + trimmed(pass.width_mm, 2) + " mm, " +
                   (held ? "chips would be " + trimmed(l->chip_thickness_mm, 5) + " mm thick, at least " +
-                              trimmed(optimise::thinnest_chip_mm(q), 5) + " mm (" + limit + ")"
+                              trimmed(optimise::thinnest_chip_mm(q), 5) + " mm" +
+                              (worst.name.empty() ? "" : ", at the feed that " + limit + " allows")
                         : limit + " even at a fiftieth of the feed") +
                   "; use a smaller or a lower head, or a stiffer neck");
 }

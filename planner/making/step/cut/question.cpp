@@ -304,7 +304,9 @@ double last_width_under_overhang_mm(const toolpath::PathJob& job, double bent_mm
   return left > 0.0 ? std::min(left + bent_mm, job.cutter.cutting_diameter_mm) : 0.0;
 }
 
-double bending_of_last_pass_mm(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job) {
+double bending_of_last_pass_mm(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job,
+                               const optimise::CutQuestion& q) {
+  if (job.allowance_side_mm > 0.0) return rough_bending_mm(p, step, job, q);
   return bending_of_finish_mm(zone_across(p, step, job, width_of(job.shape)));
 }
 

@@ -49,9 +49,10 @@ namespace capstan::step {
 /// Under an overhang, where a thin last pass makes the walls: its width, as that of a straight cut with the
 /// same contact angle, mm, where the neck is bent by `bent_mm` in the passes before; 0: no such pass.
 [[nodiscard]] double last_width_under_overhang_mm(const toolpath::PathJob& job, double bent_mm);
-/// What the neck may bend in that pass, mm: as in a finish of this feature.
+/// What the neck may bend in that pass, mm: as in a finish of this feature, or where an allowance stays on its walls
+/// as in roughing. `q` asks for the cut.
 [[nodiscard]] double bending_of_last_pass_mm(const PlanSoFar& p, const draft::StepDraft& step,
-                                             const toolpath::PathJob& job);
+                                             const toolpath::PathJob& job, const optimise::CutQuestion& q);
 
 /// True if levels leave terraces on the shape's walls: a slot whose section is not square, a hole that
 /// narrows downwards.

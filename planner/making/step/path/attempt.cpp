@@ -208,7 +208,8 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
     if (model::has(step.cutter.cutter_class, model::CutterTrait::kUndercuts) &&
         model::has(step.cutter.cutter_class, model::CutterTrait::kNecked)) {
       // A stated feed is lowered where that holds the limits, and otherwise by the teeth that cut.
-      auto loads = hold_under_overhang(out.question, out.answer, bending_of_last_pass_mm(p, step, job), job);
+      auto loads = hold_under_overhang(out.question, out.answer,
+                                       bending_of_last_pass_mm(p, step, job, out.question), job);
       if (!loads && step.open_technology) return tl::unexpected(loads.error());
       if (loads) out.under = *loads;
     }

@@ -170,7 +170,7 @@ bool LevelCutter::follow(const Level& level, const Track& track) {
   const int n = static_cast<int>(pieces);
   const double apart = length / n;
   const auto beside = [&](int k) {
-    return level.material.clear_of(at_length(track, k * apart).point, radius_mm + kAirBeside + 0.5 * apart);
+    return level.material.clear_of(at_length(track, k * apart).point, radius_mm + kAirBeyond + 0.5 * apart);
   };
   // Stretches between pieces of which both ends are beside the piece, long enough to be told apart.
   std::vector<std::pair<double, double>> air;

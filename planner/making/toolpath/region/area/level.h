@@ -54,8 +54,8 @@ class LevelCutter {
   void go_cleared(const Level& level, geometry::Vec2 p);
   /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
   const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm, double cover_mm);
-  /// Follows a track on the level. Where the whole cutter is beside the raw piece, by kAirBeside at least, on
-  /// longer ways than its diameter, nothing is cut: the move is a link, and left out where the track ends so.
+  /// Follows a track on the level. Where the whole cutter is beside the raw piece, by kAirBeyond at least (a
+  /// raw piece may be larger than stated), on longer ways than its diameter, nothing is cut: the move is a link, and left out where the track ends so.
   /// Returns whether it went to the track's end.
   bool follow(const Level& level, const Track& track);
   /// A straight cut on the level to p when it stays within the centres.
