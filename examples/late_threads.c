@@ -5,7 +5,7 @@
  * A session serves one thread at a time: a lock of the control's own stands around it. While a bind runs, the
  * thread of the screen asks nothing of the session. It reads the progress that the bind reports, from memory
  * of the control's, and may call capstan_late_stop, which needs no lock. With `stop` it does so as soon as
- * the bind has begun, as an operator would.
+ * the bind has begun, as an operator would; where all was checked by then, the program is given all the same.
  */
 #include <pthread.h>
 #include <stdio.h>
@@ -26,6 +26,7 @@ struct control {
   pthread_mutex_t lock;
   pthread_cond_t changed;
   char stage[64];
+  double fraction;  /* of the stage */
   unsigned reports; /* of progress */
   int done;
   capstan_late_code code;
@@ -33,8 +34,8 @@ struct control {
 
 static void progress(const char* stage, double fraction, void* user) {
   struct control* c = user;
-  (void)fraction;
   pthread_mutex_lock(&c->lock);
+  c->fraction = fraction;
   strncpy(c->stage, stage, sizeof c->stage - 1);
   ++c->reports;
   pthread_cond_signal(&c->changed);
@@ -98,18 +99,23 @@ int main(int argc, char** argv) {
     while (!c.done) {
       pthread_cond_wait(&c.changed, &c.lock);
       if (stops && shown == 0 && !c.done) capstan_late_stop(c.session);
+      if (c.reports > shown) fprintf(stderr, "%s, %.0f %%\n", c.stage, 100.0 * c.fraction);
       shown = c.reports;
     }
     pthread_mutex_unlock(&c.lock);
     pthread_join(binder, NULL);
-    printf("%s after progress was shown\n", shown > 0 ? "bound" : "ended");
+    if (c.code == CAPSTAN_LATE_OK) fprintf(stderr, "bound, %u reports of progress\n", c.reports);
   }
   pthread_mutex_lock(&c.session_lock);
   fputs(capstan_late_message(c.session), stderr);
   const char* program =
       c.code == CAPSTAN_LATE_OK ? capstan_late_output(c.session, CAPSTAN_LATE_LINUXCNC, NULL) : NULL;
+  /* Bound, and nothing to run: as docs/late_binding.md says, a fault. */
+  if (c.code == CAPSTAN_LATE_OK && program == NULL) c.code = CAPSTAN_LATE_FAULT;
   if (program != NULL)
     fputs(program, stdout);
+  else if (c.code == CAPSTAN_LATE_LATE)
+    printf("bound too late: stay retracted and stopped (code %d)\n", (int)c.code);
   else
     printf("retract and stop (code %d)\n", (int)c.code);
   pthread_mutex_unlock(&c.session_lock);

@@ -275,12 +275,15 @@ Outcome<Planned> bind_in(const pipeline::Inputs& shop, const Request& request, c
     return bound(request, std::move(mine), std::move(inputs), began, job);
   };
   return stoppable(job, all, [&]() -> Outcome<Planned> {
-    const bool at_deadline =
-        request.stop_at_deadline && request.deadline && job.now() >= began + *request.deadline;
-    return failed(
-        at_deadline ? late::none_in_time(*request.deadline, plan.file_name) : stopped_call(plan.file_name),
-        Code::kImpossible);
+    return failed(stopped_bind(request, began, plan.file_name, job), Code::kImpossible);
   });
+}
+
+Diagnostic stopped_bind(const Request& request, std::chrono::steady_clock::time_point began,
+                        const std::string& file, const Job& job) {
+  const bool at_deadline =
+      request.stop_at_deadline && request.deadline && job.now() >= began + *request.deadline;
+  return at_deadline ? late::none_in_time(*request.deadline, file) : stopped_call(file);
 }
 
 namespace {

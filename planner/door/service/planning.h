@@ -52,6 +52,10 @@ struct Planned {
 /// (late/late.h). `began` is when the caller began to wait; the deadline counts from there.
 [[nodiscard]] Outcome<Planned> bind(const Request& request, Source plan,
                                     std::chrono::steady_clock::time_point began, Job& job);
+/// What is said of a bind that was stopped: LATE-NONE where its deadline stopped it, else that it was stopped.
+[[nodiscard]] Diagnostic stopped_bind(const Request& request, std::chrono::steady_clock::time_point began,
+                                      const std::string& file, const Job& job);
+
 /// The same of a plan that was read, in a shop that is open (open_shop); what reading said of it is among the
 /// job's diagnostics.
 /// Both are copied, a deadline that stops the job looked at between.

@@ -195,7 +195,9 @@ Code Session::bind_as(std::string plan, Request request) {
       }
       return stoppable(
           job, [&] { return read(std::move(plan), job); },
-          [&]() -> Outcome<const model::Plan*> { return failed(stopped_call("plan"), Code::kImpossible); });
+          [&]() -> Outcome<const model::Plan*> {
+            return failed(stopped_bind(request, began, "plan", job), Code::kImpossible);
+          });
     }();
     if (at_hand && request.next) goes_on_ = true;
     auto bound = at_hand ? bind_in(*shop_, asked, **at_hand, began, job)
