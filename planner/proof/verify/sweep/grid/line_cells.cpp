@@ -16,7 +16,7 @@ std::uint64_t all_of(int count) {
   return count < 64 ? (std::uint64_t{1} << static_cast<unsigned>(count)) - 1 : ~std::uint64_t{0};
 }
 
-#if defined(__x86_64__)
+#if defined(__SSE2__)
 
 /// kWidth cells at once; those behind the last whole kWidth are all marked.
 #define CAPSTAN_MARKS(SMALLER, GREATER, BITS)                                                       \
@@ -74,7 +74,7 @@ std::uint64_t marks_by_two(const LineCells::Line& l, const double* stock, int co
 }  // namespace
 
 bool LineCells::takes_four() {
-#if defined(__x86_64__)
+#if defined(__SSE2__)
   static const bool four = __builtin_cpu_supports("avx2") != 0;
   return four;
 #else
@@ -90,7 +90,7 @@ LineCells::LineCells(const CutterOutline& o, Vec2 a, Vec2 d, double zmin, bool f
 }
 
 std::uint64_t LineCells::marks(const double* stock, int count, Vec2 first, double cell) const {
-#if defined(__x86_64__)
+#if defined(__SSE2__)
   return four_ ? marks_by_four(line_, stock, count, first, cell)
                : marks_by_two(line_, stock, count, first, cell);
 #else

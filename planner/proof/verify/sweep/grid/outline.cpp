@@ -69,7 +69,7 @@ CutterOutline::CutterOutline(CutterProfile profile) : profile_(std::move(profile
     const double square = r2 * static_cast<double>(i) / static_cast<double>(kBins);
     floor_[i] = height(std::sqrt(square) * (1.0 - kRounding)) - kRounding;
   }
-  // As steep as the outline rises over its inner half, and over a rim of as much again. Default, unsourced.
+  // As steep as the outline rises up to half of the radius, and from 0.71 to 0.94 of it. Default, unsourced.
   constexpr std::size_t kInner = kBins / 4, kRim = kBins / 2;
   const auto rise = [&](std::size_t from, std::size_t to) {
     return r2 > 0.0

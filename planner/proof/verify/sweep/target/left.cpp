@@ -376,17 +376,19 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
   // How far columns are aside, by their steps along x and y: asked of each pair of columns, made once.
   const int most = std::max(grid.nx(), grid.ny());
   std::vector<double> asides;
-  int known = 0;
+  int known = 0, along_x = 0;
   const auto aside = [&](int dx, int dy) {
     if (const int far = std::max(dx, dy); far >= known) {
       known = std::min(most, 2 * far + 16);
+      along_x = std::min(known, grid.nx());
       asides.clear();
-      for (int y = 0; y < known; ++y) {
-        for (int x = 0; x < known; ++x)
+      for (int y = 0; y < std::min(known, grid.ny()); ++y) {
+        poll();
+        for (int x = 0; x < along_x; ++x)
           asides.push_back(std::max(0.0, std::hypot(x, y) * grid.cell() - slack));
       }
     }
-    return asides[static_cast<std::size_t>(dy) * static_cast<std::size_t>(known) +
+    return asides[static_cast<std::size_t>(dy) * static_cast<std::size_t>(along_x) +
                   static_cast<std::size_t>(dx)];
   };
   double worst = 0.0, top = 0.0;
