@@ -59,40 +59,49 @@ class Report(unittest.TestCase):
         self.window.open(self.reports[name][0])
         return self.reports[name][1]
 
-    def test_says_nothing_to_the_console_and_asks_for_nothing(self):
+    def test_shows_draws_and_prints_each_plan_and_asks_for_nothing(self):
         for name in PARTS:
-            self.window.requests()
-            self.opened(name)
-            self.window.run('pick(DATA.steps.length - 1)')
-            for colour in ('feed', 'power', 'force') if name == 'pocket' else ():
-                self.window.run('by("colour").value = arguments[0]; shown()', colour)
-            self.assertEqual(self.window.said(), [], name)
-            foreign = [u for u in self.window.requests() if not u.startswith(('file:', 'data:', 'blob:'))]
-            self.assertEqual(foreign, [], name)
+            with self.subTest(name):
+                self.window.requests()
+                plan = self.opened(name)
+                self.has_a_row_for_each_step_and_their_times_add_up(plan)
+                self.draws_something_else_for_each_step(name)
+                self.prints_every_step(plan, name)
+                self.window.run('pick(DATA.steps.length - 1)')
+                for colour in ('feed', 'power', 'force') if name == 'pocket' else ():
+                    self.window.run('by("colour").value = arguments[0]; shown()', colour)
+                self.assertEqual(self.window.said(), [])
+                foreign = [u for u in self.window.requests() if not u.startswith(('file:', 'data:', 'blob:'))]
+                self.assertEqual(foreign, [])
 
-    def test_has_a_row_for_each_step_of_the_plan_and_their_times_add_up(self):
-        for name in PARTS:
-            plan = self.opened(name)
-            self.assertEqual(self.window.run('return document.querySelectorAll("#operations tbody tr").length'), len(plan['steps']))
-            rows = self.window.run('return DATA.steps.reduce((t, s) => t + stepTime(s), 0)')
-            time = self.window.run('return DATA.time')
-            beside = time['tool_change_s'] + time['link_s'] + time['spindle_s']
-            self.assertAlmostEqual(rows, sum(s['cutting_s'] + s['rapid_s'] for s in plan['steps']), delta=0.01 * len(plan['steps']))
-            self.assertAlmostEqual(rows + beside, time['total_s'], delta=0.02 * len(plan['steps']), msg=name)
+    def has_a_row_for_each_step_and_their_times_add_up(self, plan):
+        self.assertEqual(self.window.run('return document.querySelectorAll("#operations tbody tr").length'), len(plan['steps']))
+        rows = self.window.run('return DATA.steps.reduce((t, s) => t + stepTime(s), 0)')
+        time = self.window.run('return DATA.time')
+        beside = time['tool_change_s'] + time['link_s'] + time['spindle_s']
+        self.assertAlmostEqual(rows, sum(s['cutting_s'] + s['rapid_s'] for s in plan['steps']), delta=0.01 * len(plan['steps']))
+        self.assertAlmostEqual(rows + beside, time['total_s'], delta=0.02 * len(plan['steps']))
 
-    def test_draws_and_draws_something_else_for_another_step(self):
-        for name in PARTS:
-            self.opened(name)
-            if not self.window.run('return !view.flat'):
-                self.skipTest('built without three.js, or no WebGL here')
-            seen = []
-            for step in range(min(3, self.window.run('return DATA.steps.length'))):
-                self.window.run('pick(arguments[0])', step)
-                colours, picture = self.window.run(LOOK)
-                self.assertGreater(colours, 20, name)
-                seen.append(picture)
-            self.assertEqual(len(set(seen)), len(seen), name)
-            self.window.screenshot(SCRATCH / f'{name}.png')
+    def draws_something_else_for_each_step(self, name):
+        if not self.window.run('return !view.flat'):
+            self.skipTest('built without three.js, or no WebGL here')
+        seen = []
+        for step in range(min(3, self.window.run('return DATA.steps.length'))):
+            self.window.run('pick(arguments[0])', step)
+            colours, picture = self.window.run(LOOK)
+            self.assertGreater(colours, 20)
+            seen.append(picture)
+        self.assertEqual(len(set(seen)), len(seen))
+        self.window.screenshot(SCRATCH / f'{name}.png')
+
+    def prints_every_step(self, plan, name):
+        file = SCRATCH / f'{name}.pdf'
+        file.write_bytes(self.window.pdf())
+        text = subprocess.run(['pdftotext', '-layout', file, '-'], capture_output=True, text=True, check=True).stdout
+        text = ' '.join(text.split())
+        for step in plan['steps']:
+            for word in step['id'].split():
+                self.assertIn(word, text)
 
     def test_cuts_the_stock_as_the_scrubber_moves(self):
         self.opened('pocket')
@@ -163,17 +172,6 @@ class Report(unittest.TestCase):
                 self.assertLessEqual(wide, there, f'{name} at {width}')
                 self.assertGreaterEqual(self.window.run('return parseFloat(getComputedStyle(document.body).fontSize)'), 12)
                 self.window.screenshot(SCRATCH / f'{name}.{width}.png')
-
-    def test_prints_every_step(self):
-        for name in PARTS:
-            plan = self.opened(name)
-            file = SCRATCH / f'{name}.pdf'
-            file.write_bytes(self.window.pdf())
-            text = subprocess.run(['pdftotext', '-layout', file, '-'], capture_output=True, text=True, check=True).stdout
-            text = ' '.join(text.split())
-            for step in plan['steps']:
-                for word in step['id'].split():
-                    self.assertIn(word, text, name)
 
     def test_takes_names_for_text(self):
         name = "<script>window.ran=1</script><b>&amp;"

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "planner/ground/base/file.h"
 #include "tests/door/app/command/command.h"
 #include "tests/files/exchange/brep/step_part.h"
 
@@ -146,11 +147,11 @@ INSTANTIATE_TEST_SUITE_P(
                 [] { return with(boxed(), "MANIFOLD_SOLID_BREP('',#", "MANIFOLD_SOLID_BREP('',#9"); }}),
     [](const auto& row) { return std::string(row.param.name); });
 
-// A file of 2 GiB, of which nothing stands on the disk.
+// A file of more than 2 GiB, of which nothing stands on the disk.
 TEST_F(HostileCad, AHugeFileIsRefusedByItsSize) {
   put("part.step", boxed());
-  std::filesystem::resize_file(folder_ / "part.step", std::uintmax_t{2} << 30);
-  expect_refused();
+  std::filesystem::resize_file(folder_ / "part.step", kDefaultFileCap + 1);
+  expect_refused("FILE-TOO-LARGE");
 }
 
 class HostileHelper : public HostileCad {
