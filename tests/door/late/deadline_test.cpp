@@ -132,7 +132,9 @@ TEST(LateDeadlineSeed, WhatIsCalledInTimeIsAndEveryAnswerIsCheckedOrLate) {
     // Of what is refused after the deadline nothing is cut: a plan that is not given up there, and a single
     // step that is, of which a soak asks that its thread gave it up in time.
     if (over && (code == service::Code::kDone || next)) {
-      if (soaks || code == service::Code::kDone) EXPECT_GE(took.wall - took.cpu, took.wall - (deadline + kOver)) << session.message();
+      if (soaks || code == service::Code::kDone) {
+        EXPECT_GE(took.wall - took.cpu, took.wall - (deadline + kOver)) << session.message();
+      }
       ++share->waited;
     }
     if (code == service::Code::kDone) {
