@@ -273,10 +273,8 @@ Result<model::Plan> with_operations(const model::Plan& plan, const pipeline::Inp
 
 /// What ended a call: the deadline, where it is the deadline that stopped it.
 Diagnostic as_stopped(const Diagnostic& why, const LatePolicy& policy, TimePoint began, const Job& job) {
-  const bool at_deadline =
-      policy.stop_at_deadline && policy.deadline && job.now() >= began + *policy.deadline;
-  if (!at_deadline || why.code != kStoppedPlanning) return why;
-  return none_in_time(*policy.deadline, why.file);
+  if (why.code != kStoppedPlanning) return why;
+  return none_in_time(policy.stop_at_deadline, policy.deadline, began, why.file, job).value_or(why);
 }
 
 /// The improvement: only in the time left, with twice the time of one check in reserve.
@@ -416,11 +414,14 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
 
 }  // namespace
 
-Diagnostic none_in_time(std::chrono::milliseconds deadline, const std::string& file) {
-  return {.code = "LATE-NONE",
-          .message = "no workingstep was bound and checked when the deadline of " + ms(deadline) + " came",
-          .file = file,
-          .hint = "retract and stop; give it more time, or bind fewer workingsteps at once"};
+std::optional<Diagnostic> none_in_time(bool stops, std::optional<std::chrono::milliseconds> deadline,
+                                       TimePoint began, const std::string& file, const Job& job) {
+  if (!stops || !deadline || job.now() < began + *deadline) return std::nullopt;
+  return Diagnostic{
+      .code = "LATE-NONE",
+      .message = "no workingstep was bound and checked when the deadline of " + ms(*deadline) + " came",
+      .file = file,
+      .hint = "retract and stop; give it more time, or bind fewer workingsteps at once"};
 }
 
 Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {

@@ -90,7 +90,11 @@ struct LateOutcome {
 [[nodiscard]] Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
                                        Job& job);
 
-/// What there is instead of a workingstep where a call is given up at its deadline (LATE-NONE).
-[[nodiscard]] Diagnostic none_in_time(std::chrono::milliseconds deadline, const std::string& file);
+/// What there is instead of a workingstep where a call is given up at its deadline (LATE-NONE); nothing where
+/// the deadline `stops` no call, or has not come.
+[[nodiscard]] std::optional<Diagnostic> none_in_time(bool stops,
+                                                     std::optional<std::chrono::milliseconds> deadline,
+                                                     std::chrono::steady_clock::time_point began,
+                                                     const std::string& file, const Job& job);
 
 }  // namespace capstan::late

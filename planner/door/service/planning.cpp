@@ -281,9 +281,8 @@ Outcome<Planned> bind_in(const pipeline::Inputs& shop, const Request& request, c
 
 Diagnostic stopped_bind(const Request& request, std::chrono::steady_clock::time_point began,
                         const std::string& file, const Job& job) {
-  const bool at_deadline =
-      request.stop_at_deadline && request.deadline && job.now() >= began + *request.deadline;
-  return at_deadline ? late::none_in_time(*request.deadline, file) : stopped_call(file);
+  return late::none_in_time(request.stop_at_deadline, request.deadline, began, file, job)
+      .value_or(stopped_call(file));
 }
 
 namespace {
