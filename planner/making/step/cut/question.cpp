@@ -295,6 +295,11 @@ double tip_beside_wall_mm(double wall_error_mm) {
   return std::max(kWallOfZone / kDeflectionShare * wall_error_mm, mechanics::kQuietDeflectionMm);
 }
 
+bool cuts_under_overhang(const model::Cutter& c) {
+  return model::has(c.cutter_class, model::CutterTrait::kUndercuts) &&
+         model::has(c.cutter_class, model::CutterTrait::kNecked);
+}
+
 double last_width_under_overhang_mm(const toolpath::PathJob& job, double bent_mm) {
   if (job.shape.kind == ShapeKind::kHole)
     return job.hole_above_mm > 0.0 && toolpath::cuts_from_below(job) ? toolpath::last_circle_mm(job, bent_mm)
@@ -419,8 +424,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.width_mm += 0.41422 * std::max(0.0, 0.5 * (job.cleared_by->diameter_mm - d));
     q.width_mm = std::min(q.width_mm, d);
   }
-  const bool under = model::has(step.cutter.cutter_class, model::CutterTrait::kUndercuts) &&
-                     model::has(step.cutter.cutter_class, model::CutterTrait::kNecked);
+  const bool under = cuts_under_overhang(step.cutter);
   if (under) under_an_overhang(q, job);
   if (q.slot && job.shape.kind == model::ShapeKind::kHole && toolpath::cuts_from_below(job)) {
     const auto most = toolpath::back_cut(job);

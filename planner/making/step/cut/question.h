@@ -46,6 +46,8 @@ namespace capstan::step {
 /// be off at all, so that the wall is within its tolerance even if it were pushed off by all of it.
 [[nodiscard]] double tip_beside_wall_mm(double wall_error_mm);
 
+/// Whether the cutter's head cuts under an overhang, held by a neck.
+[[nodiscard]] bool cuts_under_overhang(const model::Cutter& c);
 /// Under an overhang, where a thin last pass makes the walls: its width, as that of a straight cut with the
 /// same contact angle, mm, where the neck is bent by `bent_mm` in the passes before; 0: no such pass.
 [[nodiscard]] double last_width_under_overhang_mm(const toolpath::PathJob& job, double bent_mm);

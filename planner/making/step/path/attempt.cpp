@@ -205,8 +205,7 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
     if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
     if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
     if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
-    if (model::has(step.cutter.cutter_class, model::CutterTrait::kUndercuts) &&
-        model::has(step.cutter.cutter_class, model::CutterTrait::kNecked)) {
+    if (cuts_under_overhang(step.cutter)) {
       // A stated feed is lowered where that holds the limits, and otherwise by the teeth that cut.
       auto loads = hold_under_overhang(out.question, out.answer,
                                        bending_of_last_pass_mm(p, step, job, out.question), job);
