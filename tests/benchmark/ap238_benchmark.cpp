@@ -13,7 +13,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
-#include "tests/support/long_paths.h"
+#include "tests/support/paths/long_paths.h"
 
 // AP238 files of 25, 50 and 100 MB, from bytes in memory to the model: one full of toolpaths, one full of
 // B-rep solids that no attribute of a noun holds and that are kept verbatim. And plans of long paths with

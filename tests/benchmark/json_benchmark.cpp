@@ -7,7 +7,7 @@
 #include "planner/files/json/json.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/empty_plan.h"
-#include "tests/support/long_paths.h"
+#include "tests/support/paths/long_paths.h"
 
 namespace capstan {
 namespace {

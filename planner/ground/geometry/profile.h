@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace capstan::geometry {
@@ -22,6 +25,9 @@ struct ProfilePiece {
   friend bool operator==(const ProfilePiece&, const ProfilePiece&) = default;
 };
 
+/// Whether an arc goes on until it is upright, as a ball's and a corner's do and a lens's does not.
+[[nodiscard]] bool ends_upright(const ProfilePiece& arc);
+
 struct CutterProfile {
   std::vector<ProfilePiece> pieces;
   double radius_mm = 0.0;          ///< R, the largest cutting radius
@@ -33,6 +39,28 @@ struct CutterProfile {
   [[nodiscard]] double radius_at(double height_mm) const;
   friend bool operator==(const CutterProfile&, const CutterProfile&) = default;
 };
+
+/// An outline whose slope dz/dr never falls outwards: what a plane, a line or a point touches it at is found
+/// from the slope alone. It holds its pieces itself, so that making one allocates nothing.
+struct ConvexOutline {
+  static constexpr std::size_t kMost = 12;
+  std::array<ProfilePiece, kMost> piece;
+  std::size_t pieces = 0;
+  double radius_mm = 0.0;
+  /// As that of CutterProfile; beyond the radius, where rounding leads, the height of the rim.
+  [[nodiscard]] double height(double r_mm) const;
+  /// The least distance from the axis at which a plane that rises outwards by `slope` (dz/dr > 0) touches.
+  [[nodiscard]] double touch_radius(double slope) const;
+  /// The radius of the plane at the tip; 0 where there is none.
+  [[nodiscard]] double level_radius() const;
+  /// The radius of the largest ball that, rolled inside, reaches all of the outline; 0 where it has a corner.
+  [[nodiscard]] double sharpest_radius() const;
+};
+/// Nothing for an outline that is hollow, has a hole at its axis, or more pieces than kMost lets grow.
+[[nodiscard]] std::optional<ConvexOutline> convex_outline(const CutterProfile& profile);
+/// The outline with a ball of radius `by_mm` rolled all round it, its tip at height 0 again: arcs grow,
+/// straight pieces move along their normals, corners become arcs. Needs  by >= 0.
+[[nodiscard]] ConvexOutline grown(const ConvexOutline& outline, double by_mm);
 
 /// One plane across the whole end: no corner, no cone, no ball.
 [[nodiscard]] bool is_flat(const CutterProfile& profile);

@@ -22,7 +22,7 @@ Cells cells_in(double from, double to, double origin, double cell, int n) {
 std::optional<RoundNose> round_nose(const geometry::CutterProfile& profile) {
   if (profile.pieces.empty() || profile.pieces.size() > 2) return std::nullopt;
   const geometry::ProfilePiece& round = profile.pieces.back();
-  if (!(round.radius_mm > 0.0)) return std::nullopt;
+  if (!(round.radius_mm > 0.0) || !geometry::ends_upright(round)) return std::nullopt;
   const bool floor = profile.pieces.size() == 2;
   if (floor && (profile.pieces.front().radius_mm > 0.0 || profile.pieces.front().slope != 0.0))
     return std::nullopt;

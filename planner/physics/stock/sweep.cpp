@@ -45,9 +45,11 @@ bool is_plain(const CutterProfile& p) {
   const auto slant = [](const ProfilePiece& q) {
     return q.radius_mm <= 0.0 && q.slope != 0.0 && q.z0_mm == 0.0;
   };
-  if (p.pieces.size() == 1) return slant(p.pieces[0]) || p.pieces[0].rc_mm == 0.0;
+  const auto round = [](const ProfilePiece& q) { return q.radius_mm > 0.0 && geometry::ends_upright(q); };
+  if (p.pieces.size() == 1)
+    return slant(p.pieces[0]) || level(p.pieces[0]) || (round(p.pieces[0]) && p.pieces[0].rc_mm == 0.0);
   return p.pieces.size() == 2 && level(p.pieces[0]) &&
-         (slant(p.pieces[1]) || (p.pieces[1].radius_mm > 0.0 && p.pieces[1].rc_mm > 0.0));
+         (slant(p.pieces[1]) || (round(p.pieces[1]) && p.pieces[1].rc_mm > 0.0));
 }
 
 /// The cutter, on a track from a to b.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/making/toolpath/freeform/drop_cutter.h"
+#include "tests/support/paths/outlines.h"
 
 namespace capstan::toolpath::freeform {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kNone = DropCutter::kNoContact;
 /// golden section around the best of a dense sample. No closed form of a contact is used.
 class Referee {
  public:
-  Referee(const Toroid& t, Vec2 axis) : t_(t), axis_(axis) {}
+  Referee(const MillEnd& t, Vec2 axis) : t_(t), axis_(axis) {}
 
   double over(const Mesh& mesh) {
     for (const auto& t : mesh.triangles) {
@@ -115,7 +116,7 @@ class Referee {
         8);
   }
 
-  Toroid t_;
+  MillEnd t_;
   Vec2 axis_;
   double best_ = kNone;
 };
@@ -168,12 +169,18 @@ Mesh dirty(unsigned seed) {
   return m;
 }
 
+MillEnd lens() { return *mill_end_of(test::lens()); }
+MillEnd barrel() { return *mill_end_of(test::barrel()); }
+MillEnd tapered_ball() { return *mill_end_of(test::tapered_ball()); }
+MillEnd cone() { return *mill_end_of(geometry::cone_profile(6.0, 2.0, 20.0, 1.0)); }
+MillEnd pointed() { return *mill_end_of(geometry::cone_profile(6.0, 2.0, 20.0)); }
+
 const Toroid kBall{0.0, 3.0};
 const Toroid kFlat{3.0, 0.0};
 const Toroid kBull{2.0, 1.0};
 const Toroid kNearlyFlat{2.99, 0.01};
 
-void compare(const Mesh& mesh, const Toroid& t, int points, unsigned seed) {
+void compare(const Mesh& mesh, const MillEnd& t, int points, unsigned seed) {
   const DropCutter cutter(mesh);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(-4.0, 24.0);
@@ -191,15 +198,16 @@ void compare(const Mesh& mesh, const Toroid& t, int points, unsigned seed) {
     gouge = std::max(gouge, referee - z);
     high = std::max(high, z - referee);
   }
-  std::printf("[ figures  ] disc %.2f ball %.2f: lowest below the referee %.3g mm, highest above %.3g mm\n",
-              t.disc_mm, t.ball_mm, gouge, high);
+  std::printf("[ figures  ] radius %.2f ball %.2f: lowest below the referee %.3g mm, highest above %.3g mm\n",
+              t.radius(), t.ball_mm(), gouge, high);
   EXPECT_LT(gouge, 1e-9);
   EXPECT_LT(high, 1e-6);
 }
 
-class DropCutterAgainstReferee : public testing::TestWithParam<Toroid> {};
+class DropCutterAgainstReferee : public testing::TestWithParam<MillEnd> {};
 INSTANTIATE_TEST_SUITE_P(Cutters, DropCutterAgainstReferee,
-                         testing::Values(kBall, kFlat, kBull, kNearlyFlat));
+                         testing::Values(kBall, kFlat, kBull, kNearlyFlat, lens(), barrel(), tapered_ball(),
+                                         cone(), pointed()));
 
 TEST_P(DropCutterAgainstReferee, AgreesOnAWavyMesh) { compare(wavy(16, 20.0, 3.0), GetParam(), 60, 3); }
 TEST_P(DropCutterAgainstReferee, AgreesOnDirtyMeshes) {
@@ -227,7 +235,8 @@ TEST(DropCutter, KeepsTheAllowanceAlongTheNormal) {
   const double slope = 0.6;
   const DropCutter d(plane(slope));
   const double root = std::sqrt(1.0 + slope * slope);
-  for (const Toroid& t : {kBall, kFlat, kBull}) {
+  for (const MillEnd& t : {MillEnd(kBall), MillEnd(kFlat), MillEnd(kBull), lens(), barrel(), tapered_ball(),
+                           cone(), pointed()}) {
     EXPECT_NEAR(d.drop(t, 0.0, 0.0, 0.25) - d.drop(t, 0.0, 0.0), 0.25 * root, 1e-12);
   }
 }
@@ -254,6 +263,36 @@ TEST(DropCutter, ManyPointsGiveWhatSinglePointsGiveOnAnyNumberOfThreads) {
     for (std::size_t i = 0; i < points.size(); i += 7)
       EXPECT_EQ(a[i], d.drop(t, points[i].x, points[i].y, 0.1));
   }
+}
+
+TEST(MillEnd, OfAToroidWrittenAsAnOutlineDropsToTheSamePlace) {
+  const Mesh mesh = wavy(16, 20.0, 3.0);
+  const DropCutter d(mesh);
+  for (const Toroid& t : {kBall, kFlat, kBull}) {
+    const auto profile = geometry::bull_profile(2.0 * t.radius(), t.ball_mm, 20.0);
+    const MillEnd outline = *geometry::convex_outline(profile);
+    EXPECT_DOUBLE_EQ(outline.ball_mm(), t.ball_mm);
+    for (int k = 0; k < 400; ++k) {
+      const double x = 20.0 * (k % 20) / 19.0, y = k / 20;
+      EXPECT_NEAR(d.drop(outline, x, y, 0.2), d.drop(t, x, y, 0.2), 1e-9) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(MillEnd, TheLargestBallThatRollsInsideIsThatOfItsSharpestPlace) {
+  EXPECT_DOUBLE_EQ(barrel().ball_mm(), 1.0);
+  EXPECT_DOUBLE_EQ(lens().ball_mm(), 0.0);  // its rim
+  EXPECT_DOUBLE_EQ(pointed().ball_mm(), 0.0);
+}
+
+TEST(MillEnd, IsNoneForAHollowOutline) {
+  geometry::CutterProfile hollow{.pieces = {{.r0_mm = 0.0, .r1_mm = 2.0, .slope = 1.0},
+                                            {.r0_mm = 2.0, .r1_mm = 4.0, .z0_mm = 2.0, .slope = 0.5}},
+                                 .radius_mm = 4.0,
+                                 .cutting_length_mm = 10.0};
+  EXPECT_FALSE(mill_end_of(hollow));
+  hollow.pieces[1].slope = 1.5;
+  EXPECT_TRUE(mill_end_of(hollow));
 }
 
 TEST(ToroidOf, KnowsFlatBallAndBullAndRefusesCones) {

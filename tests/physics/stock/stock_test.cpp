@@ -8,6 +8,7 @@
 #include "planner/physics/stock/coverage.h"
 #include "planner/physics/stock/height_map.h"
 #include "planner/physics/stock/sweep.h"
+#include "tests/support/paths/outlines.h"
 
 namespace capstan::stock {
 namespace {
@@ -76,10 +77,14 @@ double stamped(const geometry::CutterProfile& profile, double along, double acro
 }
 
 TEST(SweptHeight, IsTheEnvelopeOfDenseStamps) {
-  const geometry::CutterProfile profiles[] = {
-      geometry::flat_profile(10.0, 20.0), geometry::ball_profile(10.0, 20.0),
-      geometry::bull_profile(10.0, 1.5, 20.0), geometry::cone_profile(10.0, 2.0, 20.0),
-      geometry::cone_profile(10.0, 1.5, 20.0, 3.0)};
+  const geometry::CutterProfile profiles[] = {geometry::flat_profile(10.0, 20.0),
+                                              geometry::ball_profile(10.0, 20.0),
+                                              geometry::bull_profile(10.0, 1.5, 20.0),
+                                              geometry::cone_profile(10.0, 2.0, 20.0),
+                                              geometry::cone_profile(10.0, 1.5, 20.0, 3.0),
+                                              test::lens(),
+                                              test::barrel(),
+                                              test::tapered_ball()};
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(0.0, 1.0);
   for (const auto& profile : profiles) {
@@ -103,7 +108,8 @@ TEST(Sweep, ASlopeLeavesItsEnvelope) {
   for (const auto& profile :
        {geometry::flat_profile(6.0, 20.0), geometry::ball_profile(6.0, 20.0),
         geometry::bull_profile(6.0, 1.0, 20.0), geometry::bull_profile(6.0, 0.1, 20.0),
-        geometry::cone_profile(6.0, 2.0, 20.0), geometry::cone_profile(6.0, 1.5, 20.0, 2.0)}) {
+        geometry::cone_profile(6.0, 2.0, 20.0), geometry::cone_profile(6.0, 1.5, 20.0, 2.0), test::lens(),
+        test::barrel(), test::tapered_ball()}) {
     for (int k = 0; k < 20; ++k) {
       HeightMap map = from_box({{0, 0, 0}, {20, 20, 20}}, 0.25);
       const double turned = 6.283 * u(random), length = 0.2 + 4.0 * u(random), rise = 4.0 * (u(random) - 0.5);
@@ -118,7 +124,7 @@ TEST(Sweep, ASlopeLeavesItsEnvelope) {
           const Vec2 p = Vec2{map.x_of(ix), map.y_of(iy)} - xy(from);
           const double along = dot(p, unit), across = cross(unit, p);
           const double past = along - std::clamp(along, 0.0, length);
-          if (std::hypot(past, across) > 3.0 - 0.2) continue;  // the rim covers a part of a cell
+          if (std::hypot(past, across) > profile.radius_mm - 0.2) continue;  // the rim covers a part of a cell
           const double z = std::min(20.0, 12.0 + swept_height(profile, along, across, length, rise));
           ASSERT_NEAR(height_at(map, {map.x_of(ix), map.y_of(iy)}), z, 2e-5);
         }

@@ -51,7 +51,80 @@ double height_within(const Toroid& t, double distance) {
   return t.ball_mm - std::sqrt((t.ball_mm - off) * (t.ball_mm + off));
 }
 
+/// How far from the axis a facet of this normal touches, and where the tip is when it touches at height z.
+double touch_radius(const Toroid& t, double nxy, double /*nz*/) { return t.ball_mm * nxy + t.disc_mm; }
+double tip_when_at(const Toroid& t, double z, double nz, double /*aside*/) {
+  return z + t.ball_mm * nz - t.ball_mm;
+}
+
+double level_radius(const Toroid& t) { return t.disc_mm; }
+double radius_of(const Toroid& t) { return t.radius(); }
+
+// The same of any convex outline. Along an edge its height is convex, too: what is highest has one sign
+// change.
+
+using geometry::ConvexOutline;
+
+double radius_of(const ConvexOutline& o) { return o.radius_mm; }
+double level_radius(const ConvexOutline& o) { return o.level_radius(); }
+double height_within(const ConvexOutline& o, double distance) { return o.height(distance); }
+
+double touch_radius(const ConvexOutline& o, double nxy, double nz) {
+  return nxy > 0.0 ? o.touch_radius(nxy / nz) : 0.0;
+}
+double tip_when_at(const ConvexOutline& o, double z, double /*nz*/, double aside) {
+  return z - o.height(aside);
+}
+
+double touch_ahead(const ConvexOutline& o, double w, double slope) {
+  const double level = o.level_radius();
+  if (slope <= 0.0) return std::sqrt(std::max(0.0, level * level - w * w));
+  const double limit2 = o.radius_mm * o.radius_mm - w * w;
+  if (limit2 <= 0.0) return 0.0;
+  double lo = 0.0, hi = std::sqrt(limit2);
+  for (int k = 0; k < 100 && hi - lo > 1e-13 * o.radius_mm; ++k) {
+    const double u = 0.5 * (lo + hi);
+    const double d = std::sqrt(w * w + u * u);
+    // The outline rises by `slope` along the edge where it rises by slope d / u outwards.
+    (o.touch_radius(slope * d / u) > d ? lo : hi) = u;
+  }
+  return 0.5 * (lo + hi);
+}
+
 }  // namespace
+
+double MillEnd::radius() const {
+  return std::visit([](const auto& s) { return radius_of(s); }, shape_);
+}
+
+double MillEnd::height(double r) const {
+  if (r > radius()) return std::numeric_limits<double>::infinity();
+  return std::visit([r](const auto& s) { return height_within(s, r); }, shape_);
+}
+
+double MillEnd::touch_radius(double slope) const {
+  const double root = std::sqrt(1.0 + slope * slope);
+  return std::visit([&](const auto& s) { return freeform::touch_radius(s, slope / root, 1.0 / root); },
+                    shape_);
+}
+
+double MillEnd::ball_mm() const {
+  if (const auto* t = std::get_if<Toroid>(&shape_)) return t->ball_mm;
+  return std::get<ConvexOutline>(shape_).sharpest_radius();
+}
+
+template <class F>
+decltype(auto) MillEnd::grown(double by_mm, const F& f) const {
+  if (const auto* t = std::get_if<Toroid>(&shape_))
+    return f(Toroid{.disc_mm = t->disc_mm, .ball_mm = t->ball_mm + by_mm});
+  return f(geometry::grown(std::get<ConvexOutline>(shape_), by_mm));
+}
+
+std::optional<MillEnd> mill_end_of(const geometry::CutterProfile& profile) {
+  if (const auto t = toroid_of(profile)) return MillEnd(*t);
+  if (const auto o = geometry::convex_outline(profile)) return MillEnd(*o);
+  return std::nullopt;
+}
 
 double Toroid::height(double r) const {
   return r > radius() ? std::numeric_limits<double>::infinity() : height_within(*this, r);
@@ -62,7 +135,8 @@ std::optional<Toroid> toroid_of(const geometry::CutterProfile& profile) {
   double r = 0.0;
   for (const geometry::ProfilePiece& p : profile.pieces) {
     if (p.radius_mm > 0.0) {
-      if (&p != &profile.pieces.back() || std::abs(p.rc_mm - r) > 1e-9) return std::nullopt;
+      if (&p != &profile.pieces.back() || std::abs(p.rc_mm - r) > 1e-9 || !geometry::ends_upright(p))
+        return std::nullopt;
       out = {.disc_mm = p.rc_mm, .ball_mm = p.radius_mm};
     } else if (p.slope != 0.0 || p.z0_mm != 0.0) {
       return std::nullopt;
@@ -73,10 +147,11 @@ std::optional<Toroid> toroid_of(const geometry::CutterProfile& profile) {
   return out;
 }
 
-void DropCutter::leaf(const Leaf& l, const Toroid& t, double x, double y, double& best) const {
+template <class Outline>
+void DropCutter::leaf(const Leaf& l, const Outline& t, double x, double y, double& best) const {
   for (std::uint32_t i = l.facet0; i < l.facet1; ++i) {
     const Facet& f = facets_[i];
-    const double reach = t.ball_mm * f.nxy + t.disc_mm;
+    const double reach = touch_radius(t, f.nxy, f.nz);
     const Vec2 p{x - reach * f.lean.x, y - reach * f.lean.y};
     // A point on a shared side belongs to both.
     const auto right_of = [&](Vec2 a, Vec2 b) {
@@ -85,9 +160,9 @@ void DropCutter::leaf(const Leaf& l, const Toroid& t, double x, double y, double
     };
     if (right_of(f.a, f.b) || right_of(f.b, f.c) || right_of(f.c, f.a)) continue;
     const double z = std::min(f.top, f.z + dot(f.slope, p - f.a));
-    best = std::max(best, z + t.ball_mm * f.nz - t.ball_mm);
+    best = std::max(best, tip_when_at(t, z, f.nz, reach));
   }
-  const double radius = t.radius();
+  const double radius = radius_of(t);
   const double radius2 = radius * radius;
   for (std::uint32_t i = l.vertex0; i < l.vertex1; ++i) {
     const Vec3& v = vertices_[i];
@@ -117,17 +192,18 @@ void DropCutter::leaf(const Leaf& l, const Toroid& t, double x, double y, double
   }
 }
 
-double DropCutter::search(const Toroid& t, double x, double y, std::uint32_t& hint) const {
+template <class Outline>
+double DropCutter::search(const Outline& t, double x, double y, std::uint32_t& hint) const {
   tick();
   double best = kNoContact;
   if (nodes_.empty()) return best;
-  const double radius = t.radius();
+  const double radius = radius_of(t), level = level_radius(t);
   const auto bound = [&](const Node& n) {
     const double dx = std::max({n.xlo - x, 0.0, x - n.xhi});
     const double dy = std::max({n.ylo - y, 0.0, y - n.yhi});
     const double d2 = dx * dx + dy * dy;
     if (d2 > radius * radius) return kNoContact;
-    return d2 <= t.disc_mm * t.disc_mm ? n.top : n.top - height_within(t, std::sqrt(d2));
+    return d2 <= level * level ? n.top : n.top - height_within(t, std::sqrt(d2));
   };
   leaf(leaves_[hint], t, x, y, best);
   struct Entry {
@@ -157,28 +233,29 @@ double DropCutter::search(const Toroid& t, double x, double y, std::uint32_t& hi
   return best;
 }
 
-double DropCutter::drop(const Toroid& cutter, double x, double y, double allowance_mm) const {
+double DropCutter::drop(const MillEnd& cutter, double x, double y, double allowance_mm) const {
   std::uint32_t hint = 0;
   return drop(cutter, x, y, allowance_mm, hint);
 }
 
-double DropCutter::drop(const Toroid& cutter, double x, double y, double allowance_mm,
+double DropCutter::drop(const MillEnd& cutter, double x, double y, double allowance_mm,
                         std::uint32_t& hint) const {
-  const Toroid grown{.disc_mm = cutter.disc_mm, .ball_mm = cutter.ball_mm + allowance_mm};
-  return search(grown, x, y, hint) + allowance_mm;
+  return cutter.grown(allowance_mm, [&](const auto& grown) { return search(grown, x, y, hint); }) +
+         allowance_mm;
 }
 
-std::vector<double> DropCutter::drop(const Toroid& cutter, const std::vector<Vec2>& points,
+std::vector<double> DropCutter::drop(const MillEnd& cutter, const std::vector<Vec2>& points,
                                      double allowance_mm, const Job& job) const {
   std::vector<double> out(points.size());
-  const Toroid grown{.disc_mm = cutter.disc_mm, .ball_mm = cutter.ball_mm + allowance_mm};
   constexpr std::size_t kChunk = 1024;
-  parallel_for(job, (points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    std::uint32_t hint = 0;
-    const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      out[i] = search(grown, points[i].x, points[i].y, hint) + allowance_mm;
-    }
+  cutter.grown(allowance_mm, [&](const auto& grown) {
+    parallel_for(job, (points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+      std::uint32_t hint = 0;
+      const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
+      for (std::size_t i = chunk * kChunk; i < end; ++i) {
+        out[i] = search(grown, points[i].x, points[i].y, hint) + allowance_mm;
+      }
+    });
   });
   return out;
 }

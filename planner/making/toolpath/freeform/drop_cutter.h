@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "planner/ground/base/job.h"
@@ -26,9 +27,34 @@ struct Toroid {
 /// The toroid a profile describes; nothing for cones and other outlines.
 [[nodiscard]] std::optional<Toroid> toroid_of(const geometry::CutterProfile& profile);
 
-/// Lets a cutter down on a mesh, along z, until it touches: facets, edges and vertices in closed form (the
-/// edge of a bull-nosed cutter by bisection to the last bits). The mesh may have holes, folds, duplicates and
-/// triangles of any orientation; triangles of no area count with their edges.
+/// What of a mill meets a surface: a toroid where it is one, which is quickest, else any convex outline.
+class MillEnd {
+ public:
+  MillEnd() = default;
+  MillEnd(const Toroid& t) : shape_(t) {}
+  MillEnd(const geometry::ConvexOutline& o) : shape_(o) {}
+
+  [[nodiscard]] double radius() const;
+  /// Height above the tip at distance r from the axis; +inf outside.
+  [[nodiscard]] double height(double r) const;
+  /// How far from the axis a plane touches that rises outwards by `slope` > 0.
+  [[nodiscard]] double touch_radius(double slope) const;
+  /// The radius of the largest ball that, rolled inside, reaches all of it; 0 where it has a corner.
+  [[nodiscard]] double ball_mm() const;
+  /// Calls `f` with the toroid or the outline, grown all round by `by_mm`.
+  template <class F>
+  decltype(auto) grown(double by_mm, const F& f) const;
+
+ private:
+  std::variant<Toroid, geometry::ConvexOutline> shape_;
+};
+
+/// Nothing for a hollow outline.
+[[nodiscard]] std::optional<MillEnd> mill_end_of(const geometry::CutterProfile& profile);
+
+/// Lets a cutter down on a mesh, along z, until it touches: facets, edges and vertices in closed form (an
+/// edge that is neither a ball's nor a flat cutter's by bisection to the last bits). The mesh may have holes,
+/// folds, duplicates and triangles of any orientation; triangles of no area count with their edges.
 ///
 /// Units  mm. Frame: the mesh's.
 /// Needs  finite vertices and triangles that name existing vertices (else std::logic_error).
@@ -42,16 +68,16 @@ class DropCutter {
   /// Lowest height of the tip on the axis (x, y) at which a cutter, grown all round by `allowance_mm`, is
   /// clear of the mesh, so that the cutter keeps that distance; kNoContact beside the mesh.
   /// Needs  allowance >= 0.
-  [[nodiscard]] double drop(const Toroid& cutter, double x, double y, double allowance_mm = 0.0) const;
+  [[nodiscard]] double drop(const MillEnd& cutter, double x, double y, double allowance_mm = 0.0) const;
 
   /// As above; `hint` (0 at first) carries the last contact along, which saves time where points are near
   /// each other and changes nothing else.
-  [[nodiscard]] double drop(const Toroid& cutter, double x, double y, double allowance_mm,
+  [[nodiscard]] double drop(const MillEnd& cutter, double x, double y, double allowance_mm,
                             std::uint32_t& hint) const;
 
   /// As above for many points; points near each other should follow each other (rows in turn, to and fro).
   /// Uses job.threads; the result does not depend on it.
-  [[nodiscard]] std::vector<double> drop(const Toroid& cutter, const std::vector<geometry::Vec2>& points,
+  [[nodiscard]] std::vector<double> drop(const MillEnd& cutter, const std::vector<geometry::Vec2>& points,
                                          double allowance_mm, const Job& job) const;
 
   [[nodiscard]] const geometry::Box3& bounds() const { return bounds_; }
@@ -78,8 +104,10 @@ class DropCutter {
   };
   class Builder;
 
-  void leaf(const Leaf& l, const Toroid& t, double x, double y, double& best) const;
-  [[nodiscard]] double search(const Toroid& t, double x, double y, std::uint32_t& hint) const;
+  template <class Outline>
+  void leaf(const Leaf& l, const Outline& t, double x, double y, double& best) const;
+  template <class Outline>
+  [[nodiscard]] double search(const Outline& t, double x, double y, std::uint32_t& hint) const;
 
   std::vector<Facet> facets_;
   std::vector<Edge> edges_;

@@ -52,7 +52,7 @@ void warn_of_ridges(const FreeformJob& task, double ball_mm, const Hatch& lines,
 
 class Finisher {
  public:
-  Finisher(const FreeformJob& task, const DropCutter& drop, const Toroid& cutter, Hatch hatch, Job& job)
+  Finisher(const FreeformJob& task, const DropCutter& drop, const MillEnd& cutter, Hatch hatch, Job& job)
       : task_(task), hatch_(std::move(hatch)), job_(job) {
     follow_ = {.drop = &drop,
                .cutter = cutter,
@@ -141,12 +141,13 @@ double scallop_stepover(double ball_radius_mm, double scallop_mm) {
 Result<FreeformPath> finish(const FreeformJob& task, Job& job) {
   const auto cutter = checked_cutter(task);
   if (!cutter) return tl::unexpected(cutter.error());
-  if (!(cutter->ball_mm > 0.0)) {
+  if (!(cutter->ball_mm() > 0.0)) {
     return fail("FRF-CUTTER",
-                "finishing a surface needs a ball or bull nosed cutter; '" + task.cutter.id + "' is flat");
+                "finishing a surface needs a cutter without a corner, as a ball or bull nose is; '" +
+                    task.cutter.id + "' has one");
   }
   const double stepover =
-      task.stepover_mm > 0.0 ? task.stepover_mm : scallop_stepover(cutter->ball_mm, task.scallop_mm);
+      task.stepover_mm > 0.0 ? task.stepover_mm : scallop_stepover(cutter->ball_mm(), task.scallop_mm);
   if (!(stepover > 0.0)) return fail("FRF-VALUE", "neither a stepover nor a scallop height is given");
   const DropCutter drop(*task.surface);
   // A step to the next pass is shorter than what is kept out of is wide.
@@ -154,7 +155,7 @@ Result<FreeformPath> finish(const FreeformJob& task, Job& job) {
       hatch(geometry::subtract(area_of(task, drop), kept_out(task, *cutter)), task.feed_angle_rad, stepover);
   // What is kept out of may lie beyond the rim.
   if (task.area.empty() && task.avoid.empty()) lines = beyond_rim(lines, drop, *cutter, task.allowance_mm);
-  if (task.scallop_mm > 0.0) warn_of_ridges(task, cutter->ball_mm, lines, job);
+  if (task.scallop_mm > 0.0) warn_of_ridges(task, cutter->ball_mm(), lines, job);
   return Finisher(task, drop, *cutter, std::move(lines), job).run();
 }
 

@@ -81,7 +81,7 @@ struct FreeformPath {
 /// allows; the cut lies between surface + allowance and tolerance above it, never below. Neighbouring passes
 /// are joined along the surface, others over the security plane.
 ///
-/// Needs  a ball or bull nosed cutter; stepover or scallop > 0.
+/// Needs  a cutter without a corner (MillEnd::ball_mm above 0); stepover or scallop > 0.
 /// Fails  as rough.
 /// Warns  FRF-SCALLOP  how much of the surface slopes so much across the passes that ridges exceed scallop_mm
 [[nodiscard]] Result<FreeformPath> finish(const FreeformJob& task, Job& job);

@@ -4,7 +4,8 @@
 #include <cmath>
 
 // The contact is found from the tip's height z(x, y): the outline's normal there has the slope of z, so that
-// the contact lies at the axis plus (disc + ball sin t) along z's gradient, tan t its length. Derived.
+// the contact lies at the axis plus what the outline touches a plane of that slope at, grown by the
+// allowance, along z's gradient. Derived.
 
 namespace capstan::toolpath::freeform {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kPerRadius = 32.0;  ///< places looked at; what a rim lacks at 
 
 class Rim {
  public:
-  Rim(const DropCutter& drop, const Toroid& cutter, double allowance_mm)
+  Rim(const DropCutter& drop, const MillEnd& cutter, double allowance_mm)
       : drop_(drop), cutter_(cutter), allowance_(allowance_mm) {}
 
   /// Whether the cutter, let down there, touches the surface within its rim.
@@ -28,7 +29,7 @@ class Rim {
     const double tangent = norm(slope);
     if (tangent < 1e-9) return within(p);
     const double sine = tangent / std::sqrt(1.0 + tangent * tangent);
-    return within(p + ((cutter_.disc_mm + (cutter_.ball_mm + allowance_) * sine) / tangent) * slope);
+    return within(p + ((cutter_.touch_radius(tangent) + allowance_ * sine) / tangent) * slope);
   }
 
   [[nodiscard]] bool within(Vec2 p) const {
@@ -51,13 +52,13 @@ class Rim {
   [[nodiscard]] double at(Vec2 p) const { return drop_.drop(cutter_, p.x, p.y, allowance_); }
 
   const DropCutter& drop_;
-  const Toroid& cutter_;
+  const MillEnd& cutter_;
   double allowance_;
 };
 
 }  // namespace
 
-Hatch beyond_rim(const Hatch& inside, const DropCutter& drop, const Toroid& cutter, double allowance_mm) {
+Hatch beyond_rim(const Hatch& inside, const DropCutter& drop, const MillEnd& cutter, double allowance_mm) {
   if (inside.stripes.empty() || !(inside.spacing_mm > 0.0)) return inside;
   const Rim rim(drop, cutter, allowance_mm);
   const double step = cutter.radius() / kPerRadius;

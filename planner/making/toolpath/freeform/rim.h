@@ -14,7 +14,7 @@ namespace capstan::toolpath::freeform {
 ///
 /// Shape   line numbers keep their order; they may start below 0.
 /// Cost    three drops for each thirty-second of the cutter's radius beyond the rim.
-[[nodiscard]] Hatch beyond_rim(const Hatch& inside, const DropCutter& drop, const Toroid& cutter,
+[[nodiscard]] Hatch beyond_rim(const Hatch& inside, const DropCutter& drop, const MillEnd& cutter,
                                double allowance_mm);
 
 }  // namespace capstan::toolpath::freeform

@@ -40,7 +40,7 @@ struct Pass {
 
 class Rougher {
  public:
-  Rougher(const FreeformJob& task, const DropCutter& drop, const Toroid& cutter, Hatch hatch,
+  Rougher(const FreeformJob& task, const DropCutter& drop, const MillEnd& cutter, Hatch hatch,
           geometry::Region kept_out, Job& job)
       : task_(task),
         drop_(drop),
@@ -51,8 +51,8 @@ class Rougher {
         profile_(model::profile_of(task.cutter)),
         rest_(task.stock ? *task.stock : block(task, hatch_)) {
     margin_ = std::max(task.tolerance_mm, 0.1 * task.allowance_mm);
-    spacing_ =
-        std::min(probe_spacing(cutter.ball_mm + task.allowance_mm, margin_), kProbedShare * cutter.radius());
+    spacing_ = std::min(probe_spacing(cutter.ball_mm() + task.allowance_mm, margin_),
+                        kProbedShare * cutter.radius());
     floor_ = std::max(task.bottom_z_mm, rest_.origin.z);
     ends_alike_ = stock_ends_with(drop.bounds());
   }
@@ -335,7 +335,7 @@ class Rougher {
   /// Whether a straight way at this level is clear with `share` of the margin, between the probes too.
   [[nodiscard]] bool is_free(Vec2 a, Vec2 b, double z, double share = 1.0) const {
     const double spacing =
-        std::min(spacing_, probe_spacing(cutter_.ball_mm + task_.allowance_mm, share * margin_));
+        std::min(spacing_, probe_spacing(cutter_.ball_mm() + task_.allowance_mm, share * margin_));
     const int n = std::max(1, static_cast<int>(std::ceil(norm(b - a) / spacing)));
     std::uint32_t hint = 0;
     for (int k = 0; k <= n; ++k) {
@@ -458,7 +458,7 @@ class Rougher {
 
   const FreeformJob& task_;
   const DropCutter& drop_;
-  Toroid cutter_;
+  MillEnd cutter_;
   Hatch hatch_;
   geometry::Region kept_out_;
   Job& job_;

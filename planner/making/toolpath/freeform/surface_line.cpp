@@ -60,7 +60,7 @@ std::vector<std::vector<Vec3>> Follower::over(Vec2 a, Vec2 b) const {
   // Half of the tolerance lifts the cutter; the probes' spacing and the thinning take a quarter each.
   const double lift = 0.5 * tolerance_mm;
   const double quarter = 0.25 * tolerance_mm;
-  const double spacing = probe_spacing(cutter.ball_mm + allowance_mm, quarter);
+  const double spacing = probe_spacing(cutter.ball_mm() + allowance_mm, quarter);
   const double length = norm(b - a);
   const int n = std::max(1, static_cast<int>(std::ceil(length / spacing)));
   std::uint32_t hint = 0;

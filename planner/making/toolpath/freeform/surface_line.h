@@ -16,7 +16,7 @@ namespace capstan::toolpath::freeform {
 /// A cutter led over a surface.
 struct Follower {
   const DropCutter* drop = nullptr;
-  Toroid cutter;
+  MillEnd cutter;
   double allowance_mm = 0.0;
   double tolerance_mm = 0.01;
   double bottom_z_mm = -1e300;

@@ -8,10 +8,12 @@
 
 namespace capstan::toolpath::freeform {
 
-Result<Toroid> checked_cutter(const FreeformJob& task) {
-  const std::optional<Toroid> cutter = toroid_of(model::profile_of(task.cutter));
+Result<MillEnd> checked_cutter(const FreeformJob& task) {
+  const std::optional<MillEnd> cutter = mill_end_of(model::profile_of(task.cutter));
   if (!cutter) {
-    return fail("FRF-CUTTER", "cutter '" + task.cutter.id + "' is neither flat, ball nor bull nosed");
+    return fail("FRF-CUTTER", "cutter '" + task.cutter.id +
+                                  "' has a hollow outline; freeform surfaces want a convex one: flat, bull "
+                                  "or ball nosed, tapered, lens or barrel");
   }
   if (task.surface == nullptr || task.surface->triangles.empty()) {
     return fail("FRF-EMPTY", "there is no surface to machine");
@@ -57,7 +59,7 @@ geometry::Region area_of(const FreeformJob& task, const DropCutter& drop) {
   return geometry::rectangle(xy(drop.bounds().lo), xy(drop.bounds().hi));
 }
 
-geometry::Region kept_out(const FreeformJob& task, const Toroid& cutter) {
+geometry::Region kept_out(const FreeformJob& task, const MillEnd& cutter) {
   if (task.avoid.empty()) return {};
   // Over a corner a chord of length s comes as near as s^2 / 8 r.
   return geometry::offset(task.avoid, (1.0 + kProbedShare * kProbedShare / 8.0) * cutter.radius());

@@ -6,13 +6,13 @@
 namespace capstan::toolpath::freeform {
 
 /// The cutter as a toroid, the task's numbers checked. Fails FRF-CUTTER, FRF-VALUE.
-[[nodiscard]] Result<Toroid> checked_cutter(const FreeformJob& task);
+[[nodiscard]] Result<MillEnd> checked_cutter(const FreeformJob& task);
 /// Where the axis may go, but for what is to be avoided.
 [[nodiscard]] geometry::Region area_of(const FreeformJob& task, const DropCutter& drop);
 /// Ways are probed at points no farther apart than this share of the cutter's radius.
 inline constexpr double kProbedShare = 0.25;
 /// Where the axis may not go, for what is to be avoided: ways between two points probed outside it keep the
 /// cutter's radius from that, too.
-[[nodiscard]] geometry::Region kept_out(const FreeformJob& task, const Toroid& cutter);
+[[nodiscard]] geometry::Region kept_out(const FreeformJob& task, const MillEnd& cutter);
 
 }  // namespace capstan::toolpath::freeform

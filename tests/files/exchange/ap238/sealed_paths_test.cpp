@@ -1,7 +1,7 @@
 #include "planner/files/exchange/records/seal.h"
 
 #include "tests/files/exchange/ap238/support.h"
-#include "tests/support/long_paths.h"
+#include "tests/support/paths/long_paths.h"
 
 namespace capstan::exchange::ap238 {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "planner/files/json/json.h"
 #include "planner/ground/base/number.h"
-#include "tests/support/long_paths.h"
+#include "tests/support/paths/long_paths.h"
 
 namespace capstan::json {
 namespace {

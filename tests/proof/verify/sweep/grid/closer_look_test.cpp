@@ -8,6 +8,7 @@
 #include <random>
 
 #include "planner/proof/verify/sweep/grid/way.h"
+#include "tests/support/paths/outlines.h"
 
 // A closer look leaves out what decides nothing. Held here against a look that leaves out nothing: all points
 // of the place, each cut made again on them.
@@ -25,7 +26,7 @@ std::vector<OutlinePtr> cutters() {
   std::vector<OutlinePtr> out;
   for (const auto& p :
        {geometry::flat_profile(6, 20), geometry::ball_profile(6, 20), geometry::bull_profile(8, 1.5, 20),
-        geometry::cone_profile(8, 90 * std::numbers::pi / 180, 20, 2)})
+        geometry::cone_profile(8, 90 * std::numbers::pi / 180, 20, 2), test::lens(), test::barrel()})
     out.push_back(std::make_shared<const CutterOutline>(p));
   return out;
 }

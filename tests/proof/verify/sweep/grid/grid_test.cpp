@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/support/paths/outlines.h"
+
 // Heights after a move, held against the cutter set at each of 5,000 points of its way.
 
 namespace capstan::verify {
@@ -25,9 +27,14 @@ Grid block() {
 }
 
 std::vector<CutterProfile> cutters() {
-  return {geometry::flat_profile(6, 20), geometry::ball_profile(6, 20), geometry::bull_profile(8, 1.5, 20),
+  return {geometry::flat_profile(6, 20),
+          geometry::ball_profile(6, 20),
+          geometry::bull_profile(8, 1.5, 20),
           geometry::cone_profile(8, 118 * std::numbers::pi / 180, 20),
-          geometry::cone_profile(8, 90 * std::numbers::pi / 180, 20, 2)};
+          geometry::cone_profile(8, 90 * std::numbers::pi / 180, 20, 2),
+          test::lens(),
+          test::barrel(),
+          test::tapered_ball()};
 }
 
 Move line(Vec3 from, Vec3 to) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/proof/verify/sweep/grid/way.h"
+#include "tests/support/paths/outlines.h"
 
 namespace capstan::verify {
 namespace {
@@ -15,9 +16,14 @@ namespace {
 using geometry::Vec2;
 
 std::vector<CutterOutline> outlines() {
-  return {geometry::ball_profile(6.0, 20.0), geometry::bull_profile(8.0, 1.0, 20.0),
-          geometry::flat_profile(5.0, 20.0), geometry::cone_profile(6.0, 2.0, 20.0),
-          geometry::cone_profile(6.0, 1.2, 20.0, 1.0)};
+  return {geometry::ball_profile(6.0, 20.0),
+          geometry::bull_profile(8.0, 1.0, 20.0),
+          geometry::flat_profile(5.0, 20.0),
+          geometry::cone_profile(6.0, 2.0, 20.0),
+          geometry::cone_profile(6.0, 1.2, 20.0, 1.0),
+          test::lens(),
+          test::barrel(),
+          test::tapered_ball()};
 }
 
 /// How low the cutter comes over a point, at many places of the line: no lower than it really does.
