@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/ground/vocabulary/limit.h"
@@ -10,6 +12,8 @@
 #include "planner/ground/vocabulary/shape_kind.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/arena/attribute.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
+#include "planner/model/plan/cutter/outline/outline.h"
 
 namespace capstan::model {
 namespace {
@@ -30,6 +34,35 @@ TEST(Vocabulary, WritesEveryClassAsAConcreteToolBody) {
     if (r.value == CutterClass::kTouchProbe) continue;  // a tool of its own, without a body
     EXPECT_TRUE(is_a(r.body, TypeId::kMillingToolBody)) << r.name;
     EXPECT_FALSE(noun_type(r.body).abstract) << r.name;
+  }
+}
+
+// A name that is no number of Cutter would never be stated: no cutter of the class could be used.
+TEST(Vocabulary, NamesFieldsOfACutterThatMustBeStated) {
+  std::set<std::string_view> numbers;
+  const Cutter any;
+  for_each_field(any, [&](const auto& row, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) numbers.insert(row.name);
+  });
+  for (const CutterClassRow& r : cutter_classes()) {
+    EXPECT_EQ(r.must.field.empty(), r.must.words.empty()) << r.name;
+    EXPECT_TRUE(r.must.field.empty() || numbers.contains(r.must.field)) << r.name << ' ' << r.must.field;
+  }
+}
+
+// Two files of plan/cutter/outline that describe one cutter would make its outline a matter of their names.
+TEST(Vocabulary, GivesACutterOfAnyClassOneOutline) {
+  for (const CutterClassRow& r : cutter_classes()) {
+    Cutter c;
+    c.cutter_class = r.value;
+    c.cutting_diameter_mm = 10.0;
+    c.maximum_depth_of_cut_mm = 20.0;
+    c.point_angle_rad = 2.0;
+    c.lead_angle_rad = 0.5;
+    c.taper_angle_rad = 0.1;
+    const auto all = outline::outlines();
+    EXPECT_LE(std::count_if(all.begin(), all.end(), [&](const auto& o) { return o.describes(c); }), 1)
+        << r.name;
   }
 }
 

@@ -28,12 +28,18 @@ constexpr std::uint32_t kLess = bit(CutterTrait::kSmallerDoes);
 constexpr std::uint32_t kWide = bit(CutterTrait::kWide);
 constexpr std::uint32_t kNeck = bit(CutterTrait::kNecked);
 
+constexpr CutterMust states(std::string_view field, std::string_view words) { return {field, words}; }
+constexpr CutterMust kNothing{};
+constexpr CutterMust kPitch = states("thread_pitch_mm", "a pitch");
+constexpr CutterMust kCornerRadius = states("corner_radius_mm", "a corner radius");
+constexpr CutterMust kConeAngle = states("point_angle_rad", "the angle of its cone");
+constexpr CutterMust kTaper = states("taper_angle_rad", "its angle");
+
 using C = CutterClass;
-using M = CutterMust;
 using T = TypeId;
 constexpr std::array kRows{
 #define CAPSTAN_CUTTER_CLASS(value, name, words, traits, must, body, fusion, freecad, stand_in) \
-  CutterClassRow{C::value, name, words, traits, M::must, T::body, fusion, freecad, C::stand_in},
+  CutterClassRow{C::value, name, words, traits, must, T::body, fusion, freecad, C::stand_in},
 #include "planner/ground/vocabulary/cutter_classes.inc"
 #undef CAPSTAN_CUTTER_CLASS
 };
@@ -120,12 +126,6 @@ std::optional<CutterClass> cutter_class_called(std::string_view lower_comment) {
   for (const Called& k : kCalled)
     if (occurs(k.text)) return k.value;
   return std::nullopt;
-}
-
-std::string_view words_of(CutterMust m) {
-  constexpr std::array<std::string_view, 5> kWords = {"", "a pitch", "a corner radius",
-                                                      "the angle of its cone", "its angle"};
-  return kWords.at(static_cast<std::size_t>(m));
 }
 
 std::string_view to_text(Substrate s) { return kSubstrates.at(static_cast<std::size_t>(s)); }

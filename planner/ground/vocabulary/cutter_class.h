@@ -65,9 +65,12 @@ enum class CutterTrait : std::uint32_t {
   kNecked = 1U << 18U,
 };
 
-/// What a cutter must state, because a guess would spoil the thread or the shape.
-enum class CutterMust : std::uint8_t { kNothing, kPitch, kCornerRadius, kConeAngle, kTaper };
-[[nodiscard]] std::string_view words_of(CutterMust m);  ///< "a pitch", "the angle of its cone"
+/// What a cutter must state, because a guess would spoil the thread or the shape: a field of model::Cutter by
+/// its name, and its words, "a pitch". Empty: nothing.
+struct CutterMust {
+  std::string_view field;
+  std::string_view words;
+};
 
 struct CutterClassRow {
   CutterClass value;

@@ -40,8 +40,7 @@ geometry::Region over_its_rim(const geometry::Mesh& mesh, const model::Cutter& c
                               bool beside_is_cut, double scallop_mm) {
   constexpr double kSameMm = 0.02;  // of coordinates, as SurfaceForm has it; default, unsourced
   const double radius = 0.5 * c.cutting_diameter_mm;
-  const bool ball = c.cutter_class == model::CutterClass::kBallEndmill;
-  geometry::Box2 out = piece::box_of_axis(mesh, radius, ball ? radius : c.corner_radius_mm, scallop_mm);
+  geometry::Box2 out = piece::box_of_axis(mesh, radius, model::end_radius_mm(c), scallop_mm);
   const geometry::Box3 own = geometry::bounds(mesh);
   if (!beside_is_cut) {
     if (raw.lo.x < own.lo.x - kSameMm) out.lo.x = own.lo.x;

@@ -1,18 +1,25 @@
 #include "planner/model/plan/cutter/cutter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/cutter/measured_length.h"
+#include "planner/model/plan/cutter/outline/outline.h"
 #include "planner/model/plan/cutter/stated.h"
 #include "planner/model/plan/requirement.h"
 
 namespace capstan::model {
 namespace {
 
-bool has_cone(const Cutter& c) { return has(c.cutter_class, CutterTrait::kCone) && c.point_angle_rad > 0.0; }
+/// Null: a flat end with rounded corners.
+const outline::Outline* outline_of(const Cutter& c) {
+  static const std::vector<outline::Outline> kOutlines = outline::outlines();
+  for (const outline::Outline& o : kOutlines)
+    if (o.describes(c)) return &o;
+  return nullptr;
+}
 
 }  // namespace
 
@@ -25,23 +32,13 @@ bool is_stated(const Cutter& c, std::string_view field) {
 }
 
 geometry::CutterProfile profile_of(const Cutter& c) {
-  const double length = c.maximum_depth_of_cut_mm;
-  if (has_cone(c)) {
-    return geometry::cone_profile(c.cutting_diameter_mm, c.point_angle_rad, length, c.tip_diameter_mm);
-  }
-  if (c.cutter_class == CutterClass::kTaperedEndmill && c.taper_angle_rad > 0.0) {
-    // From a flat tip, whatever its corner: what it cuts besides lies below the real cutter's.
-    const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.taper_angle_rad);
-    return geometry::cone_profile(top, 2.0 * c.taper_angle_rad, length, c.cutting_diameter_mm);
-  }
-  if (c.cutter_class == CutterClass::kFacemill && c.lead_angle_rad > 0.0 && length > 0.0) {
-    // DC is measured at the tip, the inserts lean outwards (ISO 13399: DCX = DC + 2 APMX tan PSIR). Their
-    // corners' rounding is left out: what is cut besides lies below the real cutter's.
-    const double top = c.cutting_diameter_mm + 2.0 * length * std::tan(c.lead_angle_rad);
-    return geometry::cone_profile(top, 2.0 * c.lead_angle_rad, length, c.cutting_diameter_mm);
-  }
-  if (has(c.cutter_class, CutterTrait::kBall)) return geometry::ball_profile(c.cutting_diameter_mm, length);
-  return geometry::bull_profile(c.cutting_diameter_mm, c.corner_radius_mm, length);
+  if (const outline::Outline* o = outline_of(c)) return o->of(c);
+  return geometry::bull_profile(c.cutting_diameter_mm, c.corner_radius_mm, c.maximum_depth_of_cut_mm);
+}
+
+double end_radius_mm(const Cutter& c) {
+  const outline::Outline* o = outline_of(c);
+  return o != nullptr && o->end_radius_mm != nullptr ? o->end_radius_mm(c) : c.corner_radius_mm;
 }
 
 double reach_of(const Cutter& c) {

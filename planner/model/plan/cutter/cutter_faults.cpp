@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include "planner/ground/base/text.h"
+#include "planner/model/plan/cutter/cutter_fields.h"
 #include "planner/model/plan/range/ranges.h"
 
 namespace capstan::model {
@@ -25,13 +27,13 @@ void check_angle(double v, const char* name, double most, std::vector<std::strin
 /// What must be said, since a guess would spoil the thread or the shape.
 std::string missing_of(const Cutter& c) {
   const CutterMust must = row_of(c.cutter_class).must;
-  const bool states = must == CutterMust::kPitch          ? c.thread_pitch_mm != 0.0
-                      : must == CutterMust::kCornerRadius ? c.corner_radius_mm != 0.0
-                      : must == CutterMust::kConeAngle    ? c.point_angle_rad != 0.0
-                      : must == CutterMust::kTaper        ? c.taper_angle_rad != 0.0
-                                                          : true;
+  bool states = must.field.empty();
+  for_each_field(c, [&](const auto& row, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+      states = states || (row.name == must.field && value != 0.0);
+  });
   if (states) return {};
-  return "a " + std::string(words_of(c.cutter_class)) + " without " + std::string(words_of(must));
+  return "a " + std::string(words_of(c.cutter_class)) + " without " + std::string(must.words);
 }
 
 void check_together(const Cutter& c, std::vector<std::string>& out) {

@@ -68,17 +68,14 @@ ForceLaw force_law(const model::WorkMaterial& material, const model::Cutter& cut
 }
 
 Tooth tooth_of(const model::Cutter& cutter) {
-  Tooth t{.cutting_diameter_mm = cutter.cutting_diameter_mm,
-          .corner_radius_mm = cutter.corner_radius_mm,
+  return {.cutting_diameter_mm = cutter.cutting_diameter_mm,
+          .corner_radius_mm = model::end_radius_mm(cutter),
           .helix_rad = cutter.helix_rad,
           .lead_angle_rad = cutter.lead_angle_rad,
           .taper_angle_rad =
               cutter.cutter_class == model::CutterClass::kTaperedEndmill ? cutter.taper_angle_rad : 0.0,
           .runout_mm = cutter.runout_mm,
           .teeth = std::max(1, cutter.teeth)};
-  if (model::has(cutter.cutter_class, model::CutterTrait::kBall))
-    t.corner_radius_mm = 0.5 * cutter.cutting_diameter_mm;
-  return t;
 }
 
 }  // namespace capstan::mechanics

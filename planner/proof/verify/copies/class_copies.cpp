@@ -104,6 +104,10 @@ bool cuts_to_centre(CutterClass c) { return is(c, kCentre); }
 bool is_raked(CutterClass c) { return is(c, kRake); }
 bool is_ball(CutterClass c) { return copy_of(c).outline == Outline::kBall; }
 
+double end_radius_of(const model::Cutter& c) {
+  return is_ball(c.cutter_class) ? 0.5 * c.cutting_diameter_mm : c.corner_radius_mm;
+}
+
 geometry::CutterProfile outline_of(const model::Cutter& c) {
   const double d = c.cutting_diameter_mm, high = c.maximum_depth_of_cut_mm;
   const auto widening = [&](double lean) {

@@ -32,6 +32,8 @@ namespace capstan::verify {
 [[nodiscard]] bool is_raked(model::CutterClass c);
 /// Its corner radius is half its diameter, stated or not.
 [[nodiscard]] bool is_ball(model::CutterClass c);
+/// The radius of its rounded end, by which its speed is counted, mm.
+[[nodiscard]] double end_radius_of(const model::Cutter& c);
 /// Operations of one feature in the order of the craft: a lower one never follows a higher one. 0: any order.
 /// Judged by where ISO 14649-11 derives the operation from, and by its keyword (..._ROUGH_MILLING); the table
 /// of the vocabulary states a rank for each.

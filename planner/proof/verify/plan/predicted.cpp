@@ -117,7 +117,7 @@ double contact_diameter(const model::Cutter& c, double depth_mm) {
   const double d = c.cutting_diameter_mm;
   if (c.cutter_class == CutterClass::kFacemill && c.lead_angle_rad > 0.0)
     return d + 2.0 * std::max(0.0, depth_mm) * std::tan(c.lead_angle_rad);
-  const double r = is_ball(c.cutter_class) ? 0.5 * d : c.corner_radius_mm;
+  const double r = end_radius_of(c);
   if (!(r > 0.0) || !(depth_mm > 0.0) || depth_mm >= r) return d;
   return d - 2.0 * r + 2.0 * std::sqrt(depth_mm * (2.0 * r - depth_mm));
 }

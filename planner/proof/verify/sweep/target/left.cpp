@@ -171,11 +171,9 @@ void add_asked(const model::Plan& plan, std::size_t steps, const std::set<model:
         it->ridges_mm = std::min(it->ridges_mm, stated);
       }
       if (!mills(cutter->cutter_class)) continue;
-      const bool ball = is_ball(cutter->cutter_class);
-      const double corner = ball ? 0.5 * cutter->cutting_diameter_mm : cutter->corner_radius_mm;
       it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);
       it->widest_mm = std::max(it->widest_mm, 0.5 * cutter->cutting_diameter_mm);
-      it->corner_mm = std::min(it->corner_mm, corner);
+      it->corner_mm = std::min(it->corner_mm, end_radius_of(*cutter));
     }
   }
 }
