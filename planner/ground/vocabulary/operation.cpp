@@ -20,7 +20,7 @@ constexpr unsigned kThread = bit(OperationTrait::kThreads);
 
 using T = TypeId;
 constexpr std::array kRows{
-#define CAPSTAN_OPERATION(Noun, rank, traits) OperationRow{T::k##Noun, craft::rank, traits},
+#define CAPSTAN_OPERATION(Noun, rank, traits, law) OperationRow{T::k##Noun, craft::rank, traits, law},
 #include "planner/ground/vocabulary/operations.inc"
 #undef CAPSTAN_OPERATION
 };
@@ -42,6 +42,11 @@ bool has(TypeId operation, OperationTrait t) {
 
 bool finishes_walls(TypeId operation) {
   return has(operation, OperationTrait::kFinishes) && has(operation, OperationTrait::kWalls);
+}
+
+std::string_view axial_law(TypeId operation) {
+  const OperationRow* r = find(operation);
+  return r == nullptr ? std::string_view() : r->law;
 }
 
 int craft_rank(TypeId operation) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "planner/ground/vocabulary/noun_kind.h"
 
@@ -39,6 +40,8 @@ struct OperationRow {
   TypeId value;
   int rank;  ///< in the order of the craft; 0: none
   std::uint16_t traits;
+  std::string_view
+      law;  ///< of its loads, where it cuts along the axis: a name of optimise/cut/law; empty: it mills
 };
 
 /// Operations that cut. Abstract ones and extensions are not here: they have no trait, rank 0. For people
@@ -48,5 +51,7 @@ struct OperationRow {
 /// Whether it makes walls that stay, with the flank.
 [[nodiscard]] bool finishes_walls(TypeId operation);
 [[nodiscard]] int craft_rank(TypeId operation);
+/// The law of its loads where it cuts along the axis; empty: it mills, or is no operation.
+[[nodiscard]] std::string_view axial_law(TypeId operation);
 
 }  // namespace capstan::model

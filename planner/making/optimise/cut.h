@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/ground/base/job.h"
@@ -16,7 +17,10 @@
 
 namespace capstan::optimise {
 
-enum class CutKind : std::uint8_t { kRough, kFinish, kDrill, kReam, kTap };
+/// Milling that roughs or finishes; or a cut along the axis, by the law that CutQuestion::law names.
+enum class CutKind : std::uint8_t { kRough, kFinish, kAxial };
+/// Whether it cuts sideways: then depth, width and the feeds along the path follow its sections.
+[[nodiscard]] constexpr bool is_milling(CutKind k) { return k != CutKind::kAxial; }
 
 /// The objective to minimise.
 ///
@@ -40,6 +44,7 @@ struct Eased {
 /// Input of the cut optimiser: depth, width and speed limits before there is a path. Given values are kept.
 struct CutQuestion {
   CutKind kind = CutKind::kRough;
+  std::string_view law = "drilling";  ///< kAxial: of the loads, a name of cut/law; static text
   model::Cutter cutter;
   model::WorkMaterial material;
   model::Machine machine;

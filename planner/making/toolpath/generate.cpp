@@ -38,8 +38,8 @@ Status check(const PathJob& task) {
 
 Result<GeneratedPath> dispatch(const PathJob& task, Job& job) {
   switch (task.operation) {
-#define CAPSTAN_OPERATION(Noun, rank, traits) \
-  case TypeId::k##Noun:                       \
+#define CAPSTAN_OPERATION(Noun, ...) \
+  case TypeId::k##Noun:              \
     return cut<TypeId::k##Noun>(task, job);
 #include "planner/ground/vocabulary/operations.inc"
 #undef CAPSTAN_OPERATION

@@ -8,6 +8,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/cut/cost.h"
+#include "planner/making/optimise/cut/law/law.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/cut/search.h"
 #include "planner/making/optimise/cut/stability.h"
@@ -126,7 +127,7 @@ CutAnswer answer_at(const CutQuestion& q, const CutPoint& p) {
   a.ae_mm = q.ae_mm || q.kind == CutKind::kFinish ? p.ae_mm : rounded(floor_to(p.ae_mm, 0.001), 3);
   a.n_rpm = q.n_rpm ? *q.n_rpm : std::max(floor_to(p.n_rpm, 1.0), std::ceil(speeds(q).lo));
   a.feed_mm_min = q.feed_mm_min ? *q.feed_mm_min : p.feed_mm_min / p.n_rpm * a.n_rpm;
-  const bool free_feed = !q.feed_mm_min && q.kind != CutKind::kTap;
+  const bool free_feed = !q.feed_mm_min && !feeds_by_pitch(q);
   if (free_feed) a.feed_mm_min = round_feed(a.feed_mm_min);
   measure_answer(q, a);
   // A limit may be lower at the rounded speed than at the one that was solved for.
@@ -443,7 +444,7 @@ Result<CutAnswer> cut(const CutQuestion& q, const Options& options, Job& job) {
   const bool needs_start = !(q.n_rpm && (q.feed_mm_min || q.fz_mm));
   const bool has_speed = within(q.vc_start_m_min, 1e-6, 1e6);
   const bool has_feed = within(q.fz_start_mm, 1e-7, 1e3);
-  if (needs_start && !(has_speed && (has_feed || q.kind == CutKind::kTap))) {
+  if (needs_start && !(has_speed && (has_feed || feeds_by_pitch(q)))) {
     return fail("OPT-QUESTION", "no start values of speed and feed are known for cutter " + q.cutter.id);
   }
   auto a = answer(q, options, job);

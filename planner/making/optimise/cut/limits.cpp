@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/making/optimise/cut/law/law.h"
 #include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
@@ -90,7 +91,7 @@ double thinnest_chip_mm(const CutQuestion& q) {
 }
 
 double least_fz(const CutQuestion& q) {
-  if (q.kind == CutKind::kTap || !(q.cutter.fz_min_mm > 0.0)) return 0.0;
+  if (feeds_by_pitch(q) || !(q.cutter.fz_min_mm > 0.0)) return 0.0;
   return q.cutter.fz_min_mm;
 }
 

@@ -54,7 +54,6 @@ struct FixedLimits {
 [[nodiscard]] Measures measures(const CutQuestion& q, const FixedLimits& fixed, const model::StepLoads& loads,
                                 double ap_mm, double n_rpm, double feed_mm_min);
 
-[[nodiscard]] inline bool is_milling(CutKind k) { return k == CutKind::kRough || k == CutKind::kFinish; }
 [[nodiscard]] inline int teeth_of(const CutQuestion& q) { return q.cutter.teeth > 0 ? q.cutter.teeth : 1; }
 
 /// As the model's nouns have them: the force along the axis counts away from the work there, and towards it

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "planner/ground/base/stopping.h"
+#include "planner/making/optimise/cut/law/law.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
-#include "planner/physics/mechanics/force/drilling.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/loads/side_section.h"
@@ -73,7 +75,7 @@ mechanics::ForceMargin drilling_margin_of(const CutQuestion& q) {
 }
 
 double feed_override(const CutQuestion& q) {
-  if (q.override_locked || q.kind == CutKind::kTap) return 1.0;
+  if (q.override_locked || feeds_by_pitch(q)) return 1.0;
   if (q.feed_mm_min && !q.feed_by_planning) return 1.0;
   return std::max(1.0, q.machine.abilities.feed_override_max);
 }
@@ -139,35 +141,24 @@ std::optional<model::StepLoads> loads_of(const CutQuestion& q, double ap_mm, dou
   const double fz = feed_mm_min / (n_rpm * teeth_of(q));
   if (is_milling(q.kind))
     return MillingLoads(q).at(ap_mm, std::min(ae_mm, q.cutter.cutting_diameter_mm), n_rpm, fz);
-  const mechanics::WorkMaterial work{q.material.kc11_n_mm2, q.material.mc};
+  auto out = law_of(q).loads(q, n_rpm, feed_mm_min);
+  if (!out) return std::nullopt;
   const double margin = drilling_margin_of(q).factor();
-  model::StepLoads out;
-  out.force_margin = margin;
-  if (q.kind == CutKind::kTap) {
-    const auto l = mechanics::tapping_loads(mechanics::tapping_cut_of(q.cutter, q.pre_hole_mm, n_rpm), work);
-    if (!l) return std::nullopt;
-    out.torque_nm = l->torque_nm * margin;
-    out.power_w = l->power_w * margin;
-    out.chip_thickness_mm = l->chip_thickness_mm;
-    return out;
-  }
-  mechanics::DrillingCut c;
-  c.diameter_mm = q.cutter.cutting_diameter_mm;
-  c.feed_mm_per_rev = feed_mm_min / n_rpm;
-  c.n_rpm = n_rpm;
-  c.teeth = teeth_of(q);
-  c.point_angle_rad = q.cutter.point_angle_rad > 0.0 ? q.cutter.point_angle_rad : pi;
-  if (q.engaged_diameter_mm > 0.0) c.diameter_mm = std::min(c.diameter_mm, q.engaged_diameter_mm);
-  c.pre_hole_diameter_mm = q.pre_hole_mm < c.diameter_mm ? q.pre_hole_mm : 0.0;
-  const auto l =
-      q.kind == CutKind::kReam ? mechanics::reaming_loads(c, work) : mechanics::drilling_loads(c, work);
-  if (!l) return std::nullopt;
-  out.peak_force_n = l->thrust_n * margin;
-  out.torque_nm = l->torque_nm * margin;
-  out.power_w = l->power_w * margin;
-  out.chip_thickness_mm = l->chip_thickness_mm;
-  out.mrr_mm3_min = l->removal_mm3_min;
+  out->force_margin = margin;
+  out->peak_force_n *= margin;
+  out->torque_nm *= margin;
+  out->power_w *= margin;
   return out;
 }
+
+const AxialLaw& law_of(const CutQuestion& q) {
+  static const std::vector<AxialLaw> kLaws = axial_laws();
+  const auto it =
+      std::find_if(kLaws.begin(), kLaws.end(), [&](const AxialLaw& l) { return l.name == q.law; });
+  if (it == kLaws.end()) throw std::logic_error("no law of loads is called " + std::string(q.law));
+  return *it;
+}
+
+bool feeds_by_pitch(const CutQuestion& q) { return q.kind == CutKind::kAxial && law_of(q).feed_is_pitch; }
 
 }  // namespace capstan::optimise

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "planner/making/optimise/cut/law/law.h"
 #include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/force/immersion.h"
 
@@ -25,11 +26,6 @@ constexpr double kNarrowest = 0.13;
 
 /// By how much a limit of loads may seem exceeded.
 constexpr double kLoadRounding = 1e-6;
-
-double corner_of(const model::Cutter& c) {
-  return model::has(c.cutter_class, model::CutterTrait::kBall) ? 0.5 * c.cutting_diameter_mm
-                                                               : c.corner_radius_mm;
-}
 
 }  // namespace
 
@@ -73,7 +69,7 @@ void Search::add_feed() {
     feed_fixed_ = *q_.feed_mm_min;
   } else if (q_.fz_mm) {
     fz_fixed_ = *q_.fz_mm;
-  } else if (q_.kind == CutKind::kTap) {
+  } else if (feeds_by_pitch(q_)) {
     fz_fixed_ = q_.cutter.thread_pitch_mm / teeth_of(q_);
   } else {
     const double largest = largest_fz(q_);
@@ -127,7 +123,7 @@ std::vector<double> Search::corners(const Variable& v) const {
     }
   } else if (v.name == kWidth) {
     const double d =
-        mechanics::effective_diameter_mm(ap_, q_.cutter.cutting_diameter_mm, corner_of(q_.cutter));
+        mechanics::effective_diameter_mm(ap_, q_.cutter.cutting_diameter_mm, model::end_radius_mm(q_.cutter));
     out = {0.5 * d, d};
   }
   // A sliver beside an end of the range is no piece.
@@ -218,7 +214,7 @@ CutPoint Search::fastest() const {
   for (const Variable& v : variables_) x.push_back(v.upper);
   CutPoint p = at(x);
   const model::Cutter& c = q_.cutter;
-  const bool upright = corner_of(c) == 0.0 && c.lead_angle_rad == 0.0 && c.taper_angle_rad == 0.0;
+  const bool upright = model::end_radius_mm(c) == 0.0 && c.lead_angle_rad == 0.0 && c.taper_angle_rad == 0.0;
   if (!is_milling(q_.kind) || !upright || feed_fixed_ || fz_fixed_ || !(largest_fz(q_) > 0.0)) return p;
   // The area per tooth, ae fz at a given chip, rises with ae: D / 2 sqrt(r / (1 - r)), then ae.
   const double chip = mechanics::max_chip_thickness_mm(1.0, p.ae_mm, c.cutting_diameter_mm);

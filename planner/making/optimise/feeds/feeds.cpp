@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "planner/making/optimise/cut/law/law.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/feeds/motion_limits.h"
 #include "planner/physics/mechanics/constants.h"
@@ -49,7 +50,7 @@ double constant_feed(const FeedQuestion& q, const CutterPath& path, CutClasses& 
       best = std::max(best, q.samples.empty() ? q.feed_mm_min : classes.loads(rpm_on(q, i)).ceiling_mm_min());
   }
   if (!(best > 0.0)) best = q.feed_mm_min;
-  if (!cuts_sideways(q.cut.kind) || !q.adapt) return best;
+  if (!is_milling(q.cut.kind) || !q.adapt) return best;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < q.samples.size(); ++k) {
     const CutSample& s = q.samples[k];
@@ -215,7 +216,7 @@ void as_planned(const FeedQuestion& q, const CutterPath& path, const std::vector
   const auto reach = motion::reach_along(path, q.cut.machine);
   for (std::size_t i = 1; i < path.size(); ++i) {
     feed[i] = caps[i].feed_mm_min;
-    if (!q.adapt || q.cut.kind == CutKind::kTap || path.kind[i] == MoveKind::kRapid ||
+    if (!q.adapt || feeds_by_pitch(q.cut) || path.kind[i] == MoveKind::kRapid ||
         path.kind[i] == MoveKind::kDwell)
       continue;
     if (reach && (*reach)[i].length_mm > 0.0) feed[i] = std::min(feed[i], (*reach)[i].most_mm_min);
@@ -235,7 +236,7 @@ FeedAnswer feeds(const FeedQuestion& q, const CutterPath& path, KnownFeeds* know
   FeedAnswer a;
   CutClasses classes(q, known);
   const std::vector<Cap> caps = caps_of(q, path, classes);
-  const bool sideways = cuts_sideways(q.cut.kind);
+  const bool sideways = is_milling(q.cut.kind);
   if (!q.adapt || !sideways) {
     as_planned(q, path, caps, a);
   } else {

@@ -93,7 +93,7 @@ void trim(const FeedQuestion& q, const CutterPath& path, const model::Machine& m
     for (; end < path.size() && at_feed(path, end) && f.feed_mm_min[end] == feed; ++end)
       reached = std::max(reached, time->peak_mm_min[end]);
     // A move too short to come to speed still asks for chips: what it reaches is the machine's to say.
-    const double chips = cuts_sideways(q.cut.kind) ? least_feed_mm_min(q.cut, q.n_rpm) : 0.0;
+    const double chips = is_milling(q.cut.kind) ? least_feed_mm_min(q.cut, q.n_rpm) : 0.0;
     const double enough = std::max(rounded(std::ceil(reached * 10.0 - 1e-6) / 10.0, 1), down(chips) + 0.1);
     for (; i < end; ++i) {
       if (reached > 0.0 && enough < feed) {

@@ -139,8 +139,6 @@ Cap milled(const FeedQuestion& q, CutClasses& classes, const model::CutterPath& 
 
 }  // namespace
 
-bool cuts_sideways(CutKind kind) { return kind == CutKind::kRough || kind == CutKind::kFinish; }
-
 double rpm_on(const FeedQuestion& q, std::size_t move) {
   return std::abs(move < q.speed_factor.size() ? q.n_rpm * q.speed_factor[move] : q.n_rpm);
 }
@@ -167,7 +165,7 @@ SampleFeed sample_feed(CutClasses& classes, const CutSample& sample, const CutQu
 
 std::vector<Cap> caps_of(const FeedQuestion& q, const model::CutterPath& path, CutClasses& classes) {
   std::vector<Cap> out(path.size());
-  const bool sideways = cuts_sideways(q.cut.kind);
+  const bool sideways = is_milling(q.cut.kind);
   std::size_t next = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double given = i < q.feed_factor.size() ? q.feed_factor[i] : 1.0;

@@ -28,9 +28,6 @@ struct Cap {
   std::array<double, kLimits + 1> more{};
 };
 
-/// Whether sections are computed for cuts of this kind.
-[[nodiscard]] bool cuts_sideways(CutKind kind);
-
 /// The largest feed at which one sample keeps every limit, without the step's own bounds; infinite where no
 /// feed reaches a limit.
 struct SampleFeed {

@@ -247,7 +247,7 @@ void renumber(std::size_t first, std::size_t last, const std::vector<Piece>& pie
 
 bool may_be_cut(const FeedQuestion& q, const CutterPath& path, std::size_t i) {
   using model::MoveRole;
-  return q.adapt && cuts_sideways(q.cut.kind) && i > 0 && path.kind[i] != MoveKind::kRapid &&
+  return q.adapt && is_milling(q.cut.kind) && i > 0 && path.kind[i] != MoveKind::kRapid &&
          path.kind[i] != MoveKind::kDwell && path.role[i] != MoveRole::kPlunge;
 }
 

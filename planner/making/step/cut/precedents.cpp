@@ -32,7 +32,7 @@ Values at_table_terms(Values cut, const optimise::CutQuestion& q) {
   cut.vc_m_min *= optimise::speed_diameter_mm(q) / d;  // cases count it at the whole diameter
   if (q.slot && q.kind == optimise::CutKind::kRough && cut.ap_mm > 0.0)
     cut.vc_m_min /= optimise::deep_slot_share(cut.ap_mm, d);
-  if (!mills(q) || !(cut.ae_mm > 0.0)) return cut;
+  if (!optimise::is_milling(q.kind) || !(cut.ae_mm > 0.0)) return cut;
   cut.vc_m_min /= optimise::speed_by_arc(q, cut.ae_mm);
   // The largest chip of a cut narrower than the radius: h = 2 fz sqrt(r (1 - r)), r = ae / D.
   const double r = std::min(0.5, cut.ae_mm / d);
@@ -47,7 +47,7 @@ void to_table_terms(std::vector<Evidence>& near, const optimise::CutQuestion& q,
   for (Evidence& e : near) {
     const double set_mm = e.cut.fz_mm;
     e.cut = at_table_terms(e.cut, q);
-    if (mills(q) && e.verdict == casebase::Verdict::kGood)
+    if (optimise::is_milling(q.kind) && e.verdict == casebase::Verdict::kGood)
       e.cut.fz_mm = std::max(e.cut.fz_mm, std::min(set_mm, table_fz_mm));
   }
 }
@@ -75,7 +75,7 @@ Result<Near> near_of(const PlanSoFar& p, const StepDraft& step, const model::Fea
 /// As the table's values, with the deepest and the widest cut that may be chosen where depth or width are
 /// open: what was proven in a lighter cut is not proven for that one.
 Values heaviest(Values table, const optimise::CutQuestion& q) {
-  if (!mills(q)) return table;
+  if (!optimise::is_milling(q.kind)) return table;
   const auto least_of = [](double a, double b) { return b > 0.0 ? std::min(a, b) : a; };
   if (!(table.ap_mm > 0.0))
     table.ap_mm = least_of(least_of(q.depth_mm, q.cutter.maximum_depth_of_cut_mm), q.ap_most_mm);
@@ -117,7 +117,7 @@ std::optional<FromCases> start_from_cases(const PlanSoFar& p, const StepDraft& s
   out.table_ap_most_mm = q.ap_most_mm;
   const Values table{q.vc_start_m_min, q.fz_start_mm, q.ap_mm.value_or(0.0), q.ae_mm.value_or(0.0)};
   // Where a mill's feed follows its sections no case tells the largest chip of its path: the table's stands.
-  const double least_fz_mm = mills(q) ? table.fz_mm : 0.0;
+  const double least_fz_mm = optimise::is_milling(q.kind) ? table.fz_mm : 0.0;
   const auto near = near_of(p, step, shape, q, table.fz_mm);
   if (!near) out.why_unasked = near.error().message;
   out.advice = casebase::advise(near ? near->told : std::vector<Evidence>{}, table, least_fz_mm);
@@ -203,7 +203,7 @@ Experience experience_with(const casebase::CaseBase& cases, const model::Plan& p
   std::erase_if(near, [](const Evidence& e) { return e.origin == casebase::Origin::kSimulated; });
   optimise::CutQuestion q;
   q.cutter = candidate.cutter;
-  q.kind = model::is_a(of.operation, model::TypeId::kDrillingTypeOperation) ? optimise::CutKind::kDrill
+  q.kind = model::is_a(of.operation, model::TypeId::kDrillingTypeOperation) ? optimise::CutKind::kAxial
                                                                             : optimise::CutKind::kRough;
   to_table_terms(near, q, candidate.fz_mm);
   if (near.empty() || !(candidate.vc_m_min > 0.0) || !(candidate.fz_mm > 0.0)) return out;

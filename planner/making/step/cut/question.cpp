@@ -46,15 +46,18 @@ constexpr double kTerraceShare = 0.25;
 constexpr double kAsWide = 1.02;
 
 CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
-  if (m.holds<model::Tapping>(op)) return CutKind::kTap;
   if (model::mills_threads(c.cutter_class)) return CutKind::kFinish;
-  if (m.holds<model::Reaming>(op)) return CutKind::kReam;
-  if (m.holds<model::DrillingTypeOperation>(op)) {
+  if (!model::axial_law(op.type).empty()) {
     const bool mills = model::has(c.cutter_class, model::CutterTrait::kEndMill);
-    return mills && m.holds<model::ThreadDrilling>(op) ? CutKind::kRough : CutKind::kDrill;
+    return mills && m.holds<model::ThreadDrilling>(op) ? CutKind::kRough : CutKind::kAxial;
   }
   const bool plane = model::has(op.type, model::OperationTrait::kPlane);
   return !plane && model::has(op.type, model::OperationTrait::kFinishes) ? CutKind::kFinish : CutKind::kRough;
+}
+
+void take_axial_law(TypeId operation, optimise::CutQuestion& q) {
+  q.kind = CutKind::kAxial;
+  if (const std::string_view law = model::axial_law(operation); !law.empty()) q.law = law;
 }
 
 double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& s) {
@@ -139,7 +142,7 @@ void count_speed_at_top(optimise::CutQuestion& q) {
 /// planning chooses: the thrust of a drill acts down into the table. A given cut is kept; the check reports
 /// it where it exceeds the holding force.
 double most_force_n(const PlanSoFar& p, const StepDraft& step, const optimise::CutQuestion& q) {
-  if (!step.open_technology || !mills(q) || step.setup >= p.setups.size()) return 0.0;
+  if (!step.open_technology || !optimise::is_milling(q.kind) || step.setup >= p.setups.size()) return 0.0;
   return p.setups[step.setup].holding.holding_force_n / mechanics::kHoldingForceSafety;
 }
 
@@ -328,9 +331,7 @@ optimise::CutQuestion hole_question(const model::Plan& plan, double margin_devia
   q.material = plan.material;
   q.machine = plan.machine;
   q.margin_deviations = margin_deviations;
-  q.kind = model::is_a(step.operation, TypeId::kTapping)   ? CutKind::kTap
-           : model::is_a(step.operation, TypeId::kReaming) ? CutKind::kReam
-                                                           : CutKind::kDrill;
+  take_axial_law(step.operation, q);
   q.vc_start_m_min = c.vc_m_min;
   q.fz_start_mm = c.fz_mm;
   q.pre_hole_mm = step.start_diameter_mm;
@@ -350,6 +351,7 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   q.machine = p.plan.machine;
   q.margin_deviations = p.wishes.margin_deviations;
   q.kind = kind_of(m, step.operation, step.cutter);
+  if (q.kind == CutKind::kAxial) take_axial_law(step.operation.type, q);
   q.aim = p.wishes.aim;
   q.earning_per_min = p.wishes.earning_per_min;
   const auto start = tooling::start_values(step.cutter, p.plan.material, p.plan.machine);

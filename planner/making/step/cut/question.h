@@ -21,11 +21,6 @@ namespace capstan::step {
                                                   const model::ProposedStep& step,
                                                   const model::Candidate& candidate);
 
-/// Whether the step mills: then feeds follow the sections.
-[[nodiscard]] inline bool mills(const optimise::CutQuestion& q) {
-  return q.kind == optimise::CutKind::kRough || q.kind == optimise::CutKind::kFinish;
-}
-
 /// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
 [[nodiscard]] double engaged_diameter_mm(model::TypeId operation, const model::Cutter& c,
                                          std::optional<double> depth_mm);
@@ -51,8 +46,8 @@ namespace capstan::step {
 /// Under an overhang, where a thin last pass makes the walls: its width, as that of a straight cut with the
 /// same contact angle, mm, where the neck is bent by `bent_mm` in the passes before; 0: no such pass.
 [[nodiscard]] double last_width_under_overhang_mm(const toolpath::PathJob& job, double bent_mm);
-/// What the neck may bend in that pass, mm: as in a finish of this feature, or where an allowance stays on its walls
-/// as in roughing. `q` asks for the cut.
+/// What the neck may bend in that pass, mm: as in a finish of this feature, or where an allowance stays on
+/// its walls as in roughing. `q` asks for the cut.
 [[nodiscard]] double bending_of_last_pass_mm(const PlanSoFar& p, const draft::StepDraft& step,
                                              const toolpath::PathJob& job, const optimise::CutQuestion& q);
 

@@ -41,7 +41,7 @@ optimise::CutQuestion question_for(const PlanSoFar& p, const StepDraft& step, co
   }
   path.cutter = step.cutter;
   auto q = question_of(p, step, nullptr, path);
-  if (mills(q)) q.slot = false;
+  if (optimise::is_milling(q.kind)) q.slot = false;
   return q;
 }
 
@@ -202,7 +202,7 @@ Result<std::optional<GivenPath>> given_path(model::Plan& plan, const PlanSoFar& 
       out.result.sections = std::make_shared<const model::SectionSeries>(std::move(given->sections));
     }
   }
-  if (asks && mills(fq.cut)) ask_for_heaviest(fq.samples, fq.cut);
+  if (asks && optimise::is_milling(fq.cut.kind)) ask_for_heaviest(fq.samples, fq.cut);
   out.result.path = path;
   if (asks && step.open_technology) {
     auto schedule = chosen(plan, p, step, *path, given->schedule, out, cuts, job);

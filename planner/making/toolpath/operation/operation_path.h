@@ -10,8 +10,8 @@ namespace capstan::toolpath {
 template <model::TypeId operation>
 [[nodiscard]] Result<GeneratedPath> cut(const PathJob& task, Job& job);
 
-#define CAPSTAN_OPERATION(Noun, rank, traits) \
-  template <>                                 \
+#define CAPSTAN_OPERATION(Noun, ...) \
+  template <>                        \
   Result<GeneratedPath> cut<model::TypeId::k##Noun>(const PathJob& task, Job& job);
 #include "planner/ground/vocabulary/operations.inc"
 #undef CAPSTAN_OPERATION

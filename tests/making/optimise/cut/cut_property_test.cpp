@@ -42,7 +42,7 @@ class Dice {
 CutQuestion any_question(Dice& d) {
   CutQuestion q = questions::roughing();
   constexpr CutKind kKinds[] = {CutKind::kRough, CutKind::kRough, CutKind::kRough, CutKind::kFinish,
-                                CutKind::kDrill};
+                                CutKind::kAxial};
   q.kind = kKinds[d.one_of(5)];
   auto& c = q.cutter;
   c.cutting_diameter_mm = d.between(0.5, 63.0);
@@ -53,7 +53,7 @@ CutQuestion any_question(Dice& d) {
   c.helix_rad = d.maybe(0.2) ? 0.0 : d.between(0.1, 0.9);
   if (d.maybe(0.2)) c.corner_radius_mm = c.cutting_diameter_mm * d.between(0.01, 0.4);
   if (d.maybe(0.15)) c.cutter_class = model::CutterClass::kBallEndmill;
-  if (q.kind == CutKind::kDrill) c.point_angle_rad = d.between(1.5, 3.0);
+  if (q.kind == CutKind::kAxial) c.point_angle_rad = d.between(1.5, 3.0);
   if (d.maybe(0.3)) c.substrate = model::Substrate::kHss;
   if (d.maybe(0.3)) c.runout_mm = d.between(0.001, 0.02);
   q.fz_start_mm = c.cutting_diameter_mm * d.between(0.001, 0.02);
@@ -109,7 +109,7 @@ void expect_kept(const CutQuestion& q, const CutAnswer& a, int number) {
   SCOPED_TRACE(number);
   constexpr double kHair = 1.0 + 2e-6;
   const auto& c = q.cutter;
-  const bool mills = q.kind != CutKind::kDrill;
+  const bool mills = q.kind != CutKind::kAxial;
   const bool given = q.feed_mm_min.has_value();
   const double up = q.override_locked || given ? 1.0 : std::max(1.0, q.machine.abilities.feed_override_max);
   const double fz = a.feed_mm_min / (a.n_rpm * c.teeth);

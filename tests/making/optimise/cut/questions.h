@@ -54,7 +54,7 @@ inline CutQuestion finishing() {
 
 inline CutQuestion drilling() {
   CutQuestion q = roughing();
-  q.kind = CutKind::kDrill;
+  q.kind = CutKind::kAxial;
   q.cutter.id = "drill";
   q.cutter.cutter_class = model::CutterClass::kTwistDrill;
   q.cutter.substrate = model::Substrate::kHss;

@@ -1,5 +1,5 @@
 # Beside the room: the late-binding library does not link it.
-option(CAPSTAN_WITH_IPOPT "Optimise with Ipopt" ON)
+option(CAPSTAN_WITH_IPOPT "Optimise with Ipopt" ${CAPSTAN_WANTED})
 if(CAPSTAN_WITH_IPOPT)  # Debian: coinor-libipopt-dev; its .pc sets the HAVE_CSTDDEF that it needs
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(IPOPT REQUIRED ipopt)
