@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 #include "planner/proof/verify/program/readers.h"
 
 namespace capstan::verify {
 namespace {
 
-constexpr std::string_view kFanuc = "fanuc", kHaas = "haas", kLinuxCnc = "linuxcnc", kSiemens = "siemens";
 constexpr std::size_t kMostOfABlock = 256;  // characters; a longer one is no block of any control
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
@@ -69,43 +69,41 @@ bool is_o_word(const std::string& block) {
          });
 }
 
-struct Word {
-  std::string_view word, other;  ///< `other`: an address that must stand in the block, too; empty: none need
-  std::vector<std::string_view> dialects;
-  std::string_view what;
-};
-
-const std::array<Word, 10>& words() {
-  static const std::array<Word, 10> kWords = {{
-      {"CYCLE832", "", {kSiemens}, "a tolerance"},
-      {"MCALL", "", {kSiemens}, "a modal call"},
-      {"SUPA", "", {kSiemens}, "a place in machine coordinates"},
-      {"G54.1", "P", {kFanuc, kHaas}, "an extended work offset"},
-      {"M29", "S", {kFanuc, kHaas}, "rigid tapping"},
-      {"G5.1", "Q", {kFanuc}, "look-ahead"},
-      {"G05.1", "Q", {kFanuc}, "look-ahead"},
-      {"G187", "", {kHaas}, "smoothness"},
-      {"G154", "P", {kHaas}, "an extended work offset"},
-      {"G64", "P", {kLinuxCnc}, "a path tolerance"},
-  }};
-  return kWords;
+/// What a block says of it, for people; empty: not this sign.
+std::string found(const Sign& sign, const std::string& block) {
+  const bool o = block.size() > 1 && block.front() == 'O';
+  const std::string_view what = sign.what;
+  switch (sign.of) {
+    case Sign::Of::kProgramNumber:
+      if (!o || !std::all_of(block.begin() + 1, block.end(), digit)) return {};
+      return block + ", " + std::string(what);
+    case Sign::Of::kOWord:
+      if (!o || !is_o_word(block)) return {};
+      return block.substr(0, 20) + ", " + std::string(what);
+    case Sign::Of::kText:
+      return block.find(sign.text) != std::string::npos ? std::string(what) : std::string();
+    case Sign::Of::kWord:
+      if (find_word(block, sign.text) == std::string::npos) return {};
+      if (!sign.other.empty() && !has_address(block, sign.other)) return {};
+      return std::string(sign.text) + ", " + std::string(what);
+  }
+  return {};
 }
 
 std::optional<DialectSign> of_block(const std::string& block) {
-  if (block.size() > 1 && block.front() == 'O') {
-    const bool number = std::all_of(block.begin() + 1, block.end(), digit);
-    if (number) return DialectSign{{kFanuc, kHaas}, block + ", a program number", 0};
-    if (is_o_word(block)) return DialectSign{{kLinuxCnc}, block.substr(0, 20) + ", an O-word", 0};
-  }
-  for (const DialectReader& reader : readers()) {
-    if (!reader.sign.empty() && block.find(reader.sign) != std::string::npos)
-      return DialectSign{{reader.dialect}, std::string(reader.sign_meaning), 0};
-  }
-  if (block.find("#<") != std::string::npos) return DialectSign{{kLinuxCnc}, "#<...>, a named parameter", 0};
-  for (const Word& w : words()) {
-    if (find_word(block, w.word) == std::string::npos) continue;
-    if (!w.other.empty() && !has_address(block, w.other)) continue;
-    return DialectSign{w.dialects, std::string(w.word) + ", " + std::string(w.what), 0};
+  for (const auto of : {Sign::Of::kProgramNumber, Sign::Of::kOWord, Sign::Of::kText, Sign::Of::kWord}) {
+    for (const DialectReader& reader : readers()) {
+      for (const Sign& sign : reader.signs) {
+        if (sign.of != of) continue;
+        std::string text = found(sign, block);
+        if (text.empty()) continue;
+        DialectSign out{{}, std::move(text), 0};
+        for (const DialectReader& r : readers())
+          if (std::find(r.signs.begin(), r.signs.end(), sign) != r.signs.end())
+            out.dialects.push_back(r.dialect);
+        return out;
+      }
+    }
   }
   return std::nullopt;
 }

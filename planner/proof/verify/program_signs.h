@@ -20,12 +20,7 @@ struct DialectSign {
 
 /// The first thing in a program that only some of the known controls read; nothing: any of them may.
 ///
-/// Fanuc and Haas   a program number (O and digits alone in a block); G54.1, extended work offsets; M29 with
-/// S,
-///                  rigid tapping; Fanuc alone G5.1 Q, Haas alone G187 and G154
-/// LinuxCNC         O with a word of its own (O100 SUB, O<name> CALL); named parameters (#<name>); G64 with P
-/// Source  Fanuc series 30i user's manual B-63944; Haas mill operator's manual 96-8210; LinuxCNC 2.9, G-codes
-///         and O-codes.
+/// Source  the signs of each control's reader (program/readers.h).
 [[nodiscard]] std::optional<DialectSign> dialect_sign(std::string_view program);
 
 /// The ids of the steps that a program says it has, in its order; empty for one without markers, and for a

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,26 @@ struct ControlWords {
   return std::string(words.length_of) + std::to_string(tool) + std::string(words.length_of_end);
 }
 
+/// What stands in programs of a control and not in those of every other. Two controls that share one both
+/// have it.
+///
+///     kProgramNumber  O and digits alone in a block
+///     kOWord          O with a keyword or a name, as LinuxCNC's subroutines and loops begin
+///     kText           `text`, wherever it stands in a block without blanks
+///     kWord           `text` with no digit or decimal behind it; `other` is an address that must stand in
+///     the
+///                     block, too
+struct Sign {
+  enum class Of : std::uint8_t { kProgramNumber, kOWord, kText, kWord };
+  Of of = Of::kWord;
+  std::string_view text = {};
+  std::string_view what = {};  ///< for people: "a path tolerance"
+  std::string_view other = {};
+  friend constexpr bool operator==(const Sign& a, const Sign& b) {
+    return a.of == b.of && a.text == b.text && a.other == b.other;
+  }
+};
+
 /// Who reads the programs of a control back for the check: written from the control's manual, without the
 /// writer's code. What it says of the control is a copy on purpose; tests/door/service/controls_test.cpp
 /// holds it against the writer's.
@@ -45,8 +66,7 @@ struct DialectReader {
   /// Work offsets that count on behind this name, as codes from this one: {541000, "G54.1P"}.
   int numbered_code = 0;
   std::string_view numbered_name = {};
-  /// What stands in each of its programs and in none of another control, without blanks; empty: unknown.
-  std::string_view sign = {}, sign_meaning = {};
+  std::span<const Sign> signs = {};  ///< of its programs
 };
 
 /// All of them, in the order of the controls.

@@ -6,6 +6,7 @@
 
 #include "planner/model/plan/resources/machine.h"
 #include "planner/proof/verify/program/program.h"
+#include "planner/proof/verify/program/readers.h"
 
 namespace capstan::verify::fanuc {
 
@@ -35,6 +36,23 @@ inline constexpr std::string_view kFanucOptions =
 inline constexpr std::string_view kHaasOptions =
     "tap=g84 dwell=seconds extended_offsets=99 arcs=half largest_radius_mm=15404.000 helices=yes "
     "prove_out=m1 line_length=200 peck_clearance_mm= codes=";
+
+/// Both begin with a number; what only one of them reads tells them apart.
+/// Source  FANUC 30i user's manual B-63944; Haas mill operator's manual 96-8210.
+inline constexpr std::array kFanucSigns{
+    Sign{.of = Sign::Of::kProgramNumber, .what = "a program number"},
+    Sign{.text = "G54.1", .what = "an extended work offset", .other = "P"},
+    Sign{.text = "M29", .what = "rigid tapping", .other = "S"},
+    Sign{.text = "G5.1", .what = "look-ahead", .other = "Q"},
+    Sign{.text = "G05.1", .what = "look-ahead", .other = "Q"},
+};
+inline constexpr std::array kHaasSigns{
+    Sign{.of = Sign::Of::kProgramNumber, .what = "a program number"},
+    Sign{.text = "G54.1", .what = "an extended work offset", .other = "P"},
+    Sign{.text = "M29", .what = "rigid tapping", .other = "S"},
+    Sign{.text = "G187", .what = "smoothness"},
+    Sign{.text = "G154", .what = "an extended work offset", .other = "P"},
+};
 
 /// The names of work offsets, a copy on purpose: tests/door/service/controls_test.cpp holds it against the
 /// writer's.

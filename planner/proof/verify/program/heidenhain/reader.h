@@ -61,4 +61,10 @@ inline constexpr std::array<std::string_view, 99> kOffsets = {
     "PRESET89", "PRESET90", "PRESET91", "PRESET92", "PRESET93", "PRESET94", "PRESET95", "PRESET96",
     "PRESET97", "PRESET98", "PRESET99"};
 
+inline constexpr std::array kSigns{
+    Sign{.of = Sign::Of::kText,
+         .text = "BEGINPGM",
+         .what = "BEGIN PGM, the head of a program in conversational language"},
+};
+
 }  // namespace capstan::verify::heidenhain

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "planner/proof/verify/program/program.h"
+#include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/program/tool_table.h"
 
 namespace capstan::verify::linuxcnc {
@@ -30,5 +31,12 @@ inline constexpr std::size_t kLineCap = 252;
 /// tests/door/service/controls_test.cpp holds it against the writer's.
 inline constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",   "G57",  "G58",
                                                                  "G59", "G59.1", "G59.2", "G59.3"};
+
+/// Source  LinuxCNC 2.9 manual, "O-codes", "Named parameters" and "G64".
+inline constexpr std::array kSigns{
+    Sign{.of = Sign::Of::kOWord, .what = "an O-word"},
+    Sign{.of = Sign::Of::kText, .text = "#<", .what = "#<...>, a named parameter"},
+    Sign{.text = "G64", .what = "a path tolerance", .other = "P"},
+};
 
 }  // namespace capstan::verify::linuxcnc

@@ -40,6 +40,13 @@ inline constexpr ControlWords kWords{.to_top = "G0 SUPA Z",
                                      .no_cycle = "MCALL",
                                      .exact = "G60"};
 
+/// Source  SINUMERIK 840D sl, programming manual: CYCLE832, MCALL, SUPA.
+inline constexpr std::array kSigns{
+    Sign{.text = "CYCLE832", .what = "a tolerance"},
+    Sign{.text = "MCALL", .what = "a modal call"},
+    Sign{.text = "SUPA", .what = "a place in machine coordinates"},
+};
+
 /// The names of work offsets, a copy on purpose: tests/door/service/controls_test.cpp holds it against the
 /// writer's.
 inline constexpr std::array<std::string_view, 99> kOffsets = {
