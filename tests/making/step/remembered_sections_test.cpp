@@ -1,4 +1,5 @@
-#include "planner/making/step/path/remembered_sections.h"
+#include "planner/making/step/path/remembered/cells.h"
+#include "planner/making/step/path/remembered/planar.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/making/step/path/remembered_sections.h"
+#include "planner/making/step/path/remembered/cells.h"
+#include "planner/making/step/path/remembered/planar.h"
 #include "planner/model/plan/resources/setup_position.h"
 #include "planner/physics/stock/sweep.h"
 #include "planner/physics/stock/turned.h"

@@ -7,9 +7,9 @@
 #include "planner/model/plan/cutter_path.h"
 #include "planner/physics/engagement/engagement.h"
 #include "planner/physics/stock/height_map.h"
-#include "planner/physics/stock/planar/planar_stock.h"
 
-// Sections along a path, measured once for the same path through the same material; `memo` may be null.
+// Sections along a path on a height map, measured once for the same path through the same material; `memo`
+// may be null.
 
 namespace capstan::step {
 
@@ -18,14 +18,6 @@ namespace capstan::step {
 [[nodiscard]] Result<engagement::Measurement> measure_again(stock::HeightMap& map,
                                                             const model::CutterPath& path,
                                                             const model::Cutter& cutter, memo::Memo* memo);
-
-/// The same on the exact stock, for a cutter that is flat below: found again where path, outline and the
-/// trails near the path are the same. What is kept says which trails the path left.
-[[nodiscard]] Result<engagement::Measurement> measure_again(stock::PlanarStock& exact,
-                                                            const model::CutterPath& path,
-                                                            const model::Cutter& cutter,
-                                                            const engagement::Options& options,
-                                                            memo::Memo* memo);
 
 /// The columns that a path may cut.
 [[nodiscard]] stock::Patch columns_under(const stock::HeightMap& map, const model::CutterPath& path,

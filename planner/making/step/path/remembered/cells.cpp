@@ -1,12 +1,10 @@
-#include "planner/making/step/path/remembered_sections.h"
+#include "planner/making/step/path/remembered/cells.h"
 
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "planner/ground/memo/remembered.h"
-#include "planner/model/plan/range/columns_agree.h"
-#include "planner/physics/engagement/planar/planar.h"
+#include "planner/making/step/path/remembered/sound.h"
 
 namespace capstan::step {
 namespace {
@@ -19,14 +17,6 @@ struct CellsCut {
   Measurement measured;
   stock::Patch after;
 };
-struct PlanarCut {
-  Measurement measured;
-  std::vector<stock::Trail> trails;  ///< in order, without their outline: it is the cutter's
-};
-
-bool sound(const Measurement& m) {
-  return model::columns_agree(m.sections) && model::of_one_length(m.sections, m.engagement);
-}
 
 bool same_place(const stock::Patch& a, const stock::Patch& b) {
   return a.x0 == b.x0 && a.y0 == b.y0 && a.nx == b.nx && a.ny == b.ny && a.top.size() == b.top.size() &&
@@ -66,42 +56,6 @@ Result<Measurement> measure_again(stock::HeightMap& map, const model::CutterPath
       &found);
   if (!cut) return tl::unexpected(cut.error());
   if (found) stock::put_back(map, cut->after);
-  return std::move(cut->measured);
-}
-
-Result<Measurement> measure_again(stock::PlanarStock& exact, const model::CutterPath& path,
-                                  const model::Cutter& cutter, const engagement::Options& options,
-                                  memo::Memo* memo) {
-  if (memo == nullptr || path.size() == 0) return engagement::measure(path, cutter, exact, options);
-  const auto profile = model::profile_of(cutter);
-  const auto around = model::bounds(path);
-  // Beyond the disc a look goes as far as half the piece of an arc that it is about: a radius, or a step.
-  const double beyond = 2.0 * profile.radius_mm + options.step_mm;
-  std::string near;
-  exact.describe(xy(around.lo) - Vec2{beyond, beyond}, xy(around.hi) + Vec2{beyond, beyond}, near);
-  const auto key = memo::key_of(memo::Stage::kSections, std::string("planar"), path, profile,
-                                cutter.cutter_class, engagement::head_height(cutter), options, near);
-  bool found = false;
-  auto cut = memo::remembered<PlanarCut>(
-      memo, memo::Stage::kSections, key,
-      [&]() -> Result<PlanarCut> {
-        PlanarCut out;
-        const stock::PlanarStock::Recording recording(exact, out.trails);
-        auto measured = engagement::measure(path, cutter, exact, options);
-        if (!measured) return tl::unexpected(measured.error());
-        out.measured = *std::move(measured);
-        for (stock::Trail& t : out.trails) t.outline = nullptr;
-        return out;
-      },
-      [](const PlanarCut& c) { return sound(c.measured); }, &found);
-  if (!cut) return tl::unexpected(cut.error());
-  if (found) {
-    const geometry::CutterProfile* outline = exact.keep(profile);
-    for (stock::Trail t : cut->trails) {
-      t.outline = outline;
-      exact.take(t);
-    }
-  }
   return std::move(cut->measured);
 }
 
