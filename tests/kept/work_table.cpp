@@ -20,7 +20,7 @@
 #include "planner/ground/base/number.h"
 #include "tests/kept/measure.h"
 #include "tests/support/corpus.h"
-#include "tests/support/long_paths.h"
+#include "tests/support/paths/long_paths.h"
 #include "tests/support/plate.h"
 
 namespace {
