@@ -31,10 +31,13 @@ using model::TypeId;
 
 namespace {
 
-// AP238's own kinds of operation have a form in ISO 14649.
+/// What a noun is written as: itself, or the nearest kind above it that ISO 14649 has and that is no abstract
+/// one; its own kind stands in a !CAPSTAN_TYPE beside it. Tool bodies go by their own names (dialect.cpp).
 TypeId written_type(TypeId t) {
-  if (t == TypeId::kFreeformRoughMilling || t == TypeId::kFreeformFinishMilling)
-    return TypeId::kFreeformOperation;
+  if (model::is_a(t, TypeId::kMillingToolBody)) return t;
+  for (TypeId at = t; at != TypeId::kNone; at = model::noun_type(at).parent) {
+    if (model::noun_type(at).in_iso14649) return model::noun_type(at).abstract ? t : at;
+  }
   return t;
 }
 

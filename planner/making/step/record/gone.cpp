@@ -114,9 +114,8 @@ bool in_air(const PlanSoFar& p, const StepDraft& step, double removed_mm3) {
   const model::Model& m = p.plan.model;
   if (step.proposed && twin_made(p, step)) return true;
   if (!step.proposed || removed_mm3 > kNothingMm3 || engagement::head_height(step.cutter)) return false;
-  if (m.holds<model::CenterDrilling>(step.operation) || m.holds<model::Drilling>(step.operation) ||
-      m.holds<model::MultistepDrilling>(step.operation))
-    return true;
+  const int rank = model::craft_rank(step.operation.type);
+  if (rank == model::craft::kMarks || rank == model::craft::kDrills) return true;
   const bool rough = model::has(step.operation.type, model::OperationTrait::kRoughs) &&
                      !model::has(step.operation.type, model::OperationTrait::kSurface);
   if (rough) return true;

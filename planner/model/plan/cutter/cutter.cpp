@@ -41,6 +41,11 @@ double end_radius_mm(const Cutter& c) {
   return o != nullptr && o->end_radius_mm != nullptr ? o->end_radius_mm(c) : c.corner_radius_mm;
 }
 
+double flank_lean_rad(const Cutter& c) {
+  const outline::Outline* o = outline_of(c);
+  return o != nullptr && o->flank_lean_rad != nullptr ? o->flank_lean_rad(c) : 0.0;
+}
+
 double reach_of(const Cutter& c) {
   const double reach = c.usable_length_mm;
   // Chips leave a drill by its flutes, whatever is above them.

@@ -111,6 +111,9 @@ struct Cutter {
 [[nodiscard]] geometry::CutterProfile profile_of(const Cutter& c);
 /// The radius of its rounded end: of its corners, or of the ball that it ends in; 0: square. mm.
 [[nodiscard]] double end_radius_mm(const Cutter& c);
+/// How far its flank leans outwards from the axis, rad; 0: upright, as that of a face mill, whose lead angle is
+/// another.
+[[nodiscard]] double flank_lean_rad(const Cutter& c);
 /// How deep the cutter may go beside a wall that it cuts: its usable length; beyond, where shank and holder
 /// are no thicker than what cuts.
 [[nodiscard]] double reach_of(const Cutter& c);

@@ -73,8 +73,7 @@ Result<ToolBeam> beam_of(const model::Cutter& c) {
   const double flutes = c.maximum_depth_of_cut_mm > 0.0 ? std::min(c.maximum_depth_of_cut_mm, out) : out;
   double top = 0.0;
   // A taper's middle: thinner below, where little bends, thicker above.
-  const double lean =
-      c.cutter_class == model::CutterClass::kTaperedEndmill ? flutes * std::tan(c.taper_angle_rad) : 0.0;
+  const double lean = flutes * std::tan(model::flank_lean_rad(c));
   add(beam, top, flutes, kFluteEquivalentDiameterRatio * (d + lean), modulus);
   if (c.neck_diameter_mm > 0.0) add(beam, top, std::min(c.neck_length_mm, out), c.neck_diameter_mm, modulus);
   add(beam, top, out, shank, modulus);

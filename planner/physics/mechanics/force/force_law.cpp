@@ -72,8 +72,7 @@ Tooth tooth_of(const model::Cutter& cutter) {
           .corner_radius_mm = model::end_radius_mm(cutter),
           .helix_rad = cutter.helix_rad,
           .lead_angle_rad = cutter.lead_angle_rad,
-          .taper_angle_rad =
-              cutter.cutter_class == model::CutterClass::kTaperedEndmill ? cutter.taper_angle_rad : 0.0,
+          .taper_angle_rad = model::flank_lean_rad(cutter),
           .runout_mm = cutter.runout_mm,
           .teeth = std::max(1, cutter.teeth)};
 }

@@ -14,6 +14,9 @@ struct Outline {
   /// The radius of its rounded end, mm, by which it is loaded and by which its speed is counted; null: that
   /// of its corners.
   double (*end_radius_mm)(const Cutter& c) = nullptr;
+  /// How far its flank leans outwards from the axis, rad, by which it is loaded and bends; null: it stands
+  /// upright.
+  double (*flank_lean_rad)(const Cutter& c) = nullptr;
 };
 
 /// Of the files of this folder, each NAME_outline(), by their names. At most one describes a cutter.

@@ -9,8 +9,12 @@
 namespace capstan::model::outline {
 namespace {
 
+double taper_of(const Cutter& c) {
+  return c.cutter_class == CutterClass::kTaperedEndmill ? c.taper_angle_rad : 0.0;
+}
+
 double lean_of(const Cutter& c) {
-  if (c.cutter_class == CutterClass::kTaperedEndmill) return c.taper_angle_rad;
+  if (c.cutter_class == CutterClass::kTaperedEndmill) return taper_of(c);
   return c.cutter_class == CutterClass::kFacemill && c.maximum_depth_of_cut_mm > 0.0 ? c.lead_angle_rad : 0.0;
 }
 
@@ -22,7 +26,8 @@ Outline widening_outline() {
             const double high = c.maximum_depth_of_cut_mm, lean = lean_of(c);
             const double top = c.cutting_diameter_mm + 2.0 * high * std::tan(lean);
             return geometry::cone_profile(top, 2.0 * lean, high, c.cutting_diameter_mm);
-          }};
+          },
+          nullptr, &taper_of};
 }
 
 }  // namespace capstan::model::outline
