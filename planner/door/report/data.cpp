@@ -240,12 +240,18 @@ Json lines_of(std::string_view text) {
 
 Json whole(const model::Plan& plan, const About& about) {
   Json setups = Json::array(), tools = Json::array(), steps = Json::array(), findings = Json::array();
-  Json marks = Json::array(), inputs = Json::array();
+  Json marks = Json::array(), inputs = Json::array(), told = Json::array();
   for (std::size_t n = 0; n < plan.setups.size(); ++n) setups.push_back(setup_of(plan, n));
   for (const model::Cutter& c : plan.cutters) tools.push_back(tool_of(plan, c));
   const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t n = 0; n < plan.steps.size(); ++n) steps.push_back(step_of(plan, n, ids[n], about));
   for (const Line& l : about.findings) findings.push_back(finding_of(l));
+  for (const Diagnostic& d : about.told)
+    told.push_back({{"severity", d.severity == Severity::kError ? "error" : "warning"},
+                    {"code", d.code},
+                    {"text", d.message},
+                    {"place", d.path},
+                    {"hint", d.hint}});
   for (const auto& [name, value] : about.marks) marks.push_back({name, value});
   for (const model::Provenance& p : plan.provenance)
     inputs.push_back({{"what", p.what}, {"value", p.value}, {"source", p.source}});
@@ -261,6 +267,7 @@ Json whole(const model::Plan& plan, const About& about) {
           {"time", time_of(plan)},
           {"condemned", about.condemned},
           {"findings", findings},
+          {"told", told},
           {"unplanned", unplanned_of(plan)},
           {"setups", setups},
           {"tools", tools},

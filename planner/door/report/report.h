@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
 
 /// A plan as one page of HTML that people look at: verdict, set-ups, paths in three dimensions with the stock
@@ -27,6 +28,7 @@ struct About {
   std::string verdict;                                     ///< one sentence, as the command ends with it
   std::vector<std::string> condemned;                      ///< why the program must not be run
   std::vector<Line> findings;                              ///< of the check
+  std::vector<Diagnostic> told;                            ///< errors and warnings of reading and planning
   std::vector<std::pair<std::string, std::string>> marks;  ///< name and hash of what was planned and written
   std::string program_name, program;  ///< its text, with a marker per workingstep; may be empty
   std::string explained;              ///< the decisions of the whole plan, text

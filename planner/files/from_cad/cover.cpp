@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/feature.h"
 
@@ -57,15 +58,67 @@ std::array<Vec3, 3> corners(const geometry::Mesh& mesh, std::size_t i) {
   return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
 }
 
-bool inside(const geometry::Mesh& mesh, Vec3 p) {
-  int above = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    double z = 0.0;
-    int up = 0;
-    if (meets(corners(mesh, i), xy(p), z, up) && z > p.z) above += up;
+/// The triangles of a mesh by the place below them, so that a place is held against those over it alone.
+class Over {
+ public:
+  explicit Over(const geometry::Mesh& mesh) : mesh_(mesh) {
+    const geometry::Box3 box = geometry::bounds(mesh);
+    lo_ = xy(box.lo);
+    const Vec2 size = xy(box.hi) - lo_;
+    side_mm_ = std::max({std::sqrt(size.x * size.y / static_cast<double>(mesh.triangles.size() + 1)),
+                         size.x / kMostCells, size.y / kMostCells, 1e-6});
+    nx_ = 1 + static_cast<int>(size.x / side_mm_);
+    ny_ = 1 + static_cast<int>(size.y / side_mm_);
+    first_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) + 1, 0);
+    each_cell([&](std::size_t cell, std::size_t) { ++first_[cell + 1]; });
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    triangles_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    each_cell([&](std::size_t cell, std::size_t t) { triangles_[next[cell]++] = t; });
   }
-  return above > 0;
-}
+
+  /// Whether a place is in the solid that the mesh bounds.
+  [[nodiscard]] bool inside(Vec3 p) const {
+    tick();
+    const int i = cell_of(p.x - lo_.x), j = cell_of(p.y - lo_.y);
+    if (i < 0 || i >= nx_ || j < 0 || j >= ny_) return false;
+    const std::size_t cell = index(i, j);
+    int above = 0;
+    for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k) {
+      double z = 0.0;
+      int up = 0;
+      if (meets(corners(mesh_, triangles_[k]), xy(p), z, up) && z > p.z) above += up;
+    }
+    return above > 0;
+  }
+
+ private:
+  static constexpr double kMostCells = 1000.0;  // along a side; default, unsourced
+
+  [[nodiscard]] int cell_of(double from_lo) const { return static_cast<int>(std::floor(from_lo / side_mm_)); }
+  [[nodiscard]] std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(ny_) + static_cast<std::size_t>(j);
+  }
+  template <class F>
+  void each_cell(const F& f) const {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      tick();
+      const auto c = corners(mesh_, t);
+      const int i0 = cell_of(std::min({c[0].x, c[1].x, c[2].x}) - lo_.x);
+      const int i1 = cell_of(std::max({c[0].x, c[1].x, c[2].x}) - lo_.x);
+      const int j0 = cell_of(std::min({c[0].y, c[1].y, c[2].y}) - lo_.y);
+      const int j1 = cell_of(std::max({c[0].y, c[1].y, c[2].y}) - lo_.y);
+      for (int i = std::max(0, i0); i <= std::min(nx_ - 1, i1); ++i)
+        for (int j = std::max(0, j0); j <= std::min(ny_ - 1, j1); ++j) f(index(i, j), t);
+    }
+  }
+
+  const geometry::Mesh& mesh_;
+  Vec2 lo_;
+  double side_mm_ = 1.0;
+  int nx_ = 1, ny_ = 1;
+  std::vector<std::size_t> first_, triangles_;  ///< of each cell, in the mesh's order
+};
 
 Lattice lattice_of(const Part& part) {
   Lattice out;
@@ -94,6 +147,7 @@ Lattice lattice_of(const Part& part) {
                                                            static_cast<std::size_t>(out.n[1]));
   const auto& mesh = part.mesh();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    tick();
     const auto c = corners(mesh, t);
     const auto range = [&](double lo, double hi, double from, std::size_t k) {
       const int a = std::max(0, static_cast<int>(std::floor((lo - from) / out.step_mm[k])));
@@ -168,11 +222,11 @@ bool above_floor(const Shape& s, Vec3 at, double* below_top = nullptr) {
 }
 
 /// Whether a place and those beside it, across the shape's axis, lie above its floor and in the part.
-bool cuts(const Part& part, const Shape& s, Vec3 at) {
+bool cuts(const Over& solid, const Shape& s, Vec3 at) {
   for (const Vec3 d : {s.shape.frame.x, -1.0 * s.shape.frame.x, s.shape.frame.y, -1.0 * s.shape.frame.y,
                        s.shape.frame.z, -1.0 * s.shape.frame.z}) {
     const Vec3 p = at + kWithinMm * d;
-    if (!above_floor(s, p) || !inside(part.mesh(), p)) return false;
+    if (!above_floor(s, p) || !solid.inside(p)) return false;
   }
   return true;
 }
@@ -182,15 +236,17 @@ bool cuts(const Part& part, const Shape& s, Vec3 at) {
 std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
   const Lattice lattice = lattice_of(part);
   const std::vector<Shape> shapes = shapes_in(m);
+  const Over solid(part.mesh());
   const double each = lattice.each_mm3();
   std::map<AnyRef, double> found;
   for (int i = 0; i < lattice.n[0]; ++i) {
     for (int j = 0; j < lattice.n[1]; ++j) {
       for (int k = 0; k < lattice.n[2]; ++k) {
+        tick();
         if (!lattice.inside[lattice.index(i, j, k)]) continue;
         const Vec3 at = lattice.at(i, j, k);
         for (const Shape& s : shapes) {
-          if (above_floor(s, at) && cuts(part, s, at)) found[s.feature] += each;
+          if (above_floor(s, at) && cuts(solid, s, at)) found[s.feature] += each;
         }
       }
     }
@@ -203,12 +259,14 @@ std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
 Missing not_covered(const Part& part, const model::Model& m, bool all) {
   const Lattice lattice = lattice_of(part);
   const std::vector<Shape> shapes = shapes_in(m);
+  const Over solid(part.mesh());
   const double each = lattice.each_mm3();
   std::size_t points = 0;
   Vec3 sum;
   for (int i = 0; i < lattice.n[0]; ++i) {
     for (int j = 0; j < lattice.n[1]; ++j) {
       for (int k = 0; k < lattice.n[2]; ++k) {
+        tick();
         if (lattice.inside[lattice.index(i, j, k)]) continue;
         const Vec3 at = lattice.at(i, j, k);
         const bool in_one = std::any_of(shapes.begin(), shapes.end(), [&](const Shape& s) {
@@ -220,7 +278,7 @@ Missing not_covered(const Part& part, const model::Model& m, bool all) {
         bool part_near = false;
         for (const Vec3 d :
              {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
-          part_near = part_near || inside(part.mesh(), at + kWithinMm * d);
+          part_near = part_near || solid.inside(at + kWithinMm * d);
         }
         if (part_near) continue;
         ++points;

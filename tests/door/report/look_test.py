@@ -7,6 +7,7 @@ Ends with 77 where there is no chromium, chromedriver or pdftotext.
 """
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -40,7 +41,8 @@ def planned(part, out, options, program='.ngc'):
     done = subprocess.run(call, capture_output=True, text=True, cwd=EXAMPLES)
     if done.returncode not in (0, 1):
         raise AssertionError(f'{call}: {done.stderr}')
-    return files[0], json.loads(files[1].read_text())
+    warned = [line for line in done.stderr.splitlines() if ' warning: ' in line or line.startswith('warning: ')]
+    return files[0], json.loads(files[1].read_text()), {code for line in warned for code in re.findall(r'\[([A-Z0-9-]+)\]', line)}
 
 
 class Report(unittest.TestCase):
@@ -65,6 +67,7 @@ class Report(unittest.TestCase):
                 self.window.requests()
                 plan = self.opened(name)
                 self.has_a_row_for_each_step_and_their_times_add_up(plan)
+                self.says_what_the_command_warned_of(name)
                 self.draws_something_else_for_each_step(name)
                 self.prints_every_step(plan, name)
                 self.window.run('pick(DATA.steps.length - 1)')
@@ -73,6 +76,10 @@ class Report(unittest.TestCase):
                 self.assertEqual(self.window.said(), [])
                 foreign = [u for u in self.window.requests() if not u.startswith(('file:', 'data:', 'blob:'))]
                 self.assertEqual(foreign, [])
+
+    def says_what_the_command_warned_of(self, name):
+        said = self.window.run('return document.getElementById("findings").innerText')
+        self.assertEqual([code for code in sorted(self.reports[name][2]) if f'[{code}]' not in said], [])
 
     def has_a_row_for_each_step_and_their_times_add_up(self, plan):
         self.assertEqual(self.window.run('return document.querySelectorAll("#operations tbody tr").length'), len(plan['steps']))
@@ -159,7 +166,7 @@ class Report(unittest.TestCase):
             return document.querySelector('#operations tr.picked').rowIndex'''), 3)
 
     def test_knows_the_step_of_each_line_in_capitals_too(self):
-        report, plan = planned(PARTS['bracket'], SCRATCH / 'fanuc', ['--control', 'fanuc'], '.nc')
+        report, plan, _ = planned(PARTS['bracket'], SCRATCH / 'fanuc', ['--control', 'fanuc'], '.nc')
         self.window.open(report)
         steps = self.window.run('return [...new Set(programSteps())].filter(s => s >= 0)')
         self.assertEqual(steps, list(range(len(plan['steps']))))
@@ -180,14 +187,14 @@ class Report(unittest.TestCase):
         feature = next(line for line in text.splitlines() if 'CLOSED_POCKET(' in line)
         at = feature.index("('") + 2
         part.write_text(text.replace(feature, feature[:at] + name + feature[feature.index("'", at):]))
-        report, _ = planned(str(part), SCRATCH / 'named', [])
+        report, _, _ = planned(str(part), SCRATCH / 'named', [])
         self.window.open(report)
         self.assertIsNone(self.window.run('return window.ran || null'))
         self.assertIn(name, self.window.run('return document.querySelector("#operations").textContent'))
 
     def test_is_the_same_bytes_for_the_same_plan_and_small(self):
         first = self.reports['bracket'][0].read_bytes()
-        again, _ = planned(PARTS['bracket'], SCRATCH / 'again' / 'bracket', [])
+        again, _, _ = planned(PARTS['bracket'], SCRATCH / 'again' / 'bracket', [])
         self.assertEqual(again.read_bytes().replace(b'again/bracket', b'bracket'), first)
         self.assertLess(len(first), MOST_BYTES)
 

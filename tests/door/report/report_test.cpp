@@ -70,6 +70,16 @@ TEST(Report, SaysTheVerdictAndTheFindingsItWasGiven) {
   EXPECT_EQ(data_in(page)["findings"][0]["text"], "</script><script>alert(1)");
 }
 
+TEST(Report, SaysWhatPlanningWarnedOf) {
+  About about;
+  about.told = {{.code = "PIP-STOCK", .severity = Severity::kWarning, .message = "no raw piece is given"}};
+  const auto told = data_in(html(pocket(), about))["told"];
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0]["severity"], "warning");
+  EXPECT_EQ(told[0]["code"], "PIP-STOCK");
+  EXPECT_EQ(told[0]["text"], "no raw piece is given");
+}
+
 TEST(Report, TakesAProgramLineByLine) {
   About about;
   about.program = "one\n\nthree\n";

@@ -18,6 +18,9 @@ function findingsList(pick) {
     out.push(el('p', {class: 'finding' + (f.at < 0 ? '' : ' step'), onclick: () => { if (f.at >= 0) pick(f.at, f); }},
       el('span', {class: f.severity}, f.severity), ' ' + of + ': ' + f.text + ' [' + f.code + ']'));
   }
+  for (const t of DATA.told) {
+    out.push(el('p', {class: 'told'}, el('span', {class: t.severity}, t.severity), ' planning: ' + (t.place ? t.place + ': ' : '') + t.text + (t.hint ? '; ' + t.hint : '') + ' [' + t.code + ']'));
+  }
   if (DATA.unplanned.length) {
     out.push(el('h3', {}, 'Not planned'), table([['feature', false, u => u.feature], ['why', false, u => u.reason], ['needed by', false, u => u.needed_by.join(', ')]], DATA.unplanned));
   }

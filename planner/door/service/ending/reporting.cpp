@@ -40,6 +40,8 @@ std::string report_of(const Planned& planned, const Verdict& verdict, const std:
                                             : report::Judged::kNotChecked;
   for (const model::Condemnation& c : verdict.condemned) about.condemned.push_back(model::text_of(plan, c));
   for (const FileFinding& f : verdict.findings) about.findings.push_back({f.file, f.program, f.finding});
+  for (const Diagnostic& d : job.diagnostics())
+    if (d.severity != Severity::kNote) about.told.push_back(d);
   const auto program = std::find_if(outputs.begin(), outputs.end(), is_program);
   if (program != outputs.end() && verdict.written) {
     about.program_name = program->path;
