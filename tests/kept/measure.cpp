@@ -28,6 +28,12 @@ double cpu_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+double wall_s() {
+  timespec t = {};
+  ::clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 double seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
@@ -149,14 +155,17 @@ double instructions_1e6(const std::vector<std::string>& command, int most_status
 }
 
 Taken taken_by(const std::function<void()>& work) {
-  const double from = cpu_s();
+  const double from = cpu_s(), began = wall_s();
   work();
-  return {cpu_s() - from};
+  return {cpu_s() - from, wall_s() - began, 0.0};
 }
 
 Taken taken_by(const std::vector<std::string>& command, int most_status) {
+  constexpr double kMegabytes = 1e-3;  // of the kilobytes that Linux counts
+  const double began = wall_s();
   const rusage usage = ran(command, most_status);
-  return {seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+  return {seconds(usage.ru_utime) + seconds(usage.ru_stime), wall_s() - began,
+          kMegabytes * static_cast<double>(usage.ru_maxrss)};
 }
 
 Taken reference_kernel() {

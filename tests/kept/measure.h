@@ -12,6 +12,8 @@ namespace capstan::kept {
 /// What some work took: of this process or of a child that it waited for.
 struct Taken {
   double cpu_s = 0.0;
+  double wall_s = 0.0;
+  double peak_mb = 0.0;  ///< of a program, resident; 0 of work in this process
 };
 
 /// A piece of work: a program and its arguments, run once in a process of its own. What it does is in `name`.

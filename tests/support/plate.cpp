@@ -1,6 +1,7 @@
 #include "tests/support/plate.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "planner/ground/base/number.h"
 
@@ -53,6 +54,30 @@ class Writer {
   std::string up_, along_;
 };
 
+/// The raw and the finished piece in one set-up, and the project. Gives the finished piece.
+std::string begun(Writer& w, double length_mm, double width_mm) {
+  const std::string material = w.add("MATERIAL('C45','STEEL',())");
+  const std::string block =
+      w.add("BLOCK('RAW PIECE'," + w.place(0.0, 0.0, -kThickness) + "," + Writer::real(length_mm) + "," +
+            Writer::real(width_mm) + "," + Writer::real(kThickness) + ")");
+  const std::string raw = w.add("WORKPIECE('RAW PIECE'," + material + ",$,$,$," + block + ",())");
+  const std::string piece = w.add("WORKPIECE('PLATE'," + material + ",0.1," + raw + ",$,$,())");
+  const std::string origin = w.place(0.0, 0.0, 0.0);
+  const std::string security = w.add("PLANE('SECURITY PLANE'," + w.place(0.0, 0.0, 20.0) + ")");
+  const std::string placed = w.add("WORKPIECE_SETUP(" + piece + "," + origin + ",$,$,())");
+  const std::string setup = w.add("SETUP('SETUP'," + origin + "," + security + ",(" + placed + "))");
+  const std::string plan = w.add("WORKPLAN('MAIN',(),$," + setup + ",$)");
+  w.add("PROJECT('PLATE'," + plan + ",(" + piece + "),$,$,$)");
+  return piece;
+}
+
+std::string file_of(const Writer& w) {
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n"
+         "FILE_NAME('plate.p21','',(''),(''),'','','');\n"
+         "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\nENDSEC;\nDATA;\n" +
+         w.text_ + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
 /// `holes_only`: every feature is a through hole.
 Plate made(std::size_t features, double first_pocket_mm, bool holes_only) {
   Plate out;
@@ -64,18 +89,7 @@ Plate made(std::size_t features, double first_pocket_mm, bool holes_only) {
 
   Writer w;
   w.directions();
-  const std::string material = w.add("MATERIAL('C45','STEEL',())");
-  const std::string block =
-      w.add("BLOCK('RAW PIECE'," + w.place(0.0, 0.0, -kThickness) + "," + Writer::real(out.length_mm) + "," +
-            Writer::real(out.width_mm) + "," + Writer::real(kThickness) + ")");
-  const std::string raw = w.add("WORKPIECE('RAW PIECE'," + material + ",$,$,$," + block + ",())");
-  const std::string piece = w.add("WORKPIECE('PLATE'," + material + ",0.1," + raw + ",$,$,())");
-  const std::string origin = w.place(0.0, 0.0, 0.0);
-  const std::string security = w.add("PLANE('SECURITY PLANE'," + w.place(0.0, 0.0, 20.0) + ")");
-  const std::string placed = w.add("WORKPIECE_SETUP(" + piece + "," + origin + ",$,$,())");
-  const std::string setup = w.add("SETUP('SETUP'," + origin + "," + security + ",(" + placed + "))");
-  const std::string plan = w.add("WORKPLAN('MAIN',(),$," + setup + ",$)");
-  w.add("PROJECT('PLATE'," + plan + ",(" + piece + "),$,$,$)");
+  const std::string piece = begun(w, out.length_mm, out.width_mm);
 
   const std::string coarse = w.limits(0.2, 0.2);
   const std::string medium = w.limits(0.1, 0.1);
@@ -112,11 +126,7 @@ Plate made(std::size_t features, double first_pocket_mm, bool holes_only) {
         ++out.holes;
     }
   }
-  out.text =
-      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n"
-      "FILE_NAME('plate.p21','',(''),(''),'','','');\n"
-      "FILE_SCHEMA(('MACHINING_SCHEMA','MILLING_SCHEMA'));\nENDSEC;\nDATA;\n" +
-      w.text_ + "ENDSEC;\nEND-ISO-10303-21;\n";
+  out.text = file_of(w);
   return out;
 }
 
@@ -125,6 +135,31 @@ Plate made(std::size_t features, double first_pocket_mm, bool holes_only) {
 Plate plate(std::size_t features, double first_pocket_mm) { return made(features, first_pocket_mm, false); }
 
 Plate plate_of_holes(std::size_t holes) { return made(holes, 3.0, true); }
+
+std::string plate_of_a_polygon(std::size_t vertices) {
+  constexpr double kSide = 150.0, kDepth = 3.0, kRadius = 50.0, kWave = 6.0;  // mm
+  Writer w;
+  w.directions();
+  const std::string piece = begun(w, kSide, kSide);
+  const std::string flat = w.add("PLANAR_POCKET_BOTTOM_CONDITION()");
+  const std::string depth = w.add("PLANE(''," + w.place(0.0, 0.0, -kDepth) + ")");
+  const std::string corner = w.size(2.5, w.limits(0.1, 0.1));
+  std::string points;
+  std::string first;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    const double t = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(vertices);
+    const double r = kRadius + kWave * std::sin(5.0 * t);
+    const std::string point =
+        w.point(std::round(r * std::cos(t) * 1e6) / 1e6, std::round(r * std::sin(t) * 1e6) / 1e6, 0.0);
+    if (first.empty()) first = point;
+    points += point + ",";
+  }
+  const std::string outline = w.add("POLYLINE('',(" + points + first + "))");
+  const std::string profile = w.add("GENERAL_CLOSED_PROFILE($," + outline + ")");
+  w.add("CLOSED_POCKET('P'," + piece + ",()," + w.place(0.5 * kSide, 0.5 * kSide, 0.0) + "," + depth +
+        ",(),$," + flat + ",$," + corner + "," + profile + ")");
+  return file_of(w);
+}
 
 std::string with_tool_changed(std::string table, const std::string& words, const std::string& key,
                               double by_mm) {

@@ -19,6 +19,10 @@ struct Plate {
 /// The same plate with through holes of 6.6 mm alone.
 [[nodiscard]] Plate plate_of_holes(std::size_t holes);
 
+/// A plate of C45, 150 x 150 x 20 mm, with one pocket 3 mm deep whose outline is a polyline of so many
+/// vertices on r = 50 + 6 sin 5t mm, as ISO 14649 Part 21 text.
+[[nodiscard]] std::string plate_of_a_polygon(std::size_t vertices);
+
 /// A LinuxCNC tool table with one size of a tool (`key`: "Z" its length, "D" its diameter) changed by so many
 /// mm: of the first tool whose comment has these words. Its number is no name: planning gives it. Empty: it
 /// has no such tool.

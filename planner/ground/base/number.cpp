@@ -30,6 +30,7 @@ namespace {
 
 // Millionths below 1e5 have at most 11 digits.
 constexpr double kDecimals = 1e6;
+constexpr std::uint64_t kMillionths = 1'000'000;
 
 /// Two digits of a number below 100.
 char* print_pair(char* to, std::uint32_t n) {
@@ -39,9 +40,8 @@ char* print_pair(char* to, std::uint32_t n) {
 }
 
 char* print_millionths(char* to, std::uint64_t count) {
-  constexpr std::uint64_t kOne = 1000000;
-  to = std::to_chars(to, to + kNumberRoom, count / kOne).ptr;
-  const auto rest = static_cast<std::uint32_t>(count % kOne);
+  to = std::to_chars(to, to + kNumberRoom, count / kMillionths).ptr;
+  const auto rest = static_cast<std::uint32_t>(count % kMillionths);
   if (rest == 0) return to;
   *to++ = '.';
   to = print_pair(to, rest / 10000);
@@ -49,6 +49,20 @@ char* print_millionths(char* to, std::uint64_t count) {
   to = print_pair(to, rest % 100);
   while (to[-1] == '0') --to;
   return to;
+}
+
+/// The number as millionths, where it is so many, and whether it has a point; nullptr where it is not.
+struct Printed {
+  char* end = nullptr;
+  bool point = false;
+};
+Printed print_few_decimals(char* to, double value) {
+  const double size = std::abs(value);
+  if (!(size >= 1e-3 && size < 1e5)) return {};
+  const auto count = static_cast<std::uint64_t>(size * kDecimals + 0.5);
+  if (static_cast<double>(count) / kDecimals != size) return {};
+  if (value < 0.0) *to++ = '-';
+  return {print_millionths(to, count), count % kMillionths != 0};
 }
 
 }  // namespace
@@ -59,18 +73,15 @@ char* print_shortest(char* to, double value) {
     *to = '0';
     return to + 1;
   }
-  const double size = std::abs(value);
-  if (size >= 1e-3 && size < 1e5) {
-    const auto count = static_cast<std::uint64_t>(size * kDecimals + 0.5);
-    if (static_cast<double>(count) / kDecimals == size) {
-      if (value < 0.0) *to++ = '-';
-      return print_millionths(to, count);
-    }
-  }
+  if (const Printed few = print_few_decimals(to, value); few.end != nullptr) return few.end;
   return std::to_chars(to, to + kNumberRoom, value).ptr;
 }
 
 char* print_part21_real(char* to, double value) {
+  if (const Printed few = print_few_decimals(to, value); few.end != nullptr) {
+    if (!few.point) *few.end = '.';
+    return few.point ? few.end : few.end + 1;
+  }
   char* const end = print_shortest(to, value);
   const double size = std::abs(value);
   if (size == 0.0 || (size >= 1e-3 && size < 1e5)) {  // no exponent: the fixed notation is no longer
@@ -93,11 +104,13 @@ char* print_part21_real(char* to, double value) {
 
 void append_shortest(std::string& out, double value) {
   std::array<char, kNumberRoom> buffer;
-  out.append(buffer.data(), print_shortest(buffer.data(), value));
+  const char* const end = print_shortest(buffer.data(), value);
+  out.append(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
 }
 void append_part21_real(std::string& out, double value) {
   std::array<char, kNumberRoom> buffer;
-  out.append(buffer.data(), print_part21_real(buffer.data(), value));
+  const char* const end = print_part21_real(buffer.data(), value);
+  out.append(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
 }
 
 std::string shortest(double value) {

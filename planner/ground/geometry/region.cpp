@@ -12,6 +12,7 @@
 
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/kept_outlines.h"
+#include "planner/ground/geometry/offset/raw_offset.h"
 
 namespace capstan::geometry {
 namespace {
@@ -174,6 +175,51 @@ Region offset_paths(Paths paths, double delta_mm, ClipperLib::JoinType join, Cli
   });
 }
 
+/// An outline of so many vertices is offset by its raw outline (offset/raw_offset.h) in steps; below, by
+/// Clipper's own joins, whose cost grows with the square.
+constexpr std::size_t kManyVertices = 500;
+/// Corners in a step that may be led through their vertex; and the least that a step goes, of the whole way.
+constexpr std::size_t kMostSpikes = 64;
+constexpr double kLeastStep = 0.125;
+/// Of the radius that would become a corner: where a step ends before, with vertices that are still apart.
+constexpr double kShortOfCorner = 0.9;
+/// Of the tolerance: what vertices may say that are dropped where there would be more spikes.
+constexpr double kDroppedPart = 0.25;
+
+std::size_t vertices(const Region& a) {
+  std::size_t n = 0;
+  for (const Loop& loop : a.loops) n += loop.size();
+  return n;
+}
+
+/// Ring from ring: shrunk or grown by one distance and then by another is by both. Each step goes as far as
+/// corners need no spike, about the least radius of a curve, which is no longer one after the next.
+Region offset_in_steps(Region a, double delta_mm, double arc_tolerance_mm) {
+  const double whole = std::abs(delta_mm) + arc_tolerance_mm;
+  const bool outwards = delta_mm > 0.0;
+  double droppable_mm = kDroppedPart * arc_tolerance_mm;
+  for (double left = whole; left > 0.0 && !a.empty();) {
+    poll();
+    double step = left;
+    if (reach_with_spikes(a, outwards, kMostSpikes) < left) {
+      droppable_mm *= 0.5;  // as much as is left for the steps that follow
+      for (Loop& loop : a.loops) loop = without_small_corners(loop, outwards, droppable_mm);
+      const double reach = kShortOfCorner * reach_with_spikes(a, outwards, kMostSpikes);
+      step = std::min(left, std::max(reach, kLeastStep * whole));
+    }
+    left -= step;
+    std::vector<Loop> raw;
+    for (const Loop& loop : a.loops)
+      raw.push_back(raw_offset(loop, outwards ? step : -step, arc_tolerance_mm * step / whole).loop);
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(to_paths(raw), ClipperLib::ptSubject, true);
+    Paths solution;
+    clipper.Execute(ClipperLib::ctUnion, solution, ClipperLib::pftPositive, ClipperLib::pftPositive);
+    a = from_paths(solution);
+  }
+  return a;
+}
+
 int arc_steps(double radius_mm, double sweep_rad, double tolerance_mm) {
   if (radius_mm <= tolerance_mm) return std::max(1, static_cast<int>(std::ceil(std::abs(sweep_rad))));
   const double step = 2.0 * std::acos(1.0 - tolerance_mm / radius_mm);
@@ -193,6 +239,7 @@ Region subtract(const Region& a, const Region& b) {
 
 Region offset(const Region& a, double delta_mm, double arc_tolerance_mm) {
   if (delta_mm == 0.0 || a.empty()) return a;
+  if (vertices(a) >= kManyVertices) return offset_in_steps(a, delta_mm, arc_tolerance_mm);
   // Clipper's chords of a rounded corner lie up to the tolerance inside the circle of radius |delta|, that
   // is, too near to the old boundary: offset by that much more, so that no point comes nearer than |delta|.
   const double away = std::copysign(std::abs(delta_mm) + arc_tolerance_mm, delta_mm);

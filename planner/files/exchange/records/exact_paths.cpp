@@ -76,7 +76,8 @@ void moves(const model::SectionSeries& s, std::string& out) {
   for (std::size_t i = 0; i < s.move.size(); ++i) {
     std::array<char, 16> text;
     if (i != 0) out += ',';
-    out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), s.move[i]).ptr);
+    const char* const end = std::to_chars(text.data(), text.data() + text.size(), s.move[i]).ptr;
+    out.append(text.data(), static_cast<std::size_t>(end - text.data()));
   }
   out += ')';
 }

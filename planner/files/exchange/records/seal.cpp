@@ -175,6 +175,7 @@ void hash_each(std::span<Seals::Text> texts) {
   std::size_t next = 0;
   while (true) {
     std::size_t all_have = SIZE_MAX;
+    const Lane* any = nullptr;
     for (std::size_t k = 0; k < kLanes; ++k) {
       Lane& lane = lanes[k];
       while (lane.left == 0 && next < texts.size()) {
@@ -184,14 +185,19 @@ void hash_each(std::span<Seals::Text> texts) {
         lane.left = lane.of->text.size();
         hash[k] = lane.of->hash;
       }
+      if (lane.left == 0) continue;
       all_have = std::min(all_have, lane.left);
+      any = &lane;
     }
-    if (all_have == 0) break;  // fewer texts than lanes are left
+    if (any == nullptr) break;
+    // A lane without a text goes along with another's, to no end.
+    const auto text = [&](std::size_t k) { return lanes[k].left != 0 ? lanes[k].at : any->at; };
+    const auto before = hash;
     tick();
     all_have = std::min(all_have, kInTurn);
     static_assert(kLanes == 4);
     std::uint64_t a = hash[0], b = hash[1], c = hash[2], d = hash[3];
-    const char *const p = lanes[0].at, *const q = lanes[1].at, *const r = lanes[2].at, *const s = lanes[3].at;
+    const char *const p = text(0), *const q = text(1), *const r = text(2), *const s = text(3);
     for (std::size_t i = 0; i < all_have; ++i) {
       a = (a ^ static_cast<unsigned char>(p[i])) * kPrime;
       b = (b ^ static_cast<unsigned char>(q[i])) * kPrime;
@@ -199,13 +205,17 @@ void hash_each(std::span<Seals::Text> texts) {
       d = (d ^ static_cast<unsigned char>(s[i])) * kPrime;
     }
     hash = {a, b, c, d};
-    for (Lane& lane : lanes) {
-      lane.at += all_have;
-      lane.left -= all_have;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (lanes[k].left == 0) {
+        hash[k] = before[k];
+        continue;
+      }
+      lanes[k].at += all_have;
+      lanes[k].left -= all_have;
     }
   }
   for (std::size_t k = 0; k < kLanes; ++k) {
-    if (lanes[k].of != nullptr) lanes[k].of->hash = fnv1a({lanes[k].at, lanes[k].left}, hash[k]);
+    if (lanes[k].of != nullptr) lanes[k].of->hash = hash[k];
   }
 }
 

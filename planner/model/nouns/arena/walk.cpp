@@ -130,8 +130,8 @@ void for_each_reference(const Model& model, AnyRef object, const std::function<v
     if (r.set()) visit(r);
   };
   const void* data = model.object(object);
-  if (const auto* kept = model.get<KeptInstance>(object)) {
-    for (const auto& piece : kept->pieces) {
+  if (object.type == TypeId::kKeptInstance) {
+    for (const auto& piece : model.at<KeptInstance>(object).pieces) {
       if (const auto* r = std::get_if<AnyRef>(&piece)) one(*r);
     }
     return;
@@ -166,6 +166,7 @@ std::vector<AnyRef> reachable(const Model& model, std::span<const AnyRef> roots)
   for (std::size_t t = 1; t < kTypeCount; ++t) seen[t].resize(model.count(static_cast<TypeId>(t)));
   std::vector<AnyRef> out;
   std::vector<AnyRef> pending(roots.rbegin(), roots.rend());
+  const std::function<void(AnyRef)> add = [&](AnyRef r) { pending.push_back(r); };
   while (!pending.empty()) {
     const AnyRef at = pending.back();
     pending.pop_back();
@@ -174,9 +175,9 @@ std::vector<AnyRef> reachable(const Model& model, std::span<const AnyRef> roots)
     if (mark) continue;
     mark = true;
     out.push_back(at);
-    std::vector<AnyRef> next;
-    for_each_reference(model, at, [&](AnyRef r) { next.push_back(r); });
-    pending.insert(pending.end(), next.rbegin(), next.rend());
+    const auto first = static_cast<std::ptrdiff_t>(pending.size());
+    for_each_reference(model, at, add);
+    std::reverse(pending.begin() + first, pending.end());
   }
   return out;
 }

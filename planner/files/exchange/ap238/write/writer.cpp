@@ -94,7 +94,8 @@ bool Writer::is_geometry(AnyRef at) {
 }
 
 void Writer::require(AnyRef at) {
-  if (const auto* kept = m_.get<model::KeptInstance>(at)) {
+  if (at.type == TypeId::kKeptInstance) {
+    const auto* kept = &m_.at<model::KeptInstance>(at);
     if (kept->section != model::KeptSection::kData) return to_scan_.push_back(at);
     if (const auto part = auxiliary_part(*kept)) {
       instance_of(part->first);
@@ -195,7 +196,7 @@ const ObjectRow* Writer::object_row(AnyRef at) const {
 
 Id Writer::instance_of(AnyRef at) {
   if (const auto known = ids_.find(at)) return *known;
-  if (const auto* kept = m_.get<model::KeptInstance>(at);
+  if (const auto* kept = at.type == TypeId::kKeptInstance ? &m_.at<model::KeptInstance>(at) : nullptr;
       kept != nullptr && kept->schema != model::KeptSchema::kAp238 && kept->keyword.rfind('!', 0) != 0) {
     lose(kept->keyword + ", kept from ISO 14649,");
     ids_.set(at, kNoId);

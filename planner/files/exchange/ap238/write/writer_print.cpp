@@ -39,8 +39,9 @@ std::string nothing(const express::Type* t, bool optional) {
 
 void append_number_of(Id id, std::string& out) {
   std::array<char, 16> text;
-  out += '#';
-  out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), id).ptr);
+  text[0] = '#';
+  const char* const end = std::to_chars(text.data() + 1, text.data() + text.size(), id).ptr;
+  out.append(text.data(), static_cast<std::size_t>(end - text.data()));
 }
 
 template <class List, class Show>
@@ -144,8 +145,8 @@ void Writer::print(std::string& out, Seals& sealed, std::string& unsealed) {
 }
 
 void Writer::print_as_it_is(AnyRef noun, const std::string& name, std::string& out) {
-  if (const auto* kept = m_.get<model::KeptInstance>(noun)) {
-    print_kept(*kept, out);
+  if (noun.type == model::TypeId::kKeptInstance) {
+    print_kept(m_.at<model::KeptInstance>(noun), out);
   } else {
     print_geometry(noun, name, out);
   }
@@ -232,7 +233,7 @@ void Writer::print_geometry(AnyRef at, const std::string& name, std::string& out
   if (geometry.entity == express::kNoEntity)
     throw std::logic_error("AP238 has no " + std::string(type.keyword));
   const void* const data = m_.object(at);
-  const auto* trimmed = m_.get<model::TrimmedCurve>(at);
+  const auto* trimmed = geometry.refers ? m_.get<model::TrimmedCurve>(at) : nullptr;
   const bool of_angles = trimmed != nullptr && (m_.holds<model::Circle>(trimmed->basis_curve) ||
                                                 m_.holds<model::Ellipse>(trimmed->basis_curve));
   const auto slot = [&](const Geometry::Slot& s) {
