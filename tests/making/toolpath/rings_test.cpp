@@ -52,6 +52,50 @@ TEST(Rings, AreAsWideApartAsACornerBears) {
   }
 }
 
+/// Two squares of 20 and 16 mm, joined by a passage of 10 mm, insets of 6 mm of which fall apart.
+std::vector<Ring> two_limbs() {
+  const Region centres = geometry::unite(
+      geometry::unite(geometry::rectangle({0, 0}, {20, 20}), geometry::rectangle({50, 2}, {66, 18})),
+      geometry::rectangle({15, 5}, {55, 15}));
+  return rings(centres, 6.0, 6.0);
+}
+
+TEST(Turns, LeadOutwardsButForLimbsThatAreEnteredFromTheRingAround) {
+  const auto all = two_limbs();
+  ASSERT_EQ(all.size(), 3U);
+  ASSERT_EQ(all[0].children.size(), 2U);
+  const bool first = geometry::area(all[1].piece) > geometry::area(all[2].piece);
+  const std::size_t large = first ? 1 : 2, small = first ? 2 : 1;
+  const auto each_by_itself = turns(all, 0.0, [](const Ring&) { return false; });
+  ASSERT_EQ(each_by_itself.size(), 3U);
+  EXPECT_EQ(each_by_itself.back().ring, 0U);
+  for (const Turn& t : each_by_itself) EXPECT_FALSE(t.inwards);
+  const auto from_one = turns(all, 0.0, [](const Ring&) { return true; });
+  ASSERT_EQ(from_one.size(), 3U);
+  EXPECT_EQ(from_one[0].ring, large);
+  EXPECT_FALSE(from_one[0].inwards);
+  EXPECT_EQ(from_one[1].ring, 0U);
+  EXPECT_EQ(from_one[2].ring, small);
+  EXPECT_TRUE(from_one[2].inwards);
+}
+
+TEST(Turns, GoFromTheLoopRoundAnIslandIntoTheLimbBesideItBeforeTheOutside) {
+  // Beside an island in the middle of a long area, both ends.
+  const Region centres =
+      geometry::subtract(geometry::rectangle({0, 0}, {60, 22}), geometry::rectangle({26, 6}, {34, 16}));
+  const auto all = rings(centres, 6.0, 6.0);
+  ASSERT_EQ(all.size(), 3U);
+  const auto order = turns(all, 6.6, [](const Ring&) { return true; });
+  ASSERT_EQ(order.size(), 4U);
+  EXPECT_EQ(order[1].ring, 0U);
+  EXPECT_EQ(order[1].loops, Loops::kIslands);
+  EXPECT_TRUE(order[2].inwards);
+  EXPECT_EQ(order[3].ring, 0U);
+  EXPECT_EQ(order[3].loops, Loops::kOutside);
+  // Not where the limb begins farther from the island.
+  for (const Turn& t : turns(all, 5.9, [](const Ring&) { return true; })) EXPECT_EQ(t.loops, Loops::kAll);
+}
+
 TEST(Rings, AreNoFartherApartThanTheyClearInASharpCorner) {
   const Region centres = corner(std::numbers::pi / 9.0);  // 20 degrees: 1.17 of the radius
   const auto all = rings(centres, 1.6 * kRadius, kRadius);

@@ -129,6 +129,26 @@ TEST(BoringBars, CutTitaniumWithinAMakersSpeedsAndFeeds) {
   EXPECT_GT(bars, 0);
 }
 
+// The same chart: cast iron, carbon, alloy, tool and 300 stainless steel.
+TEST(BoringBars, CutSteelAndCastIronWithinAMakersSpeeds) {
+  constexpr double kFootM = 0.3048;
+  struct Row {
+    const char* material;
+    double least_ft, most_ft;
+  };
+  const Cutter* bar = nullptr;
+  for (const Cutter& c : shared_generic_library().value()) {
+    if (c.cutter_class == CutterClass::kBoringTool) bar = &c;
+  }
+  ASSERT_NE(bar, nullptr);
+  for (const Row& row : {Row{"GG25", 200, 550}, Row{"C45", 200, 450}, Row{"42CrMo4", 200, 425},
+                         Row{"1.2379", 175, 300}, Row{"AISI 304", 175, 350}}) {
+    const StartValues s = start(*bar, row.material);
+    EXPECT_GE(s.vc_m_min, row.least_ft * kFootM) << row.material;
+    EXPECT_LE(s.vc_m_min, row.most_ft * kFootM) << row.material;
+  }
+}
+
 TEST(Grade, LeavesWhatTheShopStatesAlone) {
   Cutter c = cutter(CutterClass::kTwistDrill, Substrate::kHss, "HSS-E drill, TiN");
   c.presets.insert(c.presets.begin(), {"c45", 22.0, 0.08, "stated: the shop"});

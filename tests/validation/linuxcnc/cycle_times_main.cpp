@@ -42,6 +42,10 @@ int add_program(const Program& program, std::string& out) {
   const auto foreseen = predicted(p.plan);
   if (!foreseen) return std::cerr << to_text(foreseen.error()) << "\n", 1;
   const auto steps = measured(p.program, r);
+  for (std::size_t i = 0; i < std::min(steps.size(), foreseen->steps.size()); ++i) {
+    if (steps[i].path_s > 0.0 || !(foreseen->steps[i].path_s > 0.0)) continue;
+    return std::cerr << program.name << ": step '" << foreseen->steps[i].id << "' did not move\n", 1;
+  }
   add(program.name, steps, *foreseen, compare(steps, *foreseen), out);
   return 0;
 }

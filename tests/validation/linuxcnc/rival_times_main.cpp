@@ -34,8 +34,9 @@ double simulated(const model::Plan& plan, std::size_t step, std::string& said, b
   said = record.absent + record.failed;
   if (!said.empty()) return -1.0;
   const auto steps = linuxcnc::measured(*program, record);
-  if (steps.size() == plan.steps.size()) return steps.at(step).path_s;
-  said = "the program has " + std::to_string(steps.size()) + " steps";
+  const bool moved = steps.size() == plan.steps.size() && steps.at(step).path_s > 0.0;
+  if (moved) return steps.at(step).path_s;
+  said = "of the program " + std::to_string(steps.size()) + " steps were recorded, this one without a move";
   return -1.0;
 }
 

@@ -15,9 +15,11 @@ namespace {
 Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
 
 /// Tracks of a ring's loops, in the sense that the job asks for.
-std::vector<Track> tracks_of(const Region& piece, bool natural, bool wall) {
+std::vector<Track> tracks_of(const Region& piece, Loops which, bool natural, bool wall) {
   std::vector<Track> out;
   for (const auto& loop : piece.loops) {
+    const bool island = geometry::signed_area(loop) < 0.0;
+    if (which == (island ? Loops::kOutside : Loops::kIslands)) continue;
     Track t = track_of(loop, wall ? kFitTolerance : kInnerChord);
     out.push_back(natural ? std::move(t) : reversed(t));
   }
@@ -140,10 +142,13 @@ constexpr double kLeastFlat = 0.1;
 /// 1 + sin(45 degrees) of them (rings.h), rounded down.
 constexpr double kWidest = 1.7;
 
+/// Of the distance of rings: what begins so near to a loop is entered from it; default, unsourced.
+constexpr double kBeside = 1.1;
+
 class Contours {
  public:
   Contours(LevelCutter& cutter, const Level& level, const ContourOptions& options)
-      : c_(cutter), level_(level), o_(options), natural_(walls_on_right(cutter.task) != options.outside_in) {
+      : c_(cutter), level_(level), o_(options) {
     if (o_.outside_in) o_.lead_arcs = false;
   }
 
@@ -161,11 +166,10 @@ class Contours {
     }
     step_ = step;
     all_ = c_.rings_of(level_.centres, step, cover);
-    std::vector<std::size_t> order = inside_out(all_);
-    if (o_.outside_in) std::reverse(order.begin(), order.end());
     done_.assign(all_.size(), {});
-    for (const std::size_t i : order) {
-      if (auto ok = ring(i); !ok) return ok;
+    for (const Turn& turn : order()) {
+      inwards_ = turn.inwards;
+      if (auto ok = ring(turn.ring, turn.loops); !ok) return ok;
     }
     flush();
     return {};
@@ -174,7 +178,7 @@ class Contours {
  private:
   Status walls() {
     for (const Region& piece : geometry::pieces(level_.centres)) {
-      for (Track& t : tracks_of(piece, natural_, true)) {
+      for (Track& t : tracks_of(piece, Loops::kAll, natural(), true)) {
         if (o_.lead_arcs && cut_with_leads(c_, level_, t)) continue;
         // Too narrow for arcs: down the wall's own track, as into the solid.
         Level solid = level_;
@@ -187,6 +191,27 @@ class Contours {
     return {};
   }
 
+  /// A limb of the area is entered from the ring around it, where that saves a way down into the solid which
+  /// is longer than the limb's own ring: about so much of the ring around it is then cut as a slot, which
+  /// takes up to twice as long (a slot is fed at half: optimise::kDeepestSlotShare).
+  [[nodiscard]] std::vector<Turn> order() {
+    const bool solid = level_.from_mm - level_.z_mm > kInsideSlack && level_.air.empty();
+    const bool may = solid && !o_.outside_in && !o_.spiral && !o_.lead_arcs && !c_.task.cleared_by;
+    const double down_mm = may ? c_.way_down_mm(level_) : 0.0;
+    std::vector<Turn> out = turns(all_, kBeside * step_, [&](const Ring& limb) {
+      double around_mm = 0.0;
+      for (const Track& t : tracks_of(limb.piece, Loops::kAll, true, false)) around_mm += length_of(t);
+      return may && around_mm < down_mm;
+    });
+    if (!o_.outside_in) return out;
+    std::reverse(out.begin(), out.end());
+    for (Turn& turn : out) turn.inwards = true;
+    return out;
+  }
+
+  /// The sense of a track that has the material on the side that the job asks for.
+  [[nodiscard]] bool natural() const { return walls_on_right(c_.task) != inwards_; }
+
   /// Writes the pending track, which has been reached but not followed yet.
   void flush() {
     if (pending_.segments.empty()) return;
@@ -196,13 +221,13 @@ class Contours {
 
   [[nodiscard]] bool beside(std::size_t i) const {
     if (last_ == kNone) return false;
-    return o_.outside_in ? all_[i].parent == last_ && i != last_ : all_[last_].parent == i && i != last_;
+    return inwards_ ? all_[i].parent == last_ && i != last_ : all_[last_].parent == i && i != last_;
   }
 
-  Status ring(std::size_t i) {
+  Status ring(std::size_t i, Loops which) {
     const bool wall = all_[i].depth == 0;
-    std::vector<Track> tracks = tracks_of(all_[i].piece, natural_, wall);
-    if (o_.spiral && !o_.outside_in && beside(i) && tracks.size() == 1 && all_[i].children.size() == 1 &&
+    std::vector<Track> tracks = tracks_of(all_[i].piece, which, natural(), wall);
+    if (o_.spiral && !inwards_ && beside(i) && tracks.size() == 1 && all_[i].children.size() == 1 &&
         done_[last_].size() == 1 && spiral_onto(tracks.front())) {
       done_[i] = {pending_};
       last_ = i;
@@ -210,7 +235,7 @@ class Contours {
       return {};
     }
     flush();
-    const auto& neighbours = o_.outside_in ? std::vector<std::size_t>{all_[i].parent} : all_[i].children;
+    const auto& neighbours = inwards_ ? std::vector<std::size_t>{all_[i].parent} : all_[i].children;
     bool entered = false;
     while (!tracks.empty()) {
       const std::size_t k = nearest_track(tracks);
@@ -288,7 +313,7 @@ class Contours {
       done_[i].push_back(t);
       return {};
     }
-    const bool leaf = all_[i].children.empty() && !o_.outside_in;
+    const bool leaf = all_[i].children.empty() && !inwards_;
     auto in = c_.enter(level_, t, leaf ? &all_[i].piece : nullptr);
     if (!in) return tl::unexpected(in.error());
     if (c_.slotted(level_, t)) {
@@ -302,7 +327,7 @@ class Contours {
   LevelCutter& c_;
   const Level& level_;
   ContourOptions o_;
-  bool natural_;
+  bool inwards_ = false;  ///< of the ring at hand
   double step_ = 0.0;
   std::vector<Ring> all_;
   std::vector<std::vector<Track>> done_;

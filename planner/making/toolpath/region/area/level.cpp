@@ -131,6 +131,11 @@ double LevelCutter::ramp_angle() {
   return std::min({most, given, 1.5});
 }
 
+double LevelCutter::way_down_mm(const Level& level) {
+  const double depth = level.from_mm - level.z_mm, angle = ramp_angle();
+  return angle > 0.0 ? depth / std::sin(angle) : depth;
+}
+
 void LevelCutter::go_above(const Level& level, Vec2 p) {
   const double z = level.from_mm + std::min(task.clearance_mm, kAboveRaw);
   if (writer.begun() && writer.at().z < writer.rapid_z_mm() - 1e-9 && z < writer.rapid_z_mm()) {

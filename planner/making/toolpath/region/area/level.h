@@ -48,6 +48,8 @@ class LevelCutter {
   /// to the lowest of them at once, and is `slotted` after that.
   /// Fails  TPA-ENTRY.
   Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
+  /// How long the way down through the level's material is, mm: along a helix or ramp, else straight.
+  [[nodiscard]] double way_down_mm(const Level& level);
   /// Whether a ramp along this closed track went down to the level or deeper, and all the way round it there.
   [[nodiscard]] bool slotted(const Level& level, const Track& track) const;
   /// To a place that is cleared down to the level already, and down to it.
@@ -55,8 +57,8 @@ class LevelCutter {
   /// Rings of a level; walls are mostly upright, so that the level before had the same, which are kept.
   const std::vector<Ring>& rings_of(const geometry::Region& centres, double apart_mm, double cover_mm);
   /// Follows a track on the level. Where the whole cutter is beside the raw piece, by kAirBeyond at least (a
-  /// raw piece may be larger than stated), on longer ways than its diameter, nothing is cut: the move is a link, and left out where the track ends so.
-  /// Returns whether it went to the track's end.
+  /// raw piece may be larger than stated), on longer ways than its diameter, nothing is cut: the move is a
+  /// link, and left out where the track ends so. Returns whether it went to the track's end.
   bool follow(const Level& level, const Track& track);
   /// A straight cut on the level to p when it stays within the centres.
   bool cut_to(const Level& level, geometry::Vec2 p);

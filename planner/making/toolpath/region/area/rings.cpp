@@ -15,12 +15,32 @@ namespace {
 
 /// What is left between the ring round `piece` and what comes after it, mm2. Less than this is rounding.
 constexpr double kCrumb = 1e-4;
+/// Of an area: limbs that are alike but for rounding.
+constexpr double kSameArea = 1e-6;
 
 bool leaves_a_ridge(const Region& piece, const Region& next, double cover_mm) {
   const Region open = inset(piece, cover_mm, kInnerChord);
   if (open.empty()) return false;
   return next.empty() ||
          geometry::area(geometry::subtract(open, geometry::offset(next, cover_mm, kInnerChord))) > kCrumb;
+}
+
+Region islands_of(const Region& piece) {
+  Region out;
+  for (const auto& loop : piece.loops) {
+    if (geometry::signed_area(loop) < 0.0) out.loops.push_back(loop);
+  }
+  return out;
+}
+
+bool begins_within(double near_mm, const Region& limb, const Region& loops) {
+  if (loops.empty()) return false;
+  for (const auto& loop : limb.loops) {
+    for (const Vec2 p : loop) {
+      if (geometry::distance_to_boundary(loops, p) <= near_mm) return true;
+    }
+  }
+  return false;
 }
 
 /// The piece's next inset: the widest of three steps that leaves no ridge.
@@ -52,20 +72,51 @@ std::vector<Ring> rings(const Region& centres, double step_mm, double cover_mm) 
   return out;
 }
 
-std::vector<std::size_t> inside_out(const std::vector<Ring>& all) {
-  std::vector<std::size_t> order;
-  std::vector<std::size_t> stack;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].depth == 0) stack.push_back(i);
+std::vector<Turn> turns(const std::vector<Ring>& all, double near_mm,
+                        const std::function<bool(const Ring& limb)>& from_outside) {
+  struct Visit {
+    Turn turn;
+    bool now = false;  // what comes before it is done
+  };
+  std::vector<Turn> out;
+  std::vector<Visit> stack;  // taken from the end
+  for (std::size_t i = all.size(); i-- > 0;) {
+    if (all[i].depth == 0) stack.push_back({{i}});
   }
-  while (!stack.empty()) {  // parents first; turned round at the end
-    const std::size_t i = stack.back();
+  const auto area = [&](std::size_t c) { return geometry::area(all[c].piece); };
+  while (!stack.empty()) {
+    const Visit v = stack.back();
     stack.pop_back();
-    order.push_back(i);
-    for (const std::size_t c : all[i].children) stack.push_back(c);
+    const auto& limbs = all[v.turn.ring].children;
+    if (v.now || v.turn.inwards) out.push_back(v.turn);
+    if (v.now) continue;
+    std::size_t largest = 0;
+    for (std::size_t k = 1; k < limbs.size(); ++k) {
+      if (area(limbs[k]) > (1.0 + kSameArea) * area(limbs[largest])) largest = k;
+    }
+    const Region islands = islands_of(all[v.turn.ring].piece);
+    std::vector<Visit> before, between, after;
+    for (std::size_t k = 0; k < limbs.size(); ++k) {
+      const std::size_t c = limbs[k];
+      const bool inwards = v.turn.inwards || (k != largest && from_outside(all[c]));
+      (!inwards                                                           ? before
+       : !v.turn.inwards && begins_within(near_mm, all[c].piece, islands) ? between
+                                                                          : after)
+          .push_back({{c, inwards}});
+    }
+    if (!v.turn.inwards) {
+      const std::size_t i = v.turn.ring;
+      if (between.empty()) {
+        before.push_back({{i}, true});
+      } else {
+        before.push_back({{i, false, Loops::kIslands}, true});
+        between.push_back({{i, false, Loops::kOutside}, true});
+      }
+    }
+    for (const auto* part : {&after, &between, &before})
+      stack.insert(stack.end(), part->rbegin(), part->rend());
   }
-  std::reverse(order.begin(), order.end());
-  return order;
+  return out;
 }
 
 Deepest deepest(const Region& piece) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "planner/ground/geometry/region.h"
@@ -25,8 +27,20 @@ struct Ring {
 /// simplified).
 [[nodiscard]] std::vector<Ring> rings(const geometry::Region& centres, double step_mm, double cover_mm);
 
-/// Order in which every ring comes after all rings inside it, sub-trees together.
-[[nodiscard]] std::vector<std::size_t> inside_out(const std::vector<Ring>& all);
+/// Loops of a ring, by what they go round.
+enum class Loops : std::uint8_t { kAll, kIslands, kOutside };
+/// A ring in its turn.
+struct Turn {
+  std::size_t ring = 0;
+  bool inwards = false;  ///< it comes after the ring around it, else after all inside it
+  Loops loops = Loops::kAll;
+};
+/// Every ring after all rings inside it, sub-trees together; but of the limbs into which a ring falls apart
+/// those that `from_outside` says come after it, from there inwards: where they begin within `near_mm` of its
+/// loops round islands, before its loop round the outside, which then meets less of the solid. The largest
+/// limb never comes after the ring around it.
+[[nodiscard]] std::vector<Turn> turns(const std::vector<Ring>& all, double near_mm,
+                                      const std::function<bool(const Ring& limb)>& from_outside);
 
 /// A point of the piece as far from its boundary as can be (to a percent), and that distance.
 struct Deepest {
