@@ -128,7 +128,7 @@ FENCES = {
     "Ipopt": (r"(coin(-or)?/)?Ip[A-Z]\w*\.(hpp|h)$", 1),
     "FLANN": (r"flann/", 1),
     "Clipper": (r"(polyclipping/)?clipper\.hpp$", 1),
-    "SQLite": (r"sqlite3(ext)?\.h$", 2),
+    "SQLite": (r"sqlite3(ext)?\.h$", 3),
     "libpqxx": (r"pqxx/|libpq-fe\.h$", 1),
     "CLI11": (r"CLI/", None),
     "nlohmann-json": (r"nlohmann/", None),
