@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "casebase/intake.h"
 #include "casebase/search.h"
 #include "casebase/store/log.h"
 
@@ -126,20 +127,19 @@ Result<CaseBase> CaseBase::open_or_create(const std::string& uri, Job& job) {
   return CaseBase(std::make_unique<Impl>(*std::move(log), job));
 }
 
+Result<CaseBase> Intake::read(Job& job) {
+  Result<Log> log = Log::open(std::move(store_), job);
+  if (!log) return fail(log.error());
+  return CaseBase(std::make_unique<CaseBase::Impl>(*std::move(log), job));
+}
+
 Status CaseBase::add(const Case& c) { return add(std::span(&c, 1)); }
 
 Status CaseBase::add(std::span<const Case> added) {
-  std::vector<Case> checked(added.begin(), added.end());
-  for (std::size_t i = 0; i < checked.size(); ++i) {
-    if (const auto wrong = fault_of(checked[i])) {
-      return fail(Diagnostic{.code = "CASE-INVALID",
-                             .message = "case " + std::to_string(i + 1) + " of " +
-                                        std::to_string(checked.size()) + " cannot be: " + *wrong});
-    }
-    checked[i].id = id_of(checked[i]);
-  }
-  if (checked.empty()) return {};
-  if (Status s = impl_->log.add(checked); !s) return s;
+  const Result<std::vector<Case>> checked = with_ids(added);
+  if (!checked) return fail(checked.error());
+  if (checked->empty()) return {};
+  if (Status s = impl_->log.add(*checked); !s) return s;
   impl_->forget();
   impl_->search.update();
   return {};

@@ -111,6 +111,7 @@ class CaseBase {
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 
  private:
+  friend class Intake;
   struct Impl;
   explicit CaseBase(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

@@ -7,9 +7,23 @@
 #include "casebase/record/encoding.h"
 
 namespace capstan::casebase {
-namespace {
 
-Head head_of_case(const Case& c, const std::string& categories, const std::string& body) {
+Result<std::vector<Case>> with_ids(std::span<const Case> cases) {
+  std::vector<Case> out(cases.begin(), cases.end());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (const auto wrong = fault_of(out[i])) {
+      return fail(
+          Diagnostic{.code = "CASE-INVALID",
+                     .message = fmt::format("case {} of {} cannot be: {}", i + 1, out.size(), *wrong)});
+    }
+    out[i].id = id_of(out[i]);
+  }
+  return out;
+}
+
+NewRow row_of_case(const Case& c, std::int64_t number) {
+  std::string body = encoded(c);
+  const std::string categories = categories_of(c.asked);
   Head head;
   head.kind = RowKind::kCase;
   head.id = *id_of_digits(c.id);
@@ -18,10 +32,8 @@ Head head_of_case(const Case& c, const std::string& categories, const std::strin
   head.origin = c.origin;
   head.categories = categories;
   head.key = key_of(c.asked);
-  return head;
+  return {number, bytes_of(head, number), std::move(body)};
 }
-
-}  // namespace
 
 Result<Log> Log::open(std::unique_ptr<Store> store, Job& job) {
   Log log(std::move(store));
@@ -92,6 +104,7 @@ std::optional<std::string> Log::take_in(std::int64_t number, const Head& head) {
     }
     return std::nullopt;
   }
+  if (find(head.id)) return std::nullopt;
   if (entries_.size() >= kMaxCases) return fmt::format("a case base holds at most {} cases", kMaxCases);
   auto known = category(head.categories);
   if (!known) {
@@ -107,6 +120,7 @@ std::optional<std::string> Log::take_in(std::int64_t number, const Head& head) {
                       .verdict = head.verdict,
                       .removed = false,
                       .key = head.key});
+  by_id_.add(entries_.size() - 1, [&](std::size_t i) { return entries_[i].id; });
   return std::nullopt;
 }
 
@@ -116,27 +130,31 @@ std::optional<std::uint32_t> Log::category(std::string_view categories) const {
   return found->second;
 }
 
-void Log::index() const {
-  by_id_.reserve(entries_.size());
-  for (; indexed_ < entries_.size(); ++indexed_)
-    by_id_.emplace(entries_[indexed_].id, static_cast<std::uint32_t>(indexed_));
+std::optional<std::uint32_t> Log::find(const Id& id) const {
+  return by_id_.find(id, [&](std::size_t i) { return entries_[i].id; });
 }
 
-std::optional<std::uint32_t> Log::find(const Id& id) const {
-  const std::lock_guard lock(shared_->indexing);
-  index();
-  const auto found = by_id_.find(id);
-  if (found == by_id_.end()) return std::nullopt;
-  return found->second;
+/// How many cases there are once this is appended.
+std::int64_t Log::live_with(const Store::Appended& more) const {
+  auto held = static_cast<std::int64_t>(live());
+  IdSet gone;
+  for (const NewRow& row : more.rows) {
+    if (case_id_in(row.head)) {
+      ++held;
+      continue;
+    }
+    const auto head = head_of(row.head, row.number);
+    if (!head || head->kind != RowKind::kRemoval) continue;
+    const auto entry = find(head->id);
+    if (!(entry && entries_[*entry].removed) && gone.insert(head->id).second) --held;
+  }
+  return held;
 }
 
 void Log::put(Store::Appended& to, Head head, std::string body) const {
   head.body = sum_of(body);
-  NewRow row;
-  row.number = totals_.rows + static_cast<std::int64_t>(to.rows.size()) + 1;
-  row.head = bytes_of(head, row.number);
-  row.body = std::move(body);
-  to.rows.push_back(std::move(row));
+  const std::int64_t number = totals_.rows + static_cast<std::int64_t>(to.rows.size()) + 1;
+  to.rows.push_back({number, bytes_of(head, number), std::move(body)});
 }
 
 /// Appends what `make` gives once the rows of others are taken in, and takes it in.
@@ -163,7 +181,7 @@ Status Log::append(const std::function<Status(Store::Appended&)>& make) {
         if (Status made = make(out); !made) return fail(made.error());
         Totals after = totals_;
         for (const NewRow& row : out.rows) after.count(row.head);
-        out.totals = bytes_of(after);
+        out.totals = bytes_of(after, live_with(out));
         mine = out.rows;
         return out;
       });
@@ -183,14 +201,11 @@ Status Log::room_for(const Store::Appended& more) const {
 
 Status Log::add(std::span<const Case> cases) {
   return append([&](Store::Appended& out) -> Status {
-    index();
-    std::unordered_map<Id, bool, HashId> mine;
+    IdSet mine;
     for (const Case& c : cases) {
       const Id id = *id_of_digits(c.id);
-      if (by_id_.contains(id) || !mine.emplace(id, true).second) continue;
-      std::string body = encoded(c);
-      const std::string categories = categories_of(c.asked);
-      put(out, head_of_case(c, categories, body), std::move(body));
+      if (find(id) || !mine.insert(id).second) continue;
+      out.rows.push_back(row_of_case(c, totals_.rows + static_cast<std::int64_t>(out.rows.size()) + 1));
     }
     return room_for(out);
   });
@@ -227,21 +242,20 @@ Status Log::add_metric(const Metric& metric) {
 Result<std::size_t> Log::adopt(std::span<const NewRow> rows) {
   std::size_t added = 0;
   const Status done = append([&](Store::Appended& out) -> Status {
-    index();
-    std::unordered_map<Id, bool, HashId> mine;
+    IdSet mine;
     for (const NewRow& row : rows) {
       const auto head = head_of(row.head, row.number);
       if (!head) throw std::logic_error("a row to be adopted was altered");
-      const auto known = by_id_.find(head->id);
+      const auto known = find(head->id);
       const auto same = [&](const Note& n) {
-        return known != by_id_.end() && n.entry == known->second && n.kind == head->kind &&
-               n.verdict == head->verdict && n.body == head->body;
+        return known && n.entry == *known && n.kind == head->kind && n.verdict == head->verdict &&
+               n.body == head->body;
       };
       if (head->kind == RowKind::kCase) {
-        if (known != by_id_.end() || !mine.emplace(head->id, false).second) continue;
+        if (known || !mine.insert(head->id).second) continue;
       } else if (head->kind == RowKind::kMetric) {
         if (metric_ && metric_->second == head->body) continue;
-      } else if (known == by_id_.end() && !mine.contains(head->id)) {
+      } else if (!known && !mine.contains(head->id)) {
         return fail(Diagnostic{.code = "CASE-UNKNOWN",
                                .message = fmt::format("what waits speaks of case {}, which is not there",
                                                       digits_of(head->id).substr(0, 12)),

@@ -12,6 +12,7 @@
 
 #include "casebase/key/metric.h"
 #include "casebase/record/case.h"
+#include "casebase/store/id_table.h"
 #include "casebase/store/row.h"
 #include "casebase/store/store.h"
 
@@ -43,7 +44,8 @@ struct Note {
 /// When a log is opened every head is read and its checksum, place and order are held against the totals. A
 /// body is read when the case is used; then its bytes are held against the checksum in the head, its id and
 /// limits are computed again, and the head is made of it again. So no altered number is ever given; a body
-/// that was altered is noticed when it is used, or by `verify`.
+/// that was altered is noticed when it is used, or by `verify`. A case that stands in two rows, as it may
+/// where a store's index of ids was damaged, counts once, as the first says.
 ///
 /// Threads   the const members may be called from many threads; the others from one, without readers at that
 /// time.
@@ -90,8 +92,7 @@ class Log {
 
  private:
   struct Shared {
-    std::mutex indexing;  // of `by_id_`
-    std::mutex mutex;     // of the store, and of what follows
+    std::mutex mutex;  // of the store, and of what follows
     std::vector<Diagnostic> faults;
     std::set<std::uint32_t> told;  // entries that `faults` speaks of
     bool damaged = false;
@@ -104,7 +105,7 @@ class Log {
   Status append(const std::function<Status(Store::Appended&)>& make);
   void put(Store::Appended& to, Head head, std::string body) const;
   [[nodiscard]] Status room_for(const Store::Appended& more) const;
-  void index() const;
+  [[nodiscard]] std::int64_t live_with(const Store::Appended& more) const;
   std::optional<Case> verified(const Entry& entry, std::string_view body, std::string& why) const;
 
   std::unique_ptr<Store> store_;
@@ -119,14 +120,14 @@ class Log {
   std::optional<std::pair<std::int64_t, Sum>> metric_;  // its row and body
   std::size_t removed_ = 0, refused_ = 0;
   Totals totals_;
-  // Entries by id; made when it is asked for first.
-  struct HashId {
-    std::size_t operator()(const Id& id) const { return static_cast<std::size_t>(id.low); }
-  };
-  mutable std::unordered_map<Id, std::uint32_t, HashId> by_id_;
-  mutable std::size_t indexed_ = 0;
+  IdTable by_id_;  // the entries
   std::unique_ptr<Shared> shared_;
 };
+
+/// The cases with their ids. Fails CASE-INVALID: one cannot be.
+[[nodiscard]] Result<std::vector<Case>> with_ids(std::span<const Case> cases);
+/// A case as the row of this number. Needs one without fault, with its id set.
+[[nodiscard]] NewRow row_of_case(const Case& c, std::int64_t number);
 
 /// Cases that a base holds at most. Default, unsourced: some 300 bytes of memory each.
 inline constexpr std::size_t kMaxCases = 4'000'000;

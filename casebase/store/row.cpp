@@ -15,6 +15,7 @@ namespace capstan::casebase {
 namespace {
 
 constexpr std::uint8_t kRowVersion = 2;
+constexpr std::uint8_t kStatedVersion = 3;  // of totals that state how many cases are held
 constexpr std::size_t kSumBytes = 8;
 constexpr std::uint64_t kTotalsSeed = 0x746f74616c73;  // "totals"
 
@@ -132,6 +133,18 @@ std::optional<Head> head_of(std::string_view bytes, std::int64_t number) {
   return head;
 }
 
+std::optional<std::string_view> case_id_in(std::string_view head) {
+  const bool is_case =
+      head.size() >= kIdAt + kIdBytes && head[kIdAt - 1] == static_cast<char>(RowKind::kCase);
+  return is_case ? std::optional(head.substr(kIdAt, kIdBytes)) : std::nullopt;
+}
+
+std::string id_bytes_of(const Id& id) {
+  std::string out;
+  put_sum(out, id);
+  return out;
+}
+
 std::string bytes_of(const Remark& remark) {
   std::string out;
   put(out, kRowVersion);
@@ -163,24 +176,32 @@ void Totals::count(std::string_view head) {
   chain = sum_of({link.data(), static_cast<std::size_t>(end - link.data())});
 }
 
-std::string bytes_of(const Totals& totals) {
+std::string bytes_of(const Totals& totals, std::optional<std::int64_t> held) {
   std::string out;
-  put(out, kRowVersion);
+  put(out, held ? kStatedVersion : kRowVersion);
   put(out, static_cast<std::uint64_t>(totals.rows));
   put_sum(out, totals.chain);
+  if (held) put(out, static_cast<std::uint64_t>(*held));
   return sealed(std::move(out), kTotalsSeed);
 }
 
-std::optional<Totals> totals_of(std::string_view bytes) {
+std::optional<Stated> stated_of(std::string_view bytes) {
   const auto text = opened(bytes, kTotalsSeed);
   if (!text) return std::nullopt;
   Bytes from(*text);
-  if (from.integer<std::uint8_t>() != kRowVersion) return std::nullopt;
-  Totals t;
-  t.rows = static_cast<std::int64_t>(from.integer<std::uint64_t>());
-  t.chain = get_sum(from);
+  const auto version = from.integer<std::uint8_t>();
+  if (version != kRowVersion && version != kStatedVersion) return std::nullopt;
+  Stated s;
+  s.totals.rows = static_cast<std::int64_t>(from.integer<std::uint64_t>());
+  s.totals.chain = get_sum(from);
+  if (version == kStatedVersion) s.held = static_cast<std::int64_t>(from.integer<std::uint64_t>());
   if (!from.good() || !from.at_end()) return std::nullopt;
-  return t;
+  return s;
+}
+
+std::optional<Totals> totals_of(std::string_view bytes) {
+  const auto stated = stated_of(bytes);
+  return stated ? std::optional(stated->totals) : std::nullopt;
 }
 
 }  // namespace capstan::casebase

@@ -46,6 +46,13 @@ struct Head {
 /// `bytes`.
 [[nodiscard]] std::optional<Head> head_of(std::string_view bytes, std::int64_t number);
 
+/// The bytes of the id in the head of a case, which an index of a store is made of; nothing in other rows'
+/// heads. They stand behind the version and the kind.
+inline constexpr std::size_t kIdAt = 2, kIdBytes = 16;
+[[nodiscard]] std::optional<std::string_view> case_id_in(std::string_view head);
+/// The same bytes of an id.
+[[nodiscard]] std::string id_bytes_of(const Id& id);
+
 /// The body of a judgement or a removal.
 [[nodiscard]] std::string bytes_of(const Remark& remark);
 [[nodiscard]] std::optional<Remark> remark_of(std::string_view bytes);
@@ -58,7 +65,14 @@ struct Totals {
   bool operator==(const Totals&) const = default;
   void count(std::string_view head);
 };
-[[nodiscard]] std::string bytes_of(const Totals& totals);
+/// The totals as a store keeps them. `held`: the cases that are not removed; nothing where who wrote them did
+/// not know. It proves nothing, and is right as long as nothing was altered.
+struct Stated {
+  Totals totals;
+  std::optional<std::int64_t> held;
+};
+[[nodiscard]] std::string bytes_of(const Totals& totals, std::optional<std::int64_t> held = std::nullopt);
+[[nodiscard]] std::optional<Stated> stated_of(std::string_view bytes);
 [[nodiscard]] std::optional<Totals> totals_of(std::string_view bytes);
 
 }  // namespace capstan::casebase

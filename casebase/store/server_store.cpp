@@ -56,6 +56,8 @@ class ServerStore final : public Store {
   Result<std::string> read(std::int64_t after, const TakeHead& take) override;
   Status bodies(std::span<const std::int64_t> numbers, const TakeBody& take) override;
   Status append(std::int64_t after, const TakeHead& take, const Decide& decide) override;
+  Result<bool> append_found(std::span<const std::string> ids, const TakeHead& take,
+                            const Decide& decide) override;
   std::vector<Diagnostic> take_told() override { return std::exchange(told_, {}); }
 
  private:
@@ -372,6 +374,34 @@ Status ServerStore::append(std::int64_t after, const TakeHead& take, const Decid
                           name_,
                           "the next call that reaches the server adds what waits in " + files_.outbox));
   return local_->append(after, take, decide);
+}
+
+Result<bool> ServerStore::append_found(std::span<const std::string> ids, const TakeHead& take,
+                                       const Decide& decide) {
+  if (!server_) return false;
+  std::vector<NewRow> fresh;
+  const Result<bool> done = server_->append_found(ids, take, [&](const std::string& stated) {
+    Result<Appended> out = decide(stated);
+    if (out) fresh = out->rows;
+    return out;
+  });
+  if (done) {
+    if (files_.copy.empty() || fresh.empty()) return done;
+    const std::int64_t after = fresh.front().number - 1;
+    tell(follow(after, std::move(fresh)));
+    return done;
+  }
+  if (done.error().code != "CASE-OFFLINE" || files_.copy.empty()) return done;
+  // Whether it is stored is unknown. The copy stands for the server from here on, as if it had been away
+  // already, and what waits in the outbox is known again there.
+  Result<LocalBase> local = open_local(files_, name_);
+  if (!local) return done;
+  server_.reset();
+  local_ = std::move(local->store);
+  told_.push_back(warning("CASE-OFFLINE", done.error().message + ": what is added waits for the server",
+                          name_,
+                          "the next call that reaches the server adds what waits in " + files_.outbox));
+  return false;
 }
 
 }  // namespace

@@ -7,155 +7,76 @@
 #include <optional>
 
 #include "casebase/store/row.h"
+#include "casebase/store/sqlite_file.h"
 #include "casebase/store/sqlite_tables.h"
 #include "casebase/store/store.h"
 #include "casebase/store/version_1.h"
 #include "planner/ground/base/file.h"
 
-// One file of SQLite: a table of heads, a table of bodies, a row of totals. It is opened defensively: the
-// schema has to be ours to the letter, with no other table, index, trigger or view.
+// One file of SQLite: a table of heads, a table of bodies, a row of totals, and the number of each case's row
+// by its id. It is opened defensively: the schema has to be ours to the letter, with no other table, index,
+// trigger or view.
 //
-// Rows are only appended, so that writing touches the right edge of two trees and the row of totals. Before
-// writing, that edge is read and held against what it should be, and the file must have the size and no free
-// page, as a file has that only grew: then nothing that is stored can be overwritten, however damaged the
-// rest of the file is. Where it is not so, the whole structure is checked first (PRAGMA integrity_check).
+// Rows are only appended, so that writing touches the right edge of two trees, the row of totals and the tree
+// of ids. Before writing, that edge is read and held against what it should be, and the file must have the
+// size and no free page, as a file has that only grew: then no row that is stored can be overwritten, however
+// damaged the rest of the file is. Where it is not so, the whole structure is checked first (PRAGMA
+// integrity_check). The tree of ids is the only one that is written in its middle. It is the only tree of its
+// kind as well (WITHOUT ROWID), and SQLite refuses a page of another kind in it (SQLITE_CORRUPT): a broken
+// branch of it can spoil ids, and no head or body. Nobody believes it: what it finds is held against the head
+// that it names, and a case that stands twice because it was not found is read once.
+//
+// Source: SQLite 3.40, "Database File Format", 1.6 (B-tree pages); moveToChild and balance_nonroot of
+// btree.c.
 
 namespace capstan::casebase {
 namespace {
 
-constexpr int kMaxValueBytes = 1 << 20;      // above what a body may hold: 2 series of 4096 samples, texts
 constexpr std::int64_t kLeastRowBytes = 64;  // a head takes more than this
 
-struct CloseDatabase {
-  void operator()(sqlite3* db) const { sqlite3_close_v2(db); }
-};
-struct Finalize {
-  void operator()(sqlite3_stmt* s) const { sqlite3_finalize(s); }
-};
-using Database = std::unique_ptr<sqlite3, CloseDatabase>;
-using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
-
-std::string_view bytes_at(sqlite3_stmt* s, int column) {
-  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(s, column));
-  const int size = sqlite3_column_bytes(s, column);
-  return bytes == nullptr ? std::string_view() : std::string_view(bytes, static_cast<std::size_t>(size));
-}
-
-class SqliteStore final : public Store {
+class SqliteStore final : public Store, private SqliteFile {
  public:
-  explicit SqliteStore(std::string path) : path_(std::move(path)) {}
+  explicit SqliteStore(std::string path) : SqliteFile(std::move(path)) {}
 
   Status connect(Missing missing, int busy_ms, Job& job);
 
-  std::string name() const override { return path_; }
+  std::string name() const override { return path(); }
   Result<std::string> read(std::int64_t after, const TakeHead& take) override;
   Status bodies(std::span<const std::int64_t> numbers, const TakeBody& take) override;
   Status append(std::int64_t after, const TakeHead& take, const Decide& decide) override;
+  Result<bool> append_found(std::span<const std::string> ids, const TakeHead& take,
+                            const Decide& decide) override;
 
  private:
-  std::string path_;
-  Database db_;
   /// The rows of a file of version 1, until something is added to it.
   std::optional<OldRows> old_;
-  bool checked_ = false;  // the structure, since the file was opened
 
-  Diagnostic fault(std::string code, std::string message, std::string hint = {}) const {
-    return {.code = std::move(code), .message = std::move(message), .file = path_, .hint = std::move(hint)};
-  }
-  Diagnostic sqlite_fault(std::string_view doing) const;
-  Status run(const std::string& sql, std::string_view doing);
-  Result<Statement> prepare(const std::string& sql, std::string_view doing);
-  Result<std::int64_t> integer(const std::string& sql);
-  void roll_back() { sqlite3_exec(db_.get(), "ROLLBACK", nullptr, nullptr, nullptr); }
-
-  Status harden(int busy_ms);
   Status make_tables();
   Status make_where_empty();
   Result<std::int64_t> version();
-  Status check_schema(std::span<const std::pair<std::string_view, std::string>> tables);
-  Status check_schema();
+  Result<std::int64_t> check_version();
   Result<OldTotals> old_totals();
   Result<OldRows> read_version_1(Job& job);
-  Status check_structure();
   Status check_edge(const Totals& totals);
   Result<std::string> totals();
   Status heads(std::int64_t after, const TakeHead& take);
+  Status found(std::span<const std::string> ids, const TakeHead& take);
   Status insert(const Appended& appended);
+  Status insert_ids(const std::vector<NewRow>& rows);
   Status migrate();
-  Status append_within(std::int64_t after, const TakeHead& take, const Decide& decide, bool& changed);
+  Status index_ids();
+  Status append_within(const std::function<Status()>& heads, const Decide& decide, bool& changed);
+  Status within_transaction(const std::function<Status(bool& changed)>& act);
 };
 
-/// What SQLite reports, in our codes.
-Diagnostic SqliteStore::sqlite_fault(std::string_view doing) const {
-  const int code = sqlite3_errcode(db_.get());
-  const std::string why = fmt::format("cannot {}: {}", doing, sqlite3_errmsg(db_.get()));
-  switch (code & 0xff) {
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      return fault("CASE-BUSY", why, "another program is writing to it; try again");
-    case SQLITE_NOTADB:
-      return fault("CASE-SCHEMA", "this is not a case base: " + why);
-    case SQLITE_CORRUPT:
-      return fault("CASE-DAMAGED", "its file is damaged or cut short: " + why,
-                   "restore the case base from a copy");
-    case SQLITE_TOOBIG:
-    case SQLITE_CONSTRAINT:
-    case SQLITE_ERROR:
-      return fault("CASE-DAMAGED", why, "restore the file from a copy");
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-      return fault("CASE-READ-ONLY", why);
-    case SQLITE_CANTOPEN:
-      return fault("CASE-OPEN", why);
-    default:
-      return fault("CASE-STORE", why);
-  }
-}
-
-Status SqliteStore::run(const std::string& sql, std::string_view doing) {
-  if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
-    return fail(sqlite_fault(doing));
-  return {};
-}
-
-Result<Statement> SqliteStore::prepare(const std::string& sql, std::string_view doing) {
-  sqlite3_stmt* s = nullptr;
-  if (sqlite3_prepare_v2(db_.get(), sql.c_str(), -1, &s, nullptr) != SQLITE_OK)
-    return fail(sqlite_fault(doing));
-  return Statement(s);
-}
-
-/// The one row and column of a query, as an integer.
-Result<std::int64_t> SqliteStore::integer(const std::string& sql) {
-  Result<Statement> s = prepare(sql, "read it");
-  if (!s) return fail(s.error());
-  if (sqlite3_step(s->get()) != SQLITE_ROW) return fail(sqlite_fault("read it"));
-  return sqlite3_column_int64(s->get(), 0);
-}
-
-Status SqliteStore::harden(int busy_ms) {
-  sqlite3_extended_result_codes(db_.get(), 1);
-  for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
-                                   {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
-                                   {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
-                                   {SQLITE_DBCONFIG_ENABLE_VIEW, 0},
-                                   {SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0}}) {
-    if (sqlite3_db_config(db_.get(), option, on, nullptr) != SQLITE_OK)
-      return fail(sqlite_fault("protect it"));
-  }
-  sqlite3_limit(db_.get(), SQLITE_LIMIT_LENGTH, kMaxValueBytes);
-  sqlite3_limit(db_.get(), SQLITE_LIMIT_ATTACHED, 0);
-  sqlite3_busy_timeout(db_.get(), busy_ms);
-  return run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA synchronous = FULL", "open it");
-}
-
 Status SqliteStore::make_tables() {
-  if (Status made = run(fmt::format("{}; {}; {}", kHeadTable, kBodyTable, kTotalTable), "make the case base");
+  if (Status made = run(fmt::format("{}; {}; {}; {}", kHeadTable, kBodyTable, kIdTable, kTotalTable),
+                        "make the case base");
       !made)
     return made;
   Result<Statement> s = prepare("INSERT INTO capstan_total VALUES(1, ?)", "make the case base");
   if (!s) return fail(s.error());
-  const std::string none = bytes_of(Totals{});
+  const std::string none = bytes_of(Totals{}, 0);
   sqlite3_bind_blob(s->get(), 1, none.data(), static_cast<int>(none.size()), SQLITE_STATIC);
   if (sqlite3_step(s->get()) != SQLITE_DONE) return fail(sqlite_fault("make the case base"));
   return run(
@@ -182,22 +103,14 @@ Status SqliteStore::make_where_empty() {
 Status SqliteStore::connect(Missing missing, int busy_ms, Job& job) {
   std::error_code ignored;
   const std::filesystem::path absolute =
-      std::filesystem::absolute(path_, ignored);  // never a URI, ":memory:"
+      std::filesystem::absolute(path(), ignored);  // never a URI, ":memory:"
   const bool there = std::filesystem::exists(absolute, ignored);
   if (!there && missing == Missing::kRefuse)
     return fail(fault("CASE-OPEN", "there is no such case base", "`cases add` makes one"));
   if (there && !std::filesystem::is_regular_file(absolute, ignored))
     return fail(fault("CASE-OPEN", "this is not a file"));
-  const int flags =
-      SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX | (missing == Missing::kCreate ? SQLITE_OPEN_CREATE : 0);
-  sqlite3* raw = nullptr;
-  const int code =
-      sqlite3_open_v2(absolute.c_str(), &raw, flags, nullptr);  // falls back to reading by itself
-  db_.reset(raw);
-  if (code != SQLITE_OK)
-    return fail(fault("CASE-OPEN", fmt::format("cannot open it: {}", sqlite3_errstr(code))));
-  if (Status s = harden(busy_ms); !s) return s;
-  if (missing == Missing::kCreate && sqlite3_db_readonly(db_.get(), "main") == 0) {
+  if (Status s = open(missing == Missing::kCreate, busy_ms); !s) return s;
+  if (missing == Missing::kCreate && !read_only()) {
     const Result<std::int64_t> tables = integer("SELECT count(*) FROM sqlite_schema");
     if (!tables) return fail(tables.error());
     if (*tables == 0) {
@@ -230,33 +143,15 @@ Result<std::int64_t> SqliteStore::version() {
   return of;
 }
 
-/// Whether the schema is these tables, by name, to the letter and nothing else.
-Status SqliteStore::check_schema(std::span<const std::pair<std::string_view, std::string>> tables) {
-  Result<Statement> s = prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY name", "read its schema");
-  if (!s) return fail(s.error());
-  std::size_t found = 0;
-  int code = SQLITE_ROW;
-  while ((code = sqlite3_step(s->get())) == SQLITE_ROW) {
-    const std::string name(bytes_at(s->get(), 1));
-    const auto ours =
-        std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
-    if (bytes_at(s->get(), 0) != "table" || ours == tables.end() || bytes_at(s->get(), 2) != ours->second) {
-      return fail(fault("CASE-SCHEMA", fmt::format("the {} '{}' is not one of a case base",
-                                                   bytes_at(s->get(), 0).substr(0, 20), name.substr(0, 60))));
-    }
-    ++found;
-  }
-  if (code != SQLITE_DONE) return fail(sqlite_fault("read its schema"));
-  if (found != tables.size()) return fail(fault("CASE-SCHEMA", "a table of the case base is missing"));
-  return {};
-}
-
-Status SqliteStore::check_schema() {
+/// The version, of a file whose tables are those of version 2 or 3.
+Result<std::int64_t> SqliteStore::check_version() {
   const Result<std::int64_t> of = version();
-  if (!of) return fail(of.error());
-  if (*of != kSchemaVersion)
-    return fail(fault("CASE-SCHEMA", "it changed its version meanwhile", "open it again"));
-  return check_schema(sqlite_tables());
+  if (!of) return of;
+  if (*of == 1) return fail(fault("CASE-SCHEMA", "it changed its version meanwhile", "open it again"));
+  const auto tables = sqlite_tables();
+  const Status ours = *of == kSchemaVersion ? check_schema(tables) : check_schema(tables_of_version_2());
+  if (!ours) return fail(ours.error());
+  return of;
 }
 
 Result<OldTotals> SqliteStore::old_totals() {
@@ -280,7 +175,7 @@ Result<OldRows> SqliteStore::read_version_1(Job& job) {
   if (!stated || !pages || !page)
     return fail(!stated ? stated.error() : !pages ? pages.error() : page.error());
   const auto room = static_cast<std::size_t>(*pages * *page / kLeastRowBytes);
-  OldReader reader(path_, *std::move(stated));
+  OldReader reader(path(), *std::move(stated));
   Result<Statement> s = prepare(old_select(), "read its cases");
   if (!s) return fail(s.error());
   std::vector<OldCell> cells(static_cast<std::size_t>(sqlite3_column_count(s->get())));
@@ -340,7 +235,8 @@ Result<std::string> SqliteStore::read(std::int64_t after, const TakeHead& take) 
     return bytes_of(old_->totals);
   }
   if (Status s = run("BEGIN", "read it"); !s) return fail(s.error());
-  Status done = check_schema();
+  const Result<std::int64_t> of = check_version();
+  Status done = of ? Status() : fail(of.error());
   Result<std::string> stated = done ? totals() : Result<std::string>(fail(done.error()));
   if (stated) done = heads(after, take);
   roll_back();  // nothing was written
@@ -370,26 +266,13 @@ Status SqliteStore::bodies(std::span<const std::int64_t> numbers, const TakeBody
   return {};
 }
 
-Status SqliteStore::check_structure() {
-  if (checked_) return {};
-  Result<Statement> s = prepare("PRAGMA integrity_check(1)", "check it");
-  if (!s) return fail(s.error());
-  if (sqlite3_step(s->get()) != SQLITE_ROW) return fail(sqlite_fault("check it"));
-  if (const std::string says(bytes_at(s->get(), 0)); says != "ok") {
-    return fail(fault("CASE-DAMAGED", "nothing is added, for its structure is broken: " + says.substr(0, 200),
-                      "restore it from a copy, or export its cases into a new one"));
-  }
-  checked_ = true;
-  return {};
-}
-
 /// Whether the edge at which rows are appended is what it should be; else the whole structure is checked.
 Status SqliteStore::check_edge(const Totals& totals) {
   const Result<std::int64_t> free = integer("PRAGMA freelist_count"), pages = integer("PRAGMA page_count"),
                              size = integer("PRAGMA page_size");
   if (!free || !pages || !size) return fail(sqlite_fault("check it"));
   std::error_code unknown;
-  const auto bytes = std::filesystem::file_size(std::filesystem::absolute(path_), unknown);
+  const auto bytes = std::filesystem::file_size(std::filesystem::absolute(path()), unknown);
   if (*free != 0 || unknown || bytes != static_cast<std::uintmax_t>(*pages * *size)) {
     if (Status s = check_structure(); !s) return s;
   }
@@ -427,12 +310,63 @@ Status SqliteStore::insert(const Appended& appended) {
       if (!put(*s, 2, *bytes)) return fail(sqlite_fault("add a case"));
     }
   }
-  if (!put(*total, 1, appended.totals) || sqlite3_changes(db_.get()) != 1)
-    return fail(sqlite_fault("add a case"));
+  if (!put(*total, 1, appended.totals) || changes() != 1) return fail(sqlite_fault("add a case"));
+  return insert_ids(appended.rows);
+}
+
+/// By id: many that come together are written page by page.
+Status SqliteStore::insert_ids(const std::vector<NewRow>& rows) {
+  std::vector<std::pair<std::string_view, std::int64_t>> ids;
+  for (const NewRow& row : rows) {
+    if (const auto id = case_id_in(row.head)) ids.emplace_back(*id, row.number);
+  }
+  if (ids.empty()) return {};
+  std::sort(ids.begin(), ids.end());
+  Result<Statement> s = prepare("INSERT OR IGNORE INTO capstan_id VALUES(?, ?)", "add a case");
+  if (!s) return fail(s.error());
+  for (const auto& [id, number] : ids) {
+    sqlite3_bind_blob(s->get(), 1, id.data(), static_cast<int>(id.size()), SQLITE_STATIC);
+    sqlite3_bind_int64(s->get(), 2, number);
+    if (sqlite3_step(s->get()) != SQLITE_DONE) return fail(sqlite_fault("add a case"));
+    sqlite3_reset(s->get());
+  }
   return {};
 }
 
-/// Turns a file of version 1 into one of version 2: its rows as they were read, in the same order. Another
+/// Turns a file of version 2, whose heads were read and verified, into one of version 3.
+Status SqliteStore::index_ids() {
+  if (Status s = check_structure(); !s) return s;
+  return run(
+      fmt::format("{}; INSERT OR IGNORE INTO capstan_id SELECT substr(head, {}, {}), number FROM "
+                  "capstan_head WHERE substr(head, {}, 1) = x'{:02x}' ORDER BY 1, 2; "
+                  "PRAGMA user_version = {}",
+                  kIdTable, kIdAt + 1, kIdBytes, kIdAt, static_cast<int>(RowKind::kCase), kSchemaVersion),
+      "turn it into version 3");
+}
+
+/// The heads of the rows that have these ids, and of the last row.
+Status SqliteStore::found(std::span<const std::string> ids, const TakeHead& take) {
+  Result<Statement> by_id = prepare(
+      "SELECT capstan_id.number, head FROM capstan_id LEFT JOIN capstan_head USING(number) WHERE id = ?",
+      "read its cases");
+  Result<Statement> last =
+      prepare("SELECT number, head FROM capstan_head ORDER BY number DESC LIMIT 1", "read its cases");
+  if (!by_id || !last) return fail(sqlite_fault("read its cases"));
+  const auto given = [&](sqlite3_stmt* s) -> Status {
+    const int code = sqlite3_step(s);
+    if (code != SQLITE_ROW && code != SQLITE_DONE) return fail(sqlite_fault("read its cases"));
+    Status taken = code == SQLITE_ROW ? take(sqlite3_column_int64(s, 0), bytes_at(s, 1)) : Status();
+    sqlite3_reset(s);
+    return taken;
+  };
+  for (const std::string& id : ids) {
+    sqlite3_bind_blob(by_id->get(), 1, id.data(), static_cast<int>(id.size()), SQLITE_STATIC);
+    if (Status s = given(by_id->get()); !s) return s;
+  }
+  return given(last->get());
+}
+
+/// Turns a file of version 1 into one of version 3: its rows as they were read, in the same order. Another
 /// program may have done the same meanwhile, with the same rows.
 Status SqliteStore::migrate() {
   const Result<std::int64_t> of = version();
@@ -448,44 +382,67 @@ Status SqliteStore::migrate() {
   if (*stated != old_->stated)
     return fail(
         fault("CASE-BUSY", "another program of an older version added to it meanwhile", "open it again"));
-  if (Status s = run("DROP TABLE capstan_case; DROP TABLE capstan_total", "turn it into version 2"); !s)
+  if (Status s = run("DROP TABLE capstan_case; DROP TABLE capstan_total", "turn it into version 3"); !s)
     return s;
   if (Status s = make_tables(); !s) return s;
   return insert({old_->rows, bytes_of(old_->totals)});
 }
 
-Status SqliteStore::append_within(std::int64_t after, const TakeHead& take, const Decide& decide,
-                                  bool& changed) {
+Status SqliteStore::append_within(const std::function<Status()>& heads, const Decide& decide, bool& changed) {
   if (old_) {
     if (Status s = migrate(); !s) return s;
     changed = true;
   }
-  if (Status s = check_schema(); !s) return s;
+  const Result<std::int64_t> of = check_version();
+  if (!of) return fail(of.error());
   const Result<std::string> stated = totals();
   if (!stated) return fail(stated.error());
-  if (Status s = heads(after, take); !s) return s;
+  if (Status s = heads(); !s) return s;
   const Result<Appended> appended = decide(*stated);
   if (!appended) return fail(appended.error());
   if (appended->rows.empty()) return {};
   changed = true;
   if (Status s = check_edge(totals_of(*stated).value_or(Totals{-1, {}})); !s) return s;
+  if (*of != kSchemaVersion) {
+    if (Status s = index_ids(); !s) return s;
+  }
   return insert(*appended);
 }
 
-Status SqliteStore::append(std::int64_t after, const TakeHead& take, const Decide& decide) {
-  if (sqlite3_db_readonly(db_.get(), "main") != 0)
-    return fail(fault("CASE-READ-ONLY", "the case base may only be read"));
+/// Writes what `act` changed, or nothing where it fails.
+Status SqliteStore::within_transaction(const std::function<Status(bool& changed)>& act) {
+  if (read_only()) return fail(fault("CASE-READ-ONLY", "the case base may only be read"));
   if (Status s = run("BEGIN IMMEDIATE", "add a case"); !s) return s;
   bool changed = false;
-  Status added = append_within(after, take, decide, changed);
+  Status added = act(changed);
   if (added && changed) added = run("COMMIT", "store what was added");
   if (!added || !changed) roll_back();
+  return added;
+}
+
+Status SqliteStore::append(std::int64_t after, const TakeHead& take, const Decide& decide) {
+  Status added = within_transaction(
+      [&](bool& changed) { return append_within([&] { return heads(after, take); }, decide, changed); });
   if (added && old_) {
     old_.reset();
     // The room of the old tables; where this fails the file is merely larger.
     (void)run("VACUUM", "make it smaller");
   }
   return added;
+}
+
+Result<bool> SqliteStore::append_found(std::span<const std::string> ids, const TakeHead& take,
+                                       const Decide& decide) {
+  if (old_) return false;
+  bool indexed = false;
+  const Status added = within_transaction([&](bool& changed) -> Status {
+    const Result<std::int64_t> of = version();
+    if (!of) return fail(of.error());
+    indexed = *of == kSchemaVersion;
+    return indexed ? append_within([&] { return found(ids, take); }, decide, changed) : Status();
+  });
+  if (!added) return fail(added.error());
+  return indexed;
 }
 
 }  // namespace

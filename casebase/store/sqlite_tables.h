@@ -10,7 +10,7 @@
 namespace capstan::casebase {
 
 inline constexpr int kApplicationId = 0x43415053;  // "CAPS"
-inline constexpr int kSchemaVersion = 2;
+inline constexpr int kSchemaVersion = 3;
 inline constexpr const char* kHeadTable =
     "CREATE TABLE capstan_head(number INTEGER PRIMARY KEY, head BLOB NOT NULL) STRICT";
 inline constexpr const char* kBodyTable =
@@ -18,8 +18,19 @@ inline constexpr const char* kBodyTable =
 inline constexpr const char* kTotalTable =
     "CREATE TABLE capstan_total(one INTEGER PRIMARY KEY CHECK(one = 1), totals BLOB NOT NULL) STRICT";
 
+/// The number of the row of each case.
+inline constexpr const char* kIdTable =
+    "CREATE TABLE capstan_id(id BLOB PRIMARY KEY, number INTEGER NOT NULL) STRICT, WITHOUT ROWID";
+
 /// Each table: its name, and the text that makes it.
-[[nodiscard]] inline std::array<std::pair<std::string_view, std::string>, 3> sqlite_tables() {
+[[nodiscard]] inline std::array<std::pair<std::string_view, std::string>, 4> sqlite_tables() {
+  return {{{"capstan_head", kHeadTable},
+           {"capstan_body", kBodyTable},
+           {"capstan_total", kTotalTable},
+           {"capstan_id", kIdTable}}};
+}
+/// Version 2 had all but that of the ids.
+[[nodiscard]] inline std::array<std::pair<std::string_view, std::string>, 3> tables_of_version_2() {
   return {{{"capstan_head", kHeadTable}, {"capstan_body", kBodyTable}, {"capstan_total", kTotalTable}}};
 }
 

@@ -62,6 +62,14 @@ class Store {
   /// and appends it. When it returns well, all of it is stored for good; when it fails, nothing is, but where
   /// the connection was lost the outcome is unknown, and the same call may be made again.
   [[nodiscard]] virtual Status append(std::int64_t after, const TakeHead& take, const Decide& decide) = 0;
+  /// Whether the store has an index of the cases by id, so that it could do as `append` does without giving
+  /// the rows behind any: it gave those that these ids (`id_bytes_of`) have and the last one, in any order,
+  /// and a row that the index speaks of and that is gone with an empty head. False: it has none, and nothing
+  /// was asked or appended.
+  [[nodiscard]] virtual Result<bool> append_found(std::span<const std::string> /*ids*/,
+                                                  const TakeHead& /*take*/, const Decide& /*decide*/) {
+    return false;
+  }
   /// What happened since this was asked last that is no fault of a call: a copy that is not up to date, a
   /// server that went away.
   [[nodiscard]] virtual std::vector<Diagnostic> take_told() { return {}; }
@@ -72,7 +80,8 @@ class Store {
 /// missing or cannot be opened.
 [[nodiscard]] Result<std::unique_ptr<Store>> open_store(const std::string& uri, Missing missing, Job& job);
 
-/// One file of SQLite. Reads files of version 1, too, and turns one into version 2 when it first adds to it.
+/// One file of SQLite. Reads files of versions 1 and 2, too, and turns one into version 3 when it first adds
+/// to it.
 /// `busy_ms`: how long it waits for another writer.
 inline constexpr int kBusyMs = 5000;
 [[nodiscard]] Result<std::unique_ptr<Store>> open_sqlite(const std::string& path, Missing missing, Job& job,

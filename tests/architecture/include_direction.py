@@ -42,7 +42,7 @@ FOLDERS = {
     **{f"{folder}/{name}": name for folder, rooms in reversed(TOOLING.items()) for name in rooms.split()},
     **{f"planner/{floor}/{name}": name for floor, rooms in FLOORS.items() for name in rooms.split()},
     "planner/controls/gcode": "gcode", "planner/controls": "controls",
-    "rules": "rules", "casebase/retain": "retain", "casebase": "casebase", "include/capstan": "public",
+    "rules": "rules", "casebase/retain": "retain", "casebase/tune": "tune", "casebase": "casebase", "include/capstan": "public",
 }
 
 # The rooms of the door; each may include only what its row says.
@@ -72,7 +72,7 @@ ALLOWED = {
     "from_cad": MODEL + " brep recognise",
     "json": MODEL + " motion",
     "mechanics": MODEL, "motion": MODEL, "stock": MODEL, "engagement": MODEL + " stock",
-    "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase",
+    "rules": MODEL, "casebase": MODEL, "retain": MODEL + " casebase", "tune": MODEL + " casebase",
     "shop": MODEL + " mechanics",
     "catalogue": MODEL + " shop", "formats": MODEL + " p21 shop catalogue",
     "library": MODEL + " shop formats catalogue",
@@ -81,7 +81,7 @@ ALLOWED = {
     "piece": MODEL + " mechanics shop rules sequence draft",
     "workholding": MODEL + " shop draft toolpath",
     "probing": MODEL + " catalogue draft piece step",
-    "step": MODEL + " toolpaths casebase catalogue selection mechanics motion stock engagement toolpath optimise"
+    "step": MODEL + " toolpaths casebase tune catalogue selection mechanics motion stock engagement toolpath optimise"
     " draft piece workholding",
     "propose": MODEL + " rules casebase catalogue selection optimise draft piece step",
     "given": MODEL + " mechanics motion rules shop catalogue selection draft piece step",
@@ -110,7 +110,7 @@ ALLOWED = {
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
-    "app": MODEL + " brep recognise service transport motion mechanics optimise json rules casebase retain controls shop catalogue library formats",
+    "app": MODEL + " brep recognise service transport motion mechanics optimise json rules casebase retain tune controls shop catalogue library formats",
     "public": "",
 }
 ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}
@@ -128,7 +128,7 @@ FENCES = {
     "Ipopt": (r"(coin(-or)?/)?Ip[A-Z]\w*\.(hpp|h)$", 1),
     "FLANN": (r"flann/", 1),
     "Clipper": (r"(polyclipping/)?clipper\.hpp$", 1),
-    "SQLite": (r"sqlite3(ext)?\.h$", 2),
+    "SQLite": (r"sqlite3(ext)?\.h$", 3),
     "libpqxx": (r"pqxx/|libpq-fe\.h$", 1),
     "CLI11": (r"CLI/", None),
     "nlohmann-json": (r"nlohmann/", None),

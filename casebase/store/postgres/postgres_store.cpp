@@ -11,10 +11,11 @@
 #include "casebase/store/postgres/postgres_library.h"
 #include "casebase/store/row.h"
 
-// One schema of a PostgreSQL database: a table of heads, a table of bodies, a row of totals, as in a file of
-// SQLite. The schema's comment states its version. It has to be ours by the catalogue: the same columns and
-// constraints, and no trigger, rule, policy, function or further table. Every transaction sets its own search
-// path, so that nothing of the database stands for a name of ours.
+// One schema of a PostgreSQL database: a table of heads, a table of bodies, a row of totals, and since
+// version 2 the row of each case by its id, as in a file of SQLite. The schema's comment states its version.
+// It has to be ours by the catalogue: the same columns and constraints, and no trigger, rule, policy,
+// function or further table. Every transaction sets its own search path, so that nothing of the database
+// stands for a name of ours.
 //
 // A writer locks the totals against other writers (EXCLUSIVE; readers go on), reads what was appended
 // meanwhile, and commits with at least the server's local disk written. Readers see one snapshot.
@@ -25,7 +26,7 @@
 namespace capstan::casebase {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 2: the index of ids
 constexpr std::string_view kComment = "Capstan case base, version ";
 constexpr std::int64_t kLockKey = 0x43415053;  // "CAPS": makers of the tables wait for each other
 constexpr std::size_t kHeadBytes = 1 << 14;  // above what a head may hold: four texts of 80 letters, numbers
@@ -35,12 +36,16 @@ constexpr std::size_t kBodyPage = 256;       // the same of bodies
 constexpr std::size_t kInsertBytes = 4 << 20;  // of a statement, about
 constexpr const char* kWaitS = "5";            // for a server that does not answer. Default, unsourced
 
-/// What makes version n + 1 of version n.
-constexpr std::array<const char*, kVersion> kSteps = {
+/// What makes version n + 1 of version n; where there are rows, with the totals locked.
+const std::array<std::string, kVersion> kSteps = {
     "CREATE SCHEMA capstan;"
     "CREATE TABLE capstan.head(number bigint PRIMARY KEY, head bytea NOT NULL);"
     "CREATE TABLE capstan.body(number bigint PRIMARY KEY, body bytea NOT NULL);"
-    "CREATE TABLE capstan.total(one integer PRIMARY KEY CHECK(one = 1), totals bytea NOT NULL)"};
+    "CREATE TABLE capstan.total(one integer PRIMARY KEY CHECK(one = 1), totals bytea NOT NULL)",
+    fmt::format("CREATE TABLE capstan.id(id bytea PRIMARY KEY, number bigint NOT NULL);"
+                "INSERT INTO capstan.id SELECT substr(head, {0}, {1}), min(number) FROM capstan.head "
+                "WHERE length(head) >= {2} AND get_byte(head, {3}) = {4} GROUP BY 1",
+                kIdAt + 1, kIdBytes, kIdAt + kIdBytes, kIdAt - 1, static_cast<int>(RowKind::kCase))};
 
 /// Whatever stands in the schema, as one text.
 constexpr const char* kCatalogue = R"(
@@ -58,22 +63,43 @@ SELECT coalesce(string_agg(what, E'\n' ORDER BY what COLLATE "C"), '') FROM (
   UNION ALL SELECT concat_ws(' ', 'function', proname) FROM pg_proc JOIN pg_namespace n ON pronamespace = n.oid
     WHERE nspname = 'capstan') AS all_of_it(what))";
 
+/// What stands in it when it is ours, a line each; those of the index of ids are not in version 1.
 constexpr const char* kOurs = R"(column body 1 number bigint t f
 column body 2 body bytea t f
 column head 1 number bigint t f
 column head 2 head bytea t f
+column id 1 id bytea t f
+column id 2 number bigint t f
 column total 1 one integer t f
 column total 2 totals bytea t f
 constraint body PRIMARY KEY (number)
 constraint head PRIMARY KEY (number)
+constraint id PRIMARY KEY (id)
 constraint total CHECK ((one = 1))
 constraint total PRIMARY KEY (one)
 relation i body_pkey p f f
 relation i head_pkey p f f
+relation i id_pkey p f f
 relation i total_pkey p f f
 relation r body p f f
 relation r head p f f
-relation r total p f f)";
+relation r id p f f
+relation r total p f f
+)";
+
+std::string ours_of(int version) {
+  std::string out;
+  std::string_view left = kOurs;
+  while (!left.empty()) {
+    const std::string_view line = left.substr(0, left.find('\n') + 1);
+    left.remove_prefix(line.size());
+    const bool of_ids =
+        line.find(" id ") != std::string_view::npos || line.find(" id_pkey ") != std::string_view::npos;
+    if (version > 1 || !of_ids) out += line;
+  }
+  out.pop_back();  // the last line's end
+  return out;
+}
 
 using Reading = pqxx::transaction<pqxx::repeatable_read, pqxx::read_only>;
 using Writing = pqxx::transaction<pqxx::read_committed, pqxx::read_write>;
@@ -134,6 +160,8 @@ class PostgresStore final : public Store {
   Result<std::string> read(std::int64_t after, const TakeHead& take) override;
   Status bodies(std::span<const std::int64_t> numbers, const TakeBody& take) override;
   Status append(std::int64_t after, const TakeHead& take, const Decide& decide) override;
+  Result<bool> append_found(std::span<const std::string> ids, const TakeHead& take,
+                            const Decide& decide) override;
 
  private:
   std::string uri_, name_;
@@ -148,14 +176,18 @@ class PostgresStore final : public Store {
   Diagnostic sql_fault(std::string_view doing, const pqxx::sql_error& e) const;
   template <class Do>
   Status guarded(std::string_view doing, const Do& act);
+  /// Gives what the decision is made by; false: nothing is to be appended.
+  using ReadHeads = std::function<Result<bool>(pqxx::transaction_base& t, int version)>;
+  Status append_within(const ReadHeads& read, const Decide& decide);
 
   static void set_up(pqxx::transaction_base& t);
   Result<int> version(pqxx::transaction_base& t) const;
-  Status check(pqxx::transaction_base& t) const;
+  Result<int> check(pqxx::transaction_base& t) const;
   Status make();
   static std::string totals(pqxx::transaction_base& t);
   static Status heads(pqxx::transaction_base& t, std::int64_t after, const TakeHead& take);
-  static void insert(pqxx::transaction_base& t, const Appended& appended);
+  static Status found(pqxx::transaction_base& t, std::span<const std::string> ids, const TakeHead& take);
+  static void insert(pqxx::transaction_base& t, const Appended& appended, int version);
 };
 
 /// The first line of what the library says, without any secret.
@@ -229,14 +261,14 @@ Result<int> PostgresStore::version(pqxx::transaction_base& t) const {
   return of;
 }
 
-Status PostgresStore::check(pqxx::transaction_base& t) const {
+/// The version.
+Result<int> PostgresStore::check(pqxx::transaction_base& t) const {
   const Result<int> of = version(t);
-  if (!of) return fail(of.error());
+  if (!of) return of;
   if (*of == 0) return fail(fault("CASE-OPEN", "there is no case base", "`cases add` makes one"));
-  const std::string there = t.exec1(kCatalogue)[0].c_str();
-  if (there == kOurs) return {};
+  const std::string there = t.exec1(kCatalogue)[0].c_str(), ours = ours_of(*of);
+  if (there == ours) return of;
   // The first line that the one has and the other has not.
-  const std::string_view ours = kOurs;
   const auto at = static_cast<std::size_t>(
       std::mismatch(there.begin(), there.end(), ours.begin(), ours.end()).first - there.begin());
   const std::size_t from = at == 0 ? 0 : there.rfind('\n', at - 1) + 1;
@@ -254,10 +286,11 @@ Status PostgresStore::make() {
     const Result<int> of = version(t);
     if (!of) return fail(of.error());
     if (*of == kVersion) return {};
+    if (*of > 0) t.exec("LOCK TABLE capstan.total IN EXCLUSIVE MODE");
     for (auto step = static_cast<std::size_t>(*of); step < kSteps.size(); ++step) t.exec(kSteps[step]);
     t.exec(fmt::format("COMMENT ON SCHEMA capstan IS '{}{}'", kComment, kVersion));
     if (*of == 0)
-      t.exec("INSERT INTO capstan.total VALUES(1, decode('" + hex(bytes_of(Totals{})) + "', 'hex'))");
+      t.exec("INSERT INTO capstan.total VALUES(1, decode('" + hex(bytes_of(Totals{}, 0)) + "', 'hex'))");
     t.commit();
     return {};
   });
@@ -282,7 +315,8 @@ Status PostgresStore::connect(Missing missing, Job& job) {
     Reading t(*connection_);
     set_up(t);
     lasting = std::string_view(t.exec1("SHOW fsync")[0].c_str()) != "off";
-    return check(t);
+    const Result<int> of = check(t);
+    return of ? Status() : fail(of.error());
   });
   if (checked && !lasting) {
     job.report(
@@ -320,7 +354,7 @@ Result<std::string> PostgresStore::read(std::int64_t after, const TakeHead& take
   const Status done = guarded("read its cases", [&]() -> Status {
     Reading t(*connection_);
     set_up(t);
-    if (Status s = check(t); !s) return s;
+    if (const Result<int> of = check(t); !of) return fail(of.error());
     stated = totals(t);
     return heads(t, after, take);
   });
@@ -346,8 +380,25 @@ Status PostgresStore::bodies(std::span<const std::int64_t> numbers, const TakeBo
   });
 }
 
-void PostgresStore::insert(pqxx::transaction_base& t, const Appended& appended) {
-  std::string numbers, heads, bodies;
+/// The heads of the rows that have these ids, and of the last row.
+Status PostgresStore::found(pqxx::transaction_base& t, std::span<const std::string> ids,
+                            const TakeHead& take) {
+  std::string asked;
+  for (const std::string& id : ids) add_to(asked, '"' + hex(id) + '"');
+  const std::string head = fmt::format("encode(substr(head, 1, {}), 'hex')", kHeadBytes + 1);
+  const pqxx::result r = t.exec(
+      fmt::format("SELECT i.number, coalesce({0}, '') FROM unnest('{1}}}'::text[]) AS asked(d) "
+                  "JOIN capstan.id AS i ON i.id = decode(d, 'hex') LEFT JOIN capstan.head USING(number) "
+                  "UNION ALL (SELECT number, {0} FROM capstan.head ORDER BY number DESC LIMIT 1)",
+                  head, asked.empty() ? "{" : asked));
+  for (const pqxx::row& row : r) {
+    if (Status taken = take(row[0].as<std::int64_t>(), unhex(row[1])); !taken) return taken;
+  }
+  return {};
+}
+
+void PostgresStore::insert(pqxx::transaction_base& t, const Appended& appended, int version) {
+  std::string numbers, heads, bodies, ids, cases;
   const auto put = [&] {
     if (numbers.empty()) return;
     for (const auto& [table, values] : {std::pair{"head", &heads}, {"body", &bodies}}) {
@@ -356,6 +407,14 @@ void PostgresStore::insert(pqxx::transaction_base& t, const Appended& appended) 
                       "'{}}}'::text[]) AS new(n, b)",
                       table, numbers, *values));
     }
+    if (!ids.empty()) {
+      t.exec(
+          fmt::format("INSERT INTO capstan.id SELECT decode(d, 'hex'), n FROM unnest('{}}}'::text[], "
+                      "'{}}}'::bigint[]) AS new(d, n) ON CONFLICT DO NOTHING",
+                      ids, cases));
+    }
+    ids.clear();
+    cases.clear();
     numbers.clear();
     heads.clear();
     bodies.clear();
@@ -364,27 +423,61 @@ void PostgresStore::insert(pqxx::transaction_base& t, const Appended& appended) 
     add_to(numbers, std::to_string(row.number));
     add_to(heads, '"' + hex(row.head) + '"');
     add_to(bodies, '"' + hex(row.body) + '"');
+    if (const auto id = case_id_in(row.head); id && version > 1) {
+      add_to(ids, '"' + hex(*id) + '"');
+      add_to(cases, std::to_string(row.number));
+    }
     if (bodies.size() > kInsertBytes) put();
   }
   put();
-  t.exec("UPDATE capstan.total SET totals = decode('" + hex(appended.totals) + "', 'hex') WHERE one = 1");
+  // Programs that know version 1 alone read totals without the number of cases.
+  const auto stated = version > 1 ? std::nullopt : totals_of(appended.totals);
+  t.exec("UPDATE capstan.total SET totals = decode('" + hex(stated ? bytes_of(*stated) : appended.totals) +
+         "', 'hex') WHERE one = 1");
 }
 
-Status PostgresStore::append(std::int64_t after, const TakeHead& take, const Decide& decide) {
+Status PostgresStore::append_within(const ReadHeads& read, const Decide& decide) {
   return guarded("add a case", [&]() -> Status {
     Writing t(*connection_);
     set_up(t);
     t.exec("LOCK TABLE capstan.total IN EXCLUSIVE MODE");
-    if (Status s = check(t); !s) return s;
+    const Result<int> of = check(t);
+    if (!of) return fail(of.error());
     const std::string stated = totals(t);
-    if (Status s = heads(t, after, take); !s) return s;
+    const Result<bool> go_on = read(t, *of);
+    if (!go_on) return fail(go_on.error());
+    if (!*go_on) return {};
     const Result<Appended> appended = decide(stated);
     if (!appended) return fail(appended.error());
     if (appended->rows.empty()) return {};
-    insert(t, *appended);
+    insert(t, *appended, *of);
     t.commit();
     return {};
   });
+}
+
+Status PostgresStore::append(std::int64_t after, const TakeHead& take, const Decide& decide) {
+  return append_within(
+      [&](pqxx::transaction_base& t, int) -> Result<bool> {
+        if (Status s = heads(t, after, take); !s) return fail(s.error());
+        return true;
+      },
+      decide);
+}
+
+Result<bool> PostgresStore::append_found(std::span<const std::string> ids, const TakeHead& take,
+                                         const Decide& decide) {
+  bool indexed = false;
+  const Status done = append_within(
+      [&](pqxx::transaction_base& t, int version) -> Result<bool> {
+        indexed = version > 1;
+        if (!indexed) return false;
+        if (Status s = found(t, ids, take); !s) return fail(s.error());
+        return true;
+      },
+      decide);
+  if (!done) return fail(done.error());
+  return indexed;
 }
 
 struct FreeOptions {

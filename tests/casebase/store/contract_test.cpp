@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "casebase/casebase.h"
+#include "casebase/intake.h"
 #include "casebase/store/row.h"
 #include "casebase/store/store.h"
 #include "tests/casebase/killed_writer.h"
@@ -145,6 +146,100 @@ TEST_P(StoreContract, TellsAWriterWhatOthersAppended) {
       [](const std::string&) -> Result<Store::Appended> { return Store::Appended{}; });
   EXPECT_TRUE(done.has_value());
   EXPECT_EQ(seen, std::vector<std::int64_t>{1});
+}
+
+TEST_P(StoreContract, GivesTheRowsOfTheseIdsAndTheLastOneAlone) {
+  const std::vector<Case> cases = random_cases(200, 7);
+  ASSERT_TRUE(base().add(cases).has_value());
+  const std::vector<std::string> ids = {id_bytes_of(*id_of_digits(cases[3].id)),
+                                        id_bytes_of(*id_of_digits(sample(99.0).id)),
+                                        id_bytes_of(*id_of_digits(cases[150].id))};
+  std::vector<std::int64_t> given;
+  const auto s = store();
+  const Result<bool> indexed = s->append_found(
+      ids,
+      [&](std::int64_t number, std::string_view head) -> Status {
+        EXPECT_TRUE(head_of(head, number).has_value());
+        given.push_back(number);
+        return {};
+      },
+      [](const std::string& totals) -> Result<Store::Appended> {
+        EXPECT_EQ(stated_of(totals)->held, 200);
+        return Store::Appended{};
+      });
+  ASSERT_TRUE(indexed.has_value());
+  EXPECT_TRUE(*indexed);
+  std::sort(given.begin(), given.end());
+  EXPECT_EQ(given, (std::vector<std::int64_t>{4, 151, 200}));  // rows count from 1
+}
+
+TEST_P(StoreContract, AddsWithoutReadingAndCountsAsOneWhoReads) {
+  const std::vector<Case> cases = random_cases(60, 11);
+  std::vector<Case> expected;
+  // Who reads, who does not, who removes: each begins where the others ended.
+  ASSERT_TRUE(base().add(std::span(cases).first(20)).has_value());
+  auto intake = Intake::open_or_create(where_->uri(), job_).value();
+  Case silent = cases[5];
+  silent.observed.verdict = Verdict::kUnknown;
+  const std::vector<Case> some = {cases[20], silent, cases[21], cases[20]};
+  const auto added = intake.add(some);
+  ASSERT_TRUE(added.has_value() && *added) << (added ? "" : to_text(added.error()));
+  EXPECT_EQ((*added)->added, 2u);
+  EXPECT_EQ((*added)->held, 22u);
+  ASSERT_TRUE(base().remove(std::vector{cases[0].id}, {"A. Smith", "", "wrong part"}).has_value());
+  // One that was removed stays away, and counts no more.
+  Case removed = cases[0];
+  removed.observed.verdict = Verdict::kUnknown;
+  const auto again = intake.add(std::vector{removed, cases[22]});
+  ASSERT_TRUE(again.has_value() && *again);
+  EXPECT_EQ((*again)->added, 1u);
+  EXPECT_EQ((*again)->held, 22u);
+  for (std::size_t i = 1; i <= 22; ++i) expected.push_back(cases[i]);
+  std::sort(expected.begin(), expected.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
+  EXPECT_EQ(base().cases(), expected);
+  EXPECT_EQ(base().size(), 22u);
+}
+
+TEST_P(StoreContract, LeavesACaseThatIsThereAndStatesAVerdictToOneWhoReads) {
+  ASSERT_TRUE(base().add(sample()).has_value());
+  auto intake = Intake::open_or_create(where_->uri(), job_).value();
+  Case other = sample();
+  other.observed.verdict = Verdict::kBad;
+  const auto added = intake.add(std::vector{sample(11.0), other});
+  ASSERT_TRUE(added.has_value());
+  EXPECT_FALSE(added->has_value());
+  EXPECT_EQ(intake.read(job_)->size(), 1u);
+}
+
+TEST_P(StoreContract, RefusesWithoutReadingACaseThatCannotBe) {
+  auto intake = Intake::open_or_create(where_->uri(), job_).value();
+  Case wrong = sample();
+  wrong.bound.fz_mm = -1.0;
+  EXPECT_EQ(intake.add(std::vector{sample(11.0), wrong}).error().code, "CASE-INVALID");
+  EXPECT_EQ(base().size(), 0u);
+}
+
+TEST_P(StoreContract, TakesEightWritersWhoDoNotReadAtATime) {
+  constexpr std::size_t kWriters = 8;
+  std::vector<Case> cases = random_cases(100, 37);
+  for (Case& c : cases) c.observed.verdict = Verdict::kUnknown;
+  ASSERT_TRUE(base().add(cases[0]).has_value());
+  std::vector<std::string> faults(kWriters);
+  std::vector<std::thread> writers;
+  for (std::size_t w = 0; w < kWriters; ++w) {
+    writers.emplace_back([&, w] {
+      Job job;
+      auto mine = Intake::open_or_create(where_->uri(), job);
+      if (!mine) faults[w] = to_text(mine.error());
+      for (std::size_t i = w * 10; i < w * 10 + 30 && faults[w].empty(); ++i) {  // others add twenty, too
+        const auto added = mine->add(std::span(&cases[i], 1));
+        if (!added || !*added) faults[w] = added ? "has to read it" : to_text(added.error());
+      }
+    });
+  }
+  for (std::thread& t : writers) t.join();
+  EXPECT_EQ(faults, std::vector<std::string>(kWriters));
+  EXPECT_EQ(base().size(), cases.size());
 }
 
 TEST_P(StoreContract, KeepsWhatWasAdded) {

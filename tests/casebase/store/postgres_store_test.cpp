@@ -38,10 +38,10 @@ TEST_F(PostgresStore, RefusesASchemaThatIsNoCaseBaseAndANewerOne) {
   EXPECT_EQ(CaseBase::open_or_create(place_->uri(), job).error().code, "CASE-SCHEMA");
   place_->sql("DROP SCHEMA capstan");
   fill(place_->uri(), {sample()});
-  place_->sql("COMMENT ON SCHEMA capstan IS 'Capstan case base, version 2'");
+  place_->sql("COMMENT ON SCHEMA capstan IS 'Capstan case base, version 3'");
   const auto newer = CaseBase::open(place_->uri(), job);
   EXPECT_EQ(newer.error().code, "CASE-SCHEMA");
-  EXPECT_THAT(newer.error().message, HasSubstr("version 2"));
+  EXPECT_THAT(newer.error().message, HasSubstr("version 3"));
 }
 
 TEST_F(PostgresStore, RefusesWhatItDidNotMake) {

@@ -1,7 +1,7 @@
 #include <set>
 #include <thread>
 
-#include "casebase/casebase.h"
+#include "casebase/intake.h"
 #include "casebase/store/local.h"
 #include "tests/casebase/killed_writer.h"
 #include "tests/casebase/postgres.h"
@@ -58,6 +58,47 @@ TEST_F(ServerStore, IsReadFromItsCopyWhileTheServerIsAway) {
   EXPECT_EQ(codes(), std::vector<std::string>{"CASE-OFFLINE"});
   EXPECT_THAT(job_.diagnostics()[0].message, HasSubstr("50 rows"));
   EXPECT_EQ(base->cases(), cases);
+}
+
+TEST_F(ServerStore, IsAddedToWithoutReadingAndItsCopyFollows) {
+  fill(place_->uri(), random_cases(20, 3));
+  (void)open();
+  auto intake = Intake::open_or_create(place_->uri(), job_).value();
+  const auto added = intake.add(std::vector{sample(30.0), sample(31.0)});
+  ASSERT_TRUE(added.has_value() && *added);
+  EXPECT_EQ((*added)->held, 22u);
+  EXPECT_TRUE(intake.take_faults().empty());
+  down();
+  EXPECT_EQ(open()->size(), 22u);
+}
+
+TEST_F(ServerStore, IsReadFromItsCopyToBeAddedToWhileTheServerIsAway) {
+  fill(place_->uri(), {sample(10.0)});
+  down();
+  (void)job_.take_diagnostics();
+  auto intake = Intake::open_or_create(place_->uri(), job_).value();
+  const auto added = intake.add(std::vector{sample(30.0)});
+  ASSERT_TRUE(added.has_value());
+  EXPECT_FALSE(added->has_value());
+  ASSERT_TRUE(intake.read(job_)->add(sample(30.0)).has_value());
+  EXPECT_EQ(codes(), std::vector<std::string>{"CASE-OFFLINE"});  // once
+  ASSERT_TRUE(up());
+  EXPECT_EQ(open()->size(), 2u);
+}
+
+TEST_F(ServerStore, WaitsInTheOutboxWhereTheServerWentAwayWhileItWasAddedTo) {
+  fill(place_->uri(), {sample(10.0)});
+  auto intake = Intake::open_or_create(place_->uri(), job_).value();
+  down();
+  const auto added = intake.add(std::vector{sample(30.0)});
+  ASSERT_TRUE(added.has_value()) << to_text(added.error());
+  EXPECT_FALSE(added->has_value());
+  auto base = intake.read(job_);
+  ASSERT_TRUE(base.has_value()) << to_text(base.error());
+  ASSERT_TRUE(base->add(sample(30.0)).has_value());
+  EXPECT_TRUE(std::filesystem::exists(files().outbox));
+  ASSERT_TRUE(up());
+  EXPECT_EQ(open()->size(), 2u);
 }
 
 TEST_F(ServerStore, RefusesAServerThatItNeverReached) {

@@ -92,12 +92,12 @@ TEST(CaseStore, RefusesWhatIsNoCaseBase) {
 TEST(CaseStore, RefusesANewerSchema) {
   const Folder folder;
   fill(folder.file(), {sample()});
-  tamper(folder.file(), "PRAGMA user_version = 3");
+  tamper(folder.file(), "PRAGMA user_version = 4");
   Job job;
   const auto base = CaseBase::open(folder.file(), job);
   ASSERT_FALSE(base.has_value());
   EXPECT_EQ(base.error().code, "CASE-SCHEMA");
-  EXPECT_THAT(base.error().message, HasSubstr("version 3"));
+  EXPECT_THAT(base.error().message, HasSubstr("version 4"));
 }
 
 TEST(CaseStore, RefusesWhatItDidNotMake) {

@@ -49,7 +49,7 @@ TEST(CaseStoreVersion1, IsReadWithoutBeingAltered) {
   tamper(path, "UPDATE capstan_total SET count = count");  // still a table of version 1
 }
 
-TEST(CaseStoreVersion1, BecomesVersion2WhenSomethingIsAdded) {
+TEST(CaseStoreVersion1, BecomesVersion3WhenSomethingIsAdded) {
   const Folder folder;
   const std::string path = old_file(folder);
   Job job;
@@ -67,7 +67,7 @@ TEST(CaseStoreVersion1, BecomesVersion2WhenSomethingIsAdded) {
   EXPECT_EQ(job.count(Severity::kWarning), 0u);
 }
 
-TEST(CaseStoreVersion1, LeavesOutAnAlteredRowAndIsNotTurnedIntoVersion2) {
+TEST(CaseStoreVersion1, LeavesOutAnAlteredRowAndIsNotTurnedIntoVersion3) {
   for (const std::string change : {"vc_m_min = 31.0", "teeth = 4", "source = 'x'", "verdict = 'bad'"}) {
     const Folder folder;
     const std::string path =
@@ -80,7 +80,7 @@ TEST(CaseStoreVersion1, LeavesOutAnAlteredRowAndIsNotTurnedIntoVersion2) {
   }
 }
 
-TEST(CaseStoreVersion1, IsTurnedIntoVersion2ByTwoProgramsOnce) {
+TEST(CaseStoreVersion1, IsTurnedIntoVersion3ByTwoProgramsOnce) {
   const Folder folder;
   const std::string path = old_file(folder);
   Job job;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "casebase/casebase.h"
+#include "casebase/intake.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/app/command/session.h"
 #include "planner/door/service/reading.h"
@@ -69,16 +70,27 @@ int run_cases_add(Session& s) {
     if (!more) return s.end(more.error(), kUnreadable);
     cases.insert(cases.end(), more->begin(), more->end());
   }
-  auto base = casebase::CaseBase::open_or_create(*s.options.inputs.cases, s.job);
+  const auto tell = [&](std::size_t added, std::size_t held) {
+    s.summary = "read " + counted(cases.size(), "case", "cases") + ", " + std::to_string(added) +
+                " of them new; the base holds " + counted(held, "case", "cases");
+  };
+  auto intake = casebase::Intake::open_or_create(*s.options.inputs.cases, s.job);
+  if (!intake) return s.end(intake.error(), kUnreadable);
+  const auto added = intake->add(cases);
+  if (!added) return s.end(added.error(), kImpossible);
+  if (*added) {
+    for (Diagnostic& d : intake->take_faults()) s.job.report(std::move(d));
+    tell((*added)->added, (*added)->held);
+    return kDone;
+  }
+  auto base = intake->read(s.job);
   if (!base) return s.end(base.error(), kUnreadable);
   const std::vector<std::string> otherwise = judged_otherwise(*base, cases);
   const std::size_t before = base->size();
   if (auto ok = base->add(cases); !ok) return s.end(ok.error(), kImpossible);
   report_faults(s, *base);
   tell_judged_otherwise(otherwise, casebase::name_of(*s.options.inputs.cases), s.job);
-  s.summary = "read " + counted(cases.size(), "case", "cases") + ", " +
-              std::to_string(base->size() - before) + " of them new; the base holds " +
-              counted(base->size(), "case", "cases");
+  tell(base->size() - before, base->size());
   return kDone;
 }
 
