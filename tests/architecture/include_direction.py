@@ -36,6 +36,7 @@ FOLDERS = {
     "planner/proof/verify/copies": "copies",
     "planner/proof/verify/shape": "finished", **READER_ROOMS,
     "planner/model/features/fit": "fit",
+    "planner/making/toolpath/freeform": "freeform",
     # What a tool library is made of, whatever file it came from; on it the formats, and on these the reader of any.
     **{f"tooling/library/{name}": "catalogue" for name in "cutters nouns records store words".split()},
     **{f"planner/files/exchange/{name}": name for name in EXCHANGE.split()},
@@ -81,11 +82,13 @@ ALLOWED = {
     "piece": MODEL + " mechanics shop rules sequence draft",
     "workholding": MODEL + " shop draft toolpath",
     "probing": MODEL + " catalogue draft piece step",
-    "step": MODEL + " toolpaths casebase tune catalogue selection mechanics motion stock engagement toolpath optimise"
+    "step": MODEL + " toolpaths casebase tune catalogue selection mechanics motion stock engagement toolpath freeform optimise"
     " draft piece workholding",
     "propose": MODEL + " rules casebase catalogue selection optimise draft piece step",
     "given": MODEL + " mechanics motion rules shop catalogue selection draft piece step",
     "toolpath": MODEL + " stock",
+    # Paths over surfaces: of the others it takes what moves are.
+    "freeform": MODEL + " stock toolpath",
     "optimise": MODEL + " mechanics motion",
     "gcode": MODEL + " motion",
     # A conformance profile is a data file, read as those of the shop are.
