@@ -52,6 +52,7 @@ Result<Intake> Intake::open_or_create(const std::string& uri, Job& job) {
 Result<std::optional<Intake::Added>> Intake::add(std::span<const Case> cases) {
   Result<std::vector<Case>> checked = with_ids(cases);
   if (!checked) return fail(checked.error());
+  if (checked->empty()) return std::nullopt;
   Look look;
   std::vector<std::string> ids;
   std::vector<const Case*> once;

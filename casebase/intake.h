@@ -32,7 +32,8 @@ class Intake {
   };
   /// As `CaseBase::add`. Nothing: nothing was added, and it needs the base read: a file or a server of an
   /// earlier version, a server that is away, a row or totals that are not what was stored, a case that is
-  /// there or was and states a verdict, which may be another one.
+  /// there or was and states a verdict, which may be another one. Nothing for no case, too, which is no
+  /// reason to write.
   [[nodiscard]] Result<std::optional<Added>> add(std::span<const Case> cases);
   /// The base, read. Fails as `CaseBase::open_or_create` does. Nothing else may be called then.
   [[nodiscard]] Result<CaseBase> read(Job& job);

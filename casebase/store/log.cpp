@@ -120,7 +120,7 @@ std::optional<std::string> Log::take_in(std::int64_t number, const Head& head) {
                       .verdict = head.verdict,
                       .removed = false,
                       .key = head.key});
-  by_id_.add(entries_.size() - 1, [&](std::size_t i) { return entries_[i].id; });
+  by_id_.add(entries_.size() - 1, head.id);
   return std::nullopt;
 }
 

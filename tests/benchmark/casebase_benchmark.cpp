@@ -11,6 +11,7 @@
 
 #include "casebase/casebase.h"
 #include "casebase/index/index.h"
+#include "casebase/intake.h"
 
 namespace capstan::casebase {
 namespace {
@@ -166,6 +167,22 @@ void add_one(benchmark::State& state) {
   if (!good) state.SkipWithError("a case was not added");
 }
 BENCHMARK(add_one)->Unit(benchmark::kMillisecond)->MinTime(0.5);
+
+/// The same to a base that is not read for that, opening it included: what `capstan cases add` does.
+void add_one_unread(benchmark::State& state) {
+  Job job;
+  std::uint64_t n = 2'000'000'000 + static_cast<std::uint64_t>(CaseBase::open(file(), job)->size());
+  bool good = true;
+  for (auto _ : state) {
+    Case one = made(n++);
+    one.observed.verdict = Verdict::kUnknown;
+    auto intake = Intake::open_or_create(file(), job);
+    const auto added = intake->add(std::span(&one, 1));
+    good = added && *added && (*added)->added == 1 && good;
+  }
+  if (!good) state.SkipWithError("a case was not added");
+}
+BENCHMARK(add_one_unread)->Unit(benchmark::kMillisecond)->MinTime(0.5);
 
 /// The base of 100,000 cases on the server that CAPSTAN_BENCHMARK_SERVER names (a URI of an empty database);
 /// its local copy where CAPSTAN_CASES says. Nothing where there is none.

@@ -22,6 +22,17 @@ Outcome take_in(const std::string& path, const Case& c) {
   return *added ? Outcome::kAdded : Outcome::kToBeRead;
 }
 
+TEST(Intake, LeavesABaseAloneThatGetsNoCase) {
+  const Folder folder;
+  fill(folder.file(), {sample(10.0)});
+  Job job;
+  auto intake = Intake::open_or_create(folder.file(), job).value();
+  const auto added = intake.add({});
+  ASSERT_TRUE(added.has_value());
+  EXPECT_FALSE(added->has_value());
+  EXPECT_EQ(intake.read(job)->size(), 1u);
+}
+
 TEST(Intake, BelievesNoIndexThatNamesAnotherRow) {
   // A row of another case, the last row, one that is not there.
   for (const std::string row : {"2", "3", "7"}) {

@@ -9,6 +9,7 @@
 #include <pqxx/pqxx>
 
 #include "casebase/store/postgres/postgres_library.h"
+#include "casebase/store/postgres/postgres_schema.h"
 #include "casebase/store/row.h"
 
 // One schema of a PostgreSQL database: a table of heads, a table of bodies, a row of totals, and since
@@ -26,7 +27,6 @@
 namespace capstan::casebase {
 namespace {
 
-constexpr int kVersion = 2;  // 2: the index of ids
 constexpr std::string_view kComment = "Capstan case base, version ";
 constexpr std::int64_t kLockKey = 0x43415053;  // "CAPS": makers of the tables wait for each other
 constexpr std::size_t kHeadBytes = 1 << 14;  // above what a head may hold: four texts of 80 letters, numbers
@@ -35,71 +35,6 @@ constexpr std::size_t kPage = 1024;          // rows of heads asked for at a tim
 constexpr std::size_t kBodyPage = 256;       // the same of bodies
 constexpr std::size_t kInsertBytes = 4 << 20;  // of a statement, about
 constexpr const char* kWaitS = "5";            // for a server that does not answer. Default, unsourced
-
-/// What makes version n + 1 of version n; where there are rows, with the totals locked.
-const std::array<std::string, kVersion> kSteps = {
-    "CREATE SCHEMA capstan;"
-    "CREATE TABLE capstan.head(number bigint PRIMARY KEY, head bytea NOT NULL);"
-    "CREATE TABLE capstan.body(number bigint PRIMARY KEY, body bytea NOT NULL);"
-    "CREATE TABLE capstan.total(one integer PRIMARY KEY CHECK(one = 1), totals bytea NOT NULL)",
-    fmt::format("CREATE TABLE capstan.id(id bytea PRIMARY KEY, number bigint NOT NULL);"
-                "INSERT INTO capstan.id SELECT substr(head, {0}, {1}), min(number) FROM capstan.head "
-                "WHERE length(head) >= {2} AND get_byte(head, {3}) = {4} GROUP BY 1",
-                kIdAt + 1, kIdBytes, kIdAt + kIdBytes, kIdAt - 1, static_cast<int>(RowKind::kCase))};
-
-/// Whatever stands in the schema, as one text.
-constexpr const char* kCatalogue = R"(
-WITH ours AS (SELECT c.* FROM pg_class c JOIN pg_namespace n ON c.relnamespace = n.oid WHERE nspname = 'capstan')
-SELECT coalesce(string_agg(what, E'\n' ORDER BY what COLLATE "C"), '') FROM (
-  SELECT concat_ws(' ', 'relation', relkind, relname, relpersistence, relrowsecurity, relispartition) FROM ours
-  UNION ALL SELECT concat_ws(' ', 'column', relname, attnum, attname, format_type(atttypid, atttypmod), attnotnull,
-    atthasdef) FROM ours JOIN pg_attribute a ON attrelid = ours.oid WHERE relkind <> 'i' AND attnum > 0
-  UNION ALL SELECT concat_ws(' ', 'constraint', relname, pg_get_constraintdef(k.oid))
-    FROM ours JOIN pg_constraint k ON conrelid = ours.oid WHERE contype <> 'n'
-  UNION ALL SELECT concat_ws(' ', 'trigger', tgname) FROM ours JOIN pg_trigger ON tgrelid = ours.oid
-  UNION ALL SELECT concat_ws(' ', 'rule', rulename) FROM ours JOIN pg_rewrite ON ev_class = ours.oid
-  UNION ALL SELECT concat_ws(' ', 'policy', polname) FROM ours JOIN pg_policy ON polrelid = ours.oid
-  UNION ALL SELECT concat_ws(' ', 'child', inhrelid) FROM ours JOIN pg_inherits ON inhparent = ours.oid
-  UNION ALL SELECT concat_ws(' ', 'function', proname) FROM pg_proc JOIN pg_namespace n ON pronamespace = n.oid
-    WHERE nspname = 'capstan') AS all_of_it(what))";
-
-/// What stands in it when it is ours, a line each; those of the index of ids are not in version 1.
-constexpr const char* kOurs = R"(column body 1 number bigint t f
-column body 2 body bytea t f
-column head 1 number bigint t f
-column head 2 head bytea t f
-column id 1 id bytea t f
-column id 2 number bigint t f
-column total 1 one integer t f
-column total 2 totals bytea t f
-constraint body PRIMARY KEY (number)
-constraint head PRIMARY KEY (number)
-constraint id PRIMARY KEY (id)
-constraint total CHECK ((one = 1))
-constraint total PRIMARY KEY (one)
-relation i body_pkey p f f
-relation i head_pkey p f f
-relation i id_pkey p f f
-relation i total_pkey p f f
-relation r body p f f
-relation r head p f f
-relation r id p f f
-relation r total p f f
-)";
-
-std::string ours_of(int version) {
-  std::string out;
-  std::string_view left = kOurs;
-  while (!left.empty()) {
-    const std::string_view line = left.substr(0, left.find('\n') + 1);
-    left.remove_prefix(line.size());
-    const bool of_ids =
-        line.find(" id ") != std::string_view::npos || line.find(" id_pkey ") != std::string_view::npos;
-    if (version > 1 || !of_ids) out += line;
-  }
-  out.pop_back();  // the last line's end
-  return out;
-}
 
 using Reading = pqxx::transaction<pqxx::repeatable_read, pqxx::read_only>;
 using Writing = pqxx::transaction<pqxx::read_committed, pqxx::read_write>;
