@@ -52,8 +52,8 @@ void tell_shares(benchmark::State& state, std::vector<double> ms) {
 }
 
 /// `by_mm`: what changes at each turn.
-void bind_again(benchmark::State& state, const std::string& part, int tool, const std::string& key,
-                double by_mm) {
+void bind_again(benchmark::State& state, const std::string& part, const std::string& tool,
+                const std::string& key, double by_mm) {
   const Early plan = early(part);
   const capstan::testing::ScratchFolder folder;
   const std::string path = folder.path() + "/tool.tbl";
@@ -112,20 +112,19 @@ void bind_open(benchmark::State& state, const std::string& part) {
 
 const std::string kPlate = capstan::testing::plate(22).text;
 
-// Of the plate T2 mills the pockets, T3 drills; of the bracket T10 mills slot and counterbores.
-BENCHMARK_CAPTURE(bind_again, plate_length_of_the_drill, kPlate, 3, "Z", 0.01)
+BENCHMARK_CAPTURE(bind_again, plate_length_of_the_drill, kPlate, "7.8 mm", "Z", 0.01)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(200);
-BENCHMARK_CAPTURE(bind_again, plate_length_of_the_mill, kPlate, 2, "Z", 0.01)
+BENCHMARK_CAPTURE(bind_again, plate_length_of_the_mill, kPlate, "end mill", "Z", 0.01)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(200);
-BENCHMARK_CAPTURE(bind_again, plate_diameter_of_the_mill, kPlate, 2, "D", -0.0011)
+BENCHMARK_CAPTURE(bind_again, plate_diameter_of_the_mill, kPlate, "end mill", "D", -0.0011)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(100);
-BENCHMARK_CAPTURE(bind_again, bracket_length_of_the_mill, bracket(), 10, "Z", 0.01)
+BENCHMARK_CAPTURE(bind_again, bracket_length_of_the_mill, bracket(), "10 mm carbide end mill", "Z", 0.01)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(200);
-BENCHMARK_CAPTURE(bind_again, bracket_diameter_of_the_mill, bracket(), 10, "D", -0.0011)
+BENCHMARK_CAPTURE(bind_again, bracket_diameter_of_the_mill, bracket(), "10 mm carbide end mill", "D", -0.0011)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(100);
 BENCHMARK_CAPTURE(bind_open, bracket, bracket())->Unit(benchmark::kMillisecond)->Iterations(20);

@@ -64,13 +64,13 @@ class Table {
     out.push_back(planned("plan surface.stl, EN AW-6061", "2", {surface, "--material", "EN AW-6061"}));
     out.push_back(
         planned("plan reference_pocket.p21, Inconel 718", "2", {pocket, "--material", "Inconel 718"}));
-    // Of the plate T2 mills the pockets and T3 drills; of the plate of holes T1 drills.
     const std::string plate = in("plate.p21", capstan::testing::plate(33).text);
-    out.push_back(rebound("49 steps, a drill's length changed: bind --cache", "0.2", plate, 3, "Z", 0.01));
     out.push_back(
-        rebound("49 steps, the mill of 16 pocket steps 0.1 mm narrower", "0.2", plate, 2, "D", -0.1));
+        rebound("49 steps, a drill's length changed: bind --cache", "0.2", plate, "7.8 mm", "Z", 0.01));
+    out.push_back(rebound("49 steps, the mill of 16 pocket steps 0.1 mm narrower", "0.2", plate, "end mill",
+                          "D", -0.1));
     const std::string holes = in("holes.p21", capstan::testing::plate_of_holes(50).text);
-    out.push_back(rebound("50 holes, the drill's length changed", "0.05", holes, 1, "Z", 0.01));
+    out.push_back(rebound("50 holes, the drill's length changed", "0.05", holes, "drill", "Z", 0.01));
     out.push_back(
         planned("plate of 100 features", "4", {in("hundred.p21", capstan::testing::plate(100).text)}));
     out.push_back(checked(bracket));
@@ -148,8 +148,8 @@ class Table {
   }
 
   /// A plan is bound again with one size of one tool changed, from the results that planning kept.
-  Work rebound(const std::string& name, const std::string& reach_s, const std::string& part, int tool,
-               const std::string& key, double by_mm) {
+  Work rebound(const std::string& name, const std::string& reach_s, const std::string& part,
+               const std::string& tool, const std::string& key, double by_mm) {
     const std::string plan = in("first.json"), tools = in("first.tbl"), cache = in("cache");
     return {name, reach_s,
             [this, plan, cache] {

@@ -126,10 +126,14 @@ Plate plate(std::size_t features, double first_pocket_mm) { return made(features
 
 Plate plate_of_holes(std::size_t holes) { return made(holes, 3.0, true); }
 
-std::string with_tool_changed(std::string table, int tool, const std::string& key, double by_mm) {
-  const auto of = table.find("T" + std::to_string(tool) + " ");
-  const auto at = of == std::string::npos ? of : table.find(key + "+", of);
-  if (at == std::string::npos) return {};
+std::string with_tool_changed(std::string table, const std::string& words, const std::string& key,
+                              double by_mm) {
+  const auto named = table.find(words);
+  if (named == std::string::npos) return {};
+  const auto before = table.rfind('\n', named);
+  const auto of = before == std::string::npos ? 0 : before + 1;
+  const auto at = table.find(key + "+", of);
+  if (at == std::string::npos || at > table.find('\n', named)) return {};
   const auto end = table.find(' ', at);
   const double now = parse_double(table.substr(at + 2, end - at - 2)).value_or(0.0) + by_mm;
   return table.replace(at, end - at, key + "+" + shortest(now));

@@ -20,8 +20,9 @@ struct Plate {
 [[nodiscard]] Plate plate_of_holes(std::size_t holes);
 
 /// A LinuxCNC tool table with one size of a tool (`key`: "Z" its length, "D" its diameter) changed by so many
-/// mm; empty: it has no such tool.
-[[nodiscard]] std::string with_tool_changed(std::string table, int tool, const std::string& key,
-                                            double by_mm);
+/// mm: of the first tool whose comment has these words. Its number is no name: planning gives it. Empty: it
+/// has no such tool.
+[[nodiscard]] std::string with_tool_changed(std::string table, const std::string& words,
+                                            const std::string& key, double by_mm);
 
 }  // namespace capstan::testing

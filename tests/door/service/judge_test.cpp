@@ -64,7 +64,7 @@ TEST_F(JudgeOfACheckedProgram, SweepsNothingWithoutATable) { expect_same_without
 
 TEST_F(JudgeOfACheckedProgram, FindsWhatAnotherTableSays) {
   std::vector<Output> outputs = outputs_;
-  outputs[1].bytes = capstan::testing::with_tool_changed(outputs[1].bytes, 1, "D", -1.0);
+  outputs[1].bytes = capstan::testing::with_tool_changed(outputs[1].bytes, "T1 ", "D", -1.0);
   ASSERT_NE(outputs[1].bytes, outputs_[1].bytes);
   expect_same_without_a_sweep(outputs);
   EXPECT_NE(judged(known_, outputs).findings, "");

@@ -121,8 +121,8 @@ class Measuring {
 };
 
 /// A tool of the magazine is changed by so much at each turn, and the whole plan bound again in one session.
-void changed_tool(Measuring& m, const std::string& name, const Early& plan, int tool, const std::string& key,
-                  double by_mm, int turns) {
+void changed_tool(Measuring& m, const std::string& name, const Early& plan, const std::string& tool,
+                  const std::string& key, double by_mm, int turns) {
   const capstan::testing::ScratchFolder folder;
   const std::string path = folder.path() + "/tool.tbl";
   service::Session session;
@@ -189,10 +189,9 @@ int main(int argc, char** argv) {
     if (!write_file(std::string(argv[1]) + "/bind_times.csv", machine + m.rows())) m.fail("cannot write");
   };
   const Early plate = early(capstan::testing::plate(kFifty).text, pipeline::Bind::kAll);
-  // T2 mills the plate's pockets, T3 drills.
-  if (wanted("length")) changed_tool(m, "length", plate, 3, "Z", 0.01, turns(200));
+  if (wanted("length")) changed_tool(m, "length", plate, "7.8 mm", "Z", 0.01, turns(200));
   write();
-  if (wanted("diameter")) changed_tool(m, "diameter", plate, 2, "D", -0.0011, turns(100));
+  if (wanted("diameter")) changed_tool(m, "diameter", plate, "end mill", "D", -0.0011, turns(100));
   write();
   if (wanted("next"))
     step_by_step(m, "next", early(capstan::testing::plate(kFifty).text, pipeline::Bind::kStrategy),
