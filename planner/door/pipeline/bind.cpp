@@ -286,6 +286,8 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
                  .file = plan.file_name,
                  .hint = "correct it in the file; lengths are in mm unless it says otherwise"});
   if (!tries.memo) tries.memo = inputs.memo ? inputs.memo : std::make_shared<memo::Memo>();
+  geometry::KeptOutlines of_this;
+  const geometry::KeptOutlinesScope scope(inputs.outlines ? inputs.outlines.get() : &of_this);
   if (inputs.objective != Objective::kProfit) return bind_settled(plan, inputs, policy, 0.0, tries, job);
   if (!inputs.revenue) {
     return fail({.code = "PIP-REVENUE",

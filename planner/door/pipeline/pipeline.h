@@ -10,6 +10,7 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
+#include "planner/ground/geometry/kept_outlines.h"
 #include "planner/ground/memo/memo.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/making/given/tool_material_wish.h"
@@ -68,13 +69,15 @@ struct Inputs {
   /// and cuts are chosen; values are set into the plan that comes of it, and what depends on them is planned
   /// anew.
   std::vector<model::Edit> edits;
-  given::ToolMaterialWish tool_materials;     ///< of tools whose file or list does not state it
+  given::ToolMaterialWish tool_materials;  ///< of tools whose file or list does not state it
   /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one
   /// only.
   std::shared_ptr<memo::Memo> memo;
   /// What checks found of steps, in memory only: a step that nothing touched since is not swept again. Null:
   /// every check is whole. The findings are the same.
   std::shared_ptr<memo::Memo> proofs;
+  /// Outlines that earlier plannings offset and combined. Null: those of this one only.
+  std::shared_ptr<geometry::KeptOutlines> outlines;
 };
 
 /// Plannings for most profit, the first for least cost among them; two or three usually do.

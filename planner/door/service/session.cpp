@@ -80,6 +80,7 @@ Code Session::opened(Job& job) {
   // What one call found out, the next one need not, also with another tool table.
   if (!shop_->memo) shop_->memo = memo_;
   shop_->proofs = proofs_;
+  shop_->outlines = outlines_;
   return Code::kDone;
 }
 

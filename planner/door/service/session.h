@@ -92,6 +92,7 @@ class Session {
   std::optional<rules::RuleBase> shipped_rules_;  ///< of a shop without its own that was open before
   std::shared_ptr<memo::Memo> memo_ = std::make_shared<memo::Memo>();    ///< of all shops that name no folder
   std::shared_ptr<memo::Memo> proofs_ = std::make_shared<memo::Memo>();  ///< Inputs::proofs
+  std::shared_ptr<geometry::KeptOutlines> outlines_ = std::make_shared<geometry::KeptOutlines>();
   std::optional<Read> read_;
   bool failed_ = false;  ///< the shop did not open, and no option was set since
   std::optional<Planned> bound_;

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <clipper.hpp>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "planner/ground/base/stopping.h"
+#include "planner/ground/geometry/kept_outlines.h"
 
 namespace capstan::geometry {
 namespace {
@@ -17,6 +21,7 @@ using ClipperLib::IntPoint;
 using ClipperLib::Paths;
 
 constexpr double kScale = 1.0 / kRegionGrid;
+constexpr int kOffset = -1;  ///< in questions to kept outlines, beside the types of Clipper
 
 ClipperLib::cInt to_grid(double v) {
   if (!(std::abs(v) <= kRegionLimit)) throw std::logic_error("a region's coordinate is out of range");
@@ -65,24 +70,108 @@ Region from_paths(const Paths& paths) {
   return out;
 }
 
-Region combine(ClipType type, const std::vector<Loop>& a, const std::vector<Loop>& b) {
-  poll();
-  ClipperLib::Clipper clipper;
-  clipper.AddPaths(to_paths(a), ClipperLib::ptSubject, true);
-  clipper.AddPaths(to_paths(b), ClipperLib::ptClip, true);
+/// Moves all points.
+void shift(Paths& paths, IntPoint by) {
+  for (ClipperLib::Path& path : paths) {
+    for (IntPoint& p : path) {
+      p.X += by.X;
+      p.Y += by.Y;
+    }
+  }
+}
+
+void put(std::string& bytes, const auto& v) { bytes.append(reinterpret_cast<const char*>(&v), sizeof v); }
+
+std::string bytes_of(const Paths& paths) {
+  std::string out;
+  for (const ClipperLib::Path& path : paths) {
+    put(out, path.size());
+    for (const IntPoint& p : path) {
+      put(out, p.X);
+      put(out, p.Y);
+    }
+  }
+  return out;
+}
+
+/// Of what `bytes_of` gave.
+Paths paths_of(std::string_view bytes) {
+  const auto take = [&](auto& v) {
+    std::memcpy(&v, bytes.data(), sizeof v);
+    bytes.remove_prefix(sizeof v);
+  };
+  Paths out;
+  while (!bytes.empty()) {
+    std::size_t n = 0;
+    take(n);
+    out.emplace_back(n);
+    for (IntPoint& p : out.back()) {
+      take(p.X);
+      take(p.Y);
+    }
+  }
+  return out;
+}
+
+/// The first point of all; 0 where there is none.
+IntPoint place_of(const Paths& paths) {
+  for (const ClipperLib::Path& path : paths)
+    if (!path.empty()) return path.front();
+  return {};
+}
+
+// Clipper rounds to whole numbers by doubles that hold the place, too. Made about a point of its own, an
+// outline is the same wherever it lies, and may be taken from what was made elsewhere.
+template <class Make>
+Region made_or_kept(IntPoint place, const std::string& question, Make make) {
+  KeptOutlines* const kept = KeptOutlinesScope::innermost();
   Paths solution;
-  clipper.Execute(type, solution, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  if (std::string known; kept != nullptr && kept->find(question, known)) {
+    solution = paths_of(known);
+  } else {
+    make(solution);
+    if (kept != nullptr) kept->keep(question, bytes_of(solution));
+  }
+  shift(solution, place);
   return from_paths(solution);
 }
 
-Region offset_paths(const Paths& paths, double delta_mm, ClipperLib::JoinType join, ClipperLib::EndType end,
+Region combine(ClipType type, const std::vector<Loop>& a, const std::vector<Loop>& b) {
+  poll();
+  Paths subject = to_paths(a), clip = to_paths(b);
+  const IntPoint place = place_of(subject);
+  for (Paths* paths : {&subject, &clip}) shift(*paths, {-place.X, -place.Y});
+  std::string question;
+  if (KeptOutlinesScope::innermost() != nullptr) {
+    put(question, static_cast<int>(type));
+    put(question, subject.size());
+    question += bytes_of(subject) + bytes_of(clip);
+  }
+  return made_or_kept(place, question, [&](Paths& solution) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(subject, ClipperLib::ptSubject, true);
+    clipper.AddPaths(clip, ClipperLib::ptClip, true);
+    clipper.Execute(type, solution, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  });
+}
+
+Region offset_paths(Paths paths, double delta_mm, ClipperLib::JoinType join, ClipperLib::EndType end,
                     double arc_tolerance_mm) {
   poll();
-  ClipperLib::ClipperOffset clipper(2.0, arc_tolerance_mm * kScale);
-  clipper.AddPaths(paths, join, end);
-  Paths solution;
-  clipper.Execute(solution, delta_mm * kScale);
-  return from_paths(solution);
+  const IntPoint place = place_of(paths);
+  shift(paths, {-place.X, -place.Y});
+  std::string question;
+  if (KeptOutlinesScope::innermost() != nullptr) {
+    put(question, kOffset);
+    for (const int v : {static_cast<int>(join), static_cast<int>(end)}) put(question, v);
+    for (const double v : {delta_mm, arc_tolerance_mm}) put(question, v);
+    question += bytes_of(paths);
+  }
+  return made_or_kept(place, question, [&](Paths& solution) {
+    ClipperLib::ClipperOffset clipper(2.0, arc_tolerance_mm * kScale);
+    clipper.AddPaths(paths, join, end);
+    clipper.Execute(solution, delta_mm * kScale);
+  });
 }
 
 int arc_steps(double radius_mm, double sweep_rad, double tolerance_mm) {

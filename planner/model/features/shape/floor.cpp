@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/ground/geometry/open_line.h"
+#include "planner/ground/geometry/lines/open_line.h"
 #include "planner/model/features/shape.h"
 
 namespace capstan::model {

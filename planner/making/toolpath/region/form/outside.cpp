@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
-#include "planner/ground/geometry/open_line.h"
+#include "planner/ground/geometry/lines/open_line.h"
 #include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/region/region_paths.h"

@@ -1,4 +1,4 @@
-#include "planner/ground/geometry/open_line.h"
+#include "planner/ground/geometry/lines/open_line.h"
 
 #include <algorithm>
 
