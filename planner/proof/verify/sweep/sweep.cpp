@@ -30,8 +30,8 @@ struct Scene {
   CutSquares squares;
   Scene(const model::Plan& plan, const PartShapes& part, std::size_t setup, double cell,
         const KnownSteps& known, const std::optional<geometry::Box2>& near)
-      : target(plan, part, setup), grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
-    if (near) target.only_near(*near);
+      : target(plan, part, setup, near),
+        grid(xy(target.stock().lo), xy(target.stock().hi), cell, kMaximumCells) {
     poll();
     known.remember(target, grid);
     target.fill(grid);
@@ -42,11 +42,13 @@ struct Scene {
   [[nodiscard]] SweptSetup swept() { return {target, grid, earlier, squares}; }
 };
 
-/// The area that cutters of the steps in a set-up come near, set-up frame.
-geometry::Box2 near_moves(const model::Plan& plan, const geometry::Placement& frame,
+/// The area that cutters of the steps in a set-up come near, with the features that they are for, set-up
+/// frame.
+geometry::Box2 near_moves(const model::Plan& plan, const PartShapes& part, const geometry::Placement& frame,
                           const std::vector<StepMoves>& earlier, const std::vector<StepMoves>& steps) {
   constexpr double kMoreMm = 5.0;  // tolerances and chords are hundredths; default, unsourced
   geometry::Box3 out;
+  std::set<model::AnyRef> features;
   for (const auto* some : {&earlier, &steps}) {
     for (const StepMoves& step : *some) {
       if (step.cutter == nullptr || !(workpiece_in(plan, step.setup) == frame)) continue;
@@ -56,6 +58,18 @@ geometry::Box2 near_moves(const model::Plan& plan, const geometry::Placement& fr
         out.add(box.lo - geometry::Vec3{r, r, 0.0});
         out.add(box.hi + geometry::Vec3{r, r, 0.0});
       }
+      const auto* ws =
+          step.planned == nullptr ? nullptr : plan.model.get<model::MachiningWorkingstep>(step.planned->step);
+      if (ws != nullptr) features.insert(ws->its_feature);
+    }
+  }
+  for (const PartShapes::Entry& e : part.entries) {
+    if (!features.contains(e.feature)) continue;
+    for (const volumes::Form& form : e.shapes) {
+      const geometry::Box2 seen = seen_of(form, frame);
+      if (seen.lo.x > seen.hi.x) continue;
+      out.add({seen.lo.x, seen.lo.y, 0.0});
+      out.add({seen.hi.x, seen.hi.y, 0.0});
     }
   }
   return {xy(out.lo), xy(out.hi)};
@@ -143,7 +157,7 @@ bool check_removal(const model::Plan& plan, const PartShapes& part, const std::v
     if (scene == nullptr) {
       // Of a whole plan every place is near; then what is made serves other checks, too.
       std::optional<geometry::Box2> near;
-      if (before != nullptr) near = near_moves(plan, frame, earlier, steps);
+      if (before != nullptr) near = near_moves(plan, part, frame, earlier, steps);
       scenes.push_back(std::make_unique<Scene>(plan, part, step.setup, cell, known_steps, near));
       scene = scenes.back().get();
     }

@@ -101,29 +101,54 @@ double sideways(const Form& s) {
   return out;
 }
 
+/// Radius of a bore where it is widest.
+double radius_of(const Form& s, const volumes::Bore& b) {
+  const double thread = s.kind == ShapeKind::kThread ? 0.5 * b.thread_major_mm : 0.0;
+  return std::max({thread, b.top_radius_mm, b.bottom_radius_mm});
+}
+
+/// How far an area that is no bore's reaches beyond itself above its bottom.
+double wider(const Form& s) {
+  if (s.bevel() != nullptr) return s.bevel()->width_mm;
+  return s.slope_rad > 0.0 ? s.depth_mm() * std::tan(s.slope_rad) : 0.0;
+}
+
 /// The widest area a cutter may be in anywhere above the bottom, feature frame.
 Region widest(const Form& s) {
   const double grow = sideways(s);
-  if (const auto* b = s.bore()) {
-    const double thread = s.kind == ShapeKind::kThread ? 0.5 * b->thread_major_mm : 0.0;
-    return geometry::disc({0.0, 0.0}, std::max({thread, b->top_radius_mm, b->bottom_radius_mm}) + grow);
-  }
-  const double wider = s.bevel() != nullptr ? s.bevel()->width_mm
-                       : s.slope_rad > 0.0  ? s.depth_mm() * std::tan(s.slope_rad)
-                                            : 0.0;
-  return grow + wider > 0.0 ? geometry::offset(s.area, grow + wider) : s.area;
+  if (const auto* b = s.bore()) return geometry::disc({0.0, 0.0}, radius_of(s, *b) + grow);
+  return grow + wider(s) > 0.0 ? geometry::offset(s.area, grow + wider(s)) : s.area;
+}
+
+bool apart(const geometry::Box2& a, const geometry::Box2& b) {
+  return a.hi.x < b.lo.x || b.hi.x < a.lo.x || a.hi.y < b.lo.y || b.hi.y < a.lo.y;
 }
 
 }  // namespace
 
-Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setup)
+geometry::Box2 seen_of(const Form& s, const Placement& in_setup) {
+  constexpr double kChordsMm = 0.01;  // more than the chords of `widest` leave an arc
+  const auto* bore = s.bore();
+  const geometry::Box2 own = bore == nullptr ? geometry::bounds(s.area) : geometry::Box2{{}, {}};
+  if (own.lo.x > own.hi.x) return own;  // no area
+  const double more = sideways(s) + kChordsMm + (bore == nullptr ? wider(s) : radius_of(s, *bore));
+  const Placement at = compose(in_setup, s.frame());
+  Box3 out;
+  for (const double x : {own.lo.x - more, own.hi.x + more})
+    for (const double y : {own.lo.y - more, own.hi.y + more}) out.add(at.to_parent({x, y, 0.0}));
+  return {xy(out.lo), xy(out.hi)};
+}
+
+Target::Target(const model::Plan& plan, const PartShapes& part, std::size_t setup,
+               const std::optional<geometry::Box2>& near)
     : plan_(plan),
       part_(part),
       frame_(workpiece_in(plan, setup)),
       stock_(placed(plan.stock.box, frame_)),
       part_box_(placed(part.part, frame_)),
       turned_(std::abs(frame_.z.z) > kUpright &&
-              std::min(std::abs(frame_.x.x), std::abs(frame_.x.y)) > kSquare) {
+              std::min(std::abs(frame_.x.x), std::abs(frame_.x.y)) > kSquare),
+      near_(near) {
   if (plan.target_mesh) {
     const geometry::MeshForm form = geometry::form_of(*plan.target_mesh);
     sheet_ = form.kind == geometry::MeshForm::Kind::kSheet;
@@ -150,6 +175,8 @@ void Target::add(const Form& s, bool bevel) {
   const bool below = at.z.z < 0.0;
   if (below && !s.solid.through) return;  // from the other side: seen from here the surface stays
   if (!representable(s)) return;
+  sideways_mm_ = std::max(sideways_mm_, sideways(s));
+  if (near_ && apart(seen_of(s, frame_), *near_)) return;
   Cavity c;
   c.shape = &s;
   c.bevel = bevel;
@@ -260,7 +287,7 @@ void Target::fill(Grid& grid) {
       if (beside_stock(grid.centre(ix, iy))) grid.stock[grid.index(ix, iy)] = Grid::kNothing;
   }
   if (turned_ || round_) grid.find_top();
-  if (memo_ == nullptr) return fill_part(grid);
+  if (memo_ == nullptr || near_) return fill_part(grid);
   const Key key = memo::key_of(Stage::kPart, of_setup_, std::string("part"));
   if (const auto bytes = memo_->find(Stage::kPart, key)) {
     if (Runs::unpacked_into(*bytes, grid.part)) return;
@@ -361,8 +388,7 @@ bool Target::is_gouge(Vec2 at, double z) const {
   if (plan_.target_mesh && grid_ != nullptr) return grid_->normal_depth(at, z) > allowed();
   // Not if the surface is as low within the tolerance sideways: then it is a wall that was grazed.
   const double reach = allowed();
-  double side = reach;
-  for (const Cavity& c : cavities_) side = std::max(side, reach + sideways(*c.shape));
+  const double side = reach + sideways_mm_;
   for (int i = 0; i < 16; ++i) {
     const double a = 2.0 * std::numbers::pi * (i % 8) / 8.0;
     const double r = i < 8 ? reach : side;

@@ -39,6 +39,8 @@ struct PartShapes {
   [[nodiscard]] const Entry* find(model::AnyRef feature) const;
 };
 [[nodiscard]] PartShapes shapes_of_part(const model::Plan& plan);
+/// Around all of a feature with its tolerances, seen along z of a set-up's frame.
+[[nodiscard]] geometry::Box2 seen_of(const volumes::Form& form, const geometry::Placement& in_setup);
 
 /// The workpiece that the project makes, else the first of the file; null: there is none.
 [[nodiscard]] const model::Workpiece* workpiece_of(const model::Plan& plan);
@@ -80,10 +82,11 @@ inline constexpr double kChordMm = 0.005;
 /// at a given height.
 class Target : public GougeTest {
  public:
-  Target(const model::Plan& plan, const PartShapes& part, std::size_t setup);
+  /// `near`: heights and walls are asked for within this area only, set-up frame; features beside it are left
+  /// out.
+  Target(const model::Plan& plan, const PartShapes& part, std::size_t setup,
+         const std::optional<geometry::Box2>& near = std::nullopt);
 
-  /// Walls are asked for within this area only, set-up frame: features beside it need not be combined.
-  void only_near(const geometry::Box2& area) { near_ = area; }
   /// Heights and walls are taken from the memo where it has them, and kept there. `of_setup` is the key of
   /// all that they are made from: the part's own reading, machine and mesh (KnownSteps), `describe`, the
   /// grid.
@@ -197,6 +200,7 @@ class Target : public GougeTest {
   std::vector<double> levels_;
   std::map<std::size_t, Walls> walls_;
   std::optional<geometry::Box2> near_;
+  double sideways_mm_ = 0.0;  ///< beyond its walls the widest tolerance of all features lets a cutter go
   memo::Memo* memo_ = nullptr;
   memo::Key of_setup_;
   /// The last answer whether the part is solid at a point.

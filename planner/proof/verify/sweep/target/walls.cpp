@@ -121,10 +121,6 @@ Bins binned(std::size_t bins, std::size_t edges, const Each& each) {
   return out;
 }
 
-bool apart_from(const geometry::Box2& a, const geometry::Box2& b) {
-  return a.hi.x < b.lo.x || a.lo.x > b.hi.x || a.hi.y < b.lo.y || a.lo.y > b.hi.y;
-}
-
 }  // namespace
 
 std::vector<Target::Walls::Edge> Target::edges_at(double z) const {
@@ -132,7 +128,6 @@ std::vector<Target::Walls::Edge> Target::edges_at(double z) const {
   std::vector<Part> parts;
   for (const Cavity& c : cavities_) {
     tick();
-    if (near_ && apart_from(c.box, *near_)) continue;
     if (c.floor_mm > z + allowed() && !c.open_bottom) continue;
     Region r = c.area;
     for (const auto& [island, top] : c.islands) {
