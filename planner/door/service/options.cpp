@@ -13,6 +13,7 @@
 #include "planner/door/late/changes.h"
 #include "planner/door/service/edits/edit_options.h"
 #include "planner/door/service/formats.h"
+#include "planner/door/service/state/state_options.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/cutter_class.h"
@@ -361,6 +362,9 @@ std::vector<Option> table() {
   const auto edits = edit_options();
   out.insert(std::find_if(out.begin(), out.end(), [](const Option& o) { return o.name == "bind"; }),
              edits.begin(), edits.end());
+  const auto state = state_options();
+  out.insert(std::find_if(out.begin(), out.end(), [](const Option& o) { return o.name == "may"; }),
+             state.begin(), state.end());
   for (Option& o : out) {
     static constexpr std::string_view kOfShop[] = {
         "machine", "control", "tools", "material", "stock",       "objective",         "margin", "feeds",

@@ -10,6 +10,7 @@
 
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/code.h"
+#include "planner/door/service/state/machine_state.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/model/plan/edit/edit.h"
@@ -42,6 +43,7 @@ struct Request {
   bool stop_at_deadline = false;                      ///< bind: what is not checked by then is given up
   std::optional<std::string> measured;                ///< bind: of NC variables (late/branches.h)
   std::string time;                                   ///< bind: when it is, for the record
+  MachineState state = {};                            ///< bind: of the machine as it runs
   std::optional<std::string> profile;                 ///< check: a control's profile, by id or file
   bool schema = false;                                ///< check: what reading found is a finding, too
   std::vector<model::Edit> edits;                     ///< of the operator, in the order they were given

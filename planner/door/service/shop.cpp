@@ -12,6 +12,7 @@
 #include "planner/door/service/edits/edits_file.h"
 #include "planner/door/service/edits/known_names.h"
 #include "planner/door/service/options.h"
+#include "planner/door/service/state/machine_state.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
@@ -309,6 +310,8 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   pipeline::Inputs in;
   if (auto ok = machine_of(o, plan, in, job); !ok) return tl::unexpected(ok.error());
   take_control(o, in, job);
+  if (auto ok = take_state(o.state, o.sign, in.machine, in.provenance, job); !ok)
+    return tl::unexpected(ok.error());
 
   poll();
   auto library = tooling::load_library(

@@ -1,0 +1,60 @@
+#include "planner/door/service/state/state_options.h"
+
+#include <cmath>
+#include <string>
+
+#include "planner/door/service/state/machine_state.h"
+#include "planner/ground/base/number.h"
+
+namespace capstan::service {
+namespace {
+
+std::string set_power(Request& r, const std::string& text) {
+  const auto kw = parse_double(text);
+  if (!kw || !std::isfinite(*kw) || !(*kw > 0.0)) return "'" + text + "' is no power above 0 in kW, e.g. 5.5";
+  r.state.spindle_power_kw = *kw;
+  return {};
+}
+
+std::string set_limits(Request& r, const std::string& text) {
+  auto limits = parse_axis_limits(text);
+  if (!limits) return limits.error().message + "; expected " + limits.error().expected;
+  r.state.axis_limits = *std::move(limits);
+  return {};
+}
+
+}  // namespace
+
+std::vector<Option> state_options() {
+  return {
+      {.name = "spindle-power",
+       .value = Value::kText,
+       .help = {nullptr,
+                "the most that the control lets the spindle give now, kW; less than the machine's own: the "
+                "steps are cut with that",
+                nullptr},
+       .set = &set_power},
+      {.name = "axis-limits",
+       .value = Value::kText,
+       .help = {nullptr,
+                "how far the axes may go now, mm in machine coordinates: X=0:350,Z=-200:-5; never farther "
+                "than the machine's own travels",
+                nullptr},
+       .set = &set_limits},
+      {.name = "feed-override",
+       .value = Value::kWhole,
+       .help = {nullptr,
+                "the feed override of the control, %; above 100 chips would be thicker than any that were "
+                "checked: turn it back",
+                nullptr},
+       .set =
+           [](Request& r, const std::string& t) {
+             r.state.feed_override = static_cast<unsigned>(std::stoul(t));
+             return std::string();
+           },
+       .least = 1,
+       .most = 100},
+  };
+}
+
+}  // namespace capstan::service
