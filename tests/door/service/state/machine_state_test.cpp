@@ -14,9 +14,14 @@ model::Machine machine() {
   constexpr double kTorque = 10e3 * 60.0 / (2.0 * std::numbers::pi * 1000.0);
   model::Machine m;
   m.id = "mill";
-  m.axes[0] = {.name = "X", .travel_min_mm = 0.0, .travel_max_mm = 400.0};
-  m.axes[1] = {.name = "Y", .travel_min_mm = 0.0, .travel_max_mm = 300.0};
-  m.axes[2] = {.name = "Z", .travel_min_mm = -250.0, .travel_max_mm = 0.0};
+  const auto axis = [](const char* name, double from_mm, double to_mm) {
+    model::LinearAxis out;
+    out.name = name;
+    out.travel_min_mm = from_mm;
+    out.travel_max_mm = to_mm;
+    return out;
+  };
+  m.axes = {axis("X", 0.0, 400.0), axis("Y", 0.0, 300.0), axis("Z", -250.0, 0.0)};
   m.spindle.curve = {{100.0, 0.1 * 10e3, kTorque}, {1000.0, 10e3, kTorque}, {8000.0, 10e3, kTorque / 8.0}};
   return m;
 }
