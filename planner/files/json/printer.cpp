@@ -46,6 +46,12 @@ void put_byte(std::string& out, unsigned char byte) {
   out += static_cast<char>(0x80U + (byte & 0x3FU));
 }
 
+/// Whether a character stands for itself in a string.
+bool is_plain(char c) {
+  return static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) < 0x7F && c != '"' &&
+         c != '\\';
+}
+
 void put_ascii(std::string& out, char c) {
   if (c == '"' || c == '\\') {
     out += '\\';
@@ -65,6 +71,10 @@ std::string quoted(std::string_view bytes) {
   std::string out = "\"";
   out.reserve(bytes.size() + 2);
   for (std::size_t i = 0; i < bytes.size();) {
+    const std::size_t from = i;
+    while (i < bytes.size() && is_plain(bytes[i])) ++i;
+    out.append(bytes, from, i - from);
+    if (i == bytes.size()) break;
     const std::size_t n = utf8_length(bytes, i);
     if (n == 1) {
       put_ascii(out, bytes[i++]);

@@ -87,12 +87,6 @@ class ArcTable {
     return out;
   }
 
-  [[nodiscard]] Integrals between(double from, double to) const {
-    const Integrals a = upto(from);
-    const Integrals b = upto(to);
-    return {b.c - a.c, b.s - a.s, b.one - a.one, b.ec - a.ec, b.es - a.es, b.e1 - a.e1};
-  }
-
   [[nodiscard]] Integrals at(double a) const {
     if (edges_) {
       const double c = std::cos(a);
@@ -119,6 +113,21 @@ class ArcTable {
   std::array<Integrals, kCells> short_;  // what the trapezium of a cell lacks of the exact integral
 };
 
+Integrals less(const Integrals& b, const Integrals& a) {
+  return {b.c - a.c, b.s - a.s, b.one - a.one, b.ec - a.ec, b.es - a.es, b.e1 - a.e1};
+}
+
+/// The running integrals at both ends of each piece's arc, where most lags are cut off.
+struct Ends {
+  std::array<Integrals, kCornerPieces + 1> from, to;
+  Ends(const Pieces& all, const ArcTable& table) {
+    for (std::size_t k = 0; k < all.count; ++k) {
+      from[k] = table.upto(all.item[k].from);
+      to[k] = table.upto(all.item[k].to);
+    }
+  }
+};
+
 struct Moment {
   ForceVector force;
   double torque_nmm = 0.0;
@@ -141,8 +150,8 @@ struct Part {
 };
 
 /// What all teeth add with the tip of one at an angle.
-void append_parts(std::vector<Part>& parts, const Pieces& all, const ArcTable& table, double tip,
-                  double pitch) {
+void append_parts(std::vector<Part>& parts, const Pieces& all, const ArcTable& table, const Ends& ends,
+                  double tip, double pitch) {
   for (std::size_t k = 0; k < all.count; ++k) {
     const Piece& p = all.item[k];
     const double lag = p.lag_high - p.lag_low;
@@ -157,7 +166,11 @@ void append_parts(std::vector<Part>& parts, const Pieces& all, const ArcTable& t
     for (double a = tip - pitch * std::floor((tip - first) / pitch); a <= p.to + p.lag_high; a += pitch) {
       const double from = std::max(p.from, a - p.lag_high);
       const double to = std::min(p.to, a - p.lag_low);
-      if (from < to) parts.push_back({k, 1.0 / lag, table.between(from, to)});
+      if (from < to) {
+        parts.push_back({k, 1.0 / lag,
+                         less(to == p.to ? ends.to[k] : table.upto(to),
+                              from == p.from ? ends.from[k] : table.upto(from))});
+      }
     }
   }
 }
@@ -185,11 +198,11 @@ struct Angles {
   std::vector<std::size_t> ends;  ///< of each angle, in `parts`
 };
 
-Angles angles_of(const Pieces& all, const ArcTable& table, int teeth) {
+Angles angles_of(const Pieces& all, const ArcTable& table, const Ends& ends, int teeth) {
   const double pitch = 2.0 * kPi / teeth;
   Angles out;
   const auto at = [&](double tip) {
-    append_parts(out.parts, all, table, tip, pitch);
+    append_parts(out.parts, all, table, ends, tip, pitch);
     out.ends.push_back(out.parts.size());
   };
   out.ends.reserve(kSamples + 3 * all.count);
@@ -371,12 +384,13 @@ Result<SectionAtFeeds> SectionAtFeeds::of(const Section& section, const Tooth& t
     to = std::max(to, all.item[i].to);
   }
   const ArcTable table(from, to, mc);
+  const Ends ends(all, table);
   for (std::size_t i = 0; i < all.count; ++i) {
     const Piece& p = all.item[i];
-    shape.whole[i] = table.between(p.from, p.to);
+    shape.whole[i] = less(ends.to[i], ends.from[i]);
     shape.mean_chip += p.depth * (std::cos(p.from) - std::cos(p.to));
   }
-  shape.angles = angles_of(all, table, tooth.teeth);
+  shape.angles = angles_of(all, table, ends, tooth.teeth);
   return out;
 }
 

@@ -251,6 +251,12 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
   if (!changes && n > 1 && clear_of_walls(m, low, std::max(reach, kChordMm))) return 0.0;
   double worst = 0.0;
   Vec3 a = m.from;
+  // Pieces that fall in one place past the same walls are as far from them.
+  struct Fallen {
+    const Walls* walls = nullptr;
+    Vec2 from, to;
+    double squared = 0.0;
+  } last;
   for (int i = 1; i <= n; ++i) {
     tick();
     const Vec3 b = point_of(m, static_cast<double>(i) / n);
@@ -259,15 +265,18 @@ double Target::wall_gouge(const Move& m, double radius, double height_mm, Vec2& 
     if (z + allowed() < part_box_.hi.z) {
       const Walls& w = walls(z);
       const Vec2 p = i == n && changes ? xy(b) : xy(a);
-      double squared = 1e300;
       const Vec2 lo{std::min(p.x, b.x) - reach, std::min(p.y, b.y) - reach};
       const Vec2 hi{std::max(p.x, b.x) + reach, std::max(p.y, b.y) + reach};
-      w.each_near(lo, hi, [&](const Walls::Edge& e) {
-        if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
-        squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
-                            squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
-        return true;
-      });
+      const bool again = last.walls == &w && last.from == p && last.to == xy(b);
+      double squared = again ? last.squared : 1e300;
+      if (!again)
+        w.each_near(lo, hi, [&](const Walls::Edge& e) {
+          if (crossing(p, xy(b), e.a, e.b)) squared = 0.0;
+          squared = std::min({squared, squared_distance(p, e.a, e.b), squared_distance(xy(b), e.a, e.b),
+                              squared_distance(e.a, p, xy(b)), squared_distance(e.b, p, xy(b))});
+          return true;
+        });
+      last = {&w, p, xy(b), squared};
       const double near = std::sqrt(squared);
       double into = radius - near;
       if (near > std::max(reach, kChordMm)) {
