@@ -168,7 +168,7 @@ std::string with_tool_changed(std::string table, const std::string& words, const
   const auto before = table.rfind('\n', named);
   const auto of = before == std::string::npos ? 0 : before + 1;
   const auto at = table.find(key + "+", of);
-  if (at == std::string::npos || at > named) return {};
+  if (at == std::string::npos || at > table.find('\n', named)) return {};
   const auto end = table.find(' ', at);
   const double now = parse_double(table.substr(at + 2, end - at - 2)).value_or(0.0) + by_mm;
   return table.replace(at, end - at, key + "+" + shortest(now));
