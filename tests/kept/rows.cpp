@@ -56,7 +56,7 @@ void drops() {
       points.push_back({100.0 * (j % 2 == 0 ? i : kPlaces - 1 - i) / kPlaces, 100.0 * j / kPlaces});
   }
   const Job job;
-  const auto z = cutter.drop({0.0, 3.0}, points, 0.0, job);
+  const auto z = cutter.drop(toolpath::freeform::Toroid{0.0, 3.0}, points, 0.0, job);
   wanted(z.size() == points.size() && z.front() > -6.0, "the drops are wrong");
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "planner/ground/base/job.h"
@@ -44,7 +43,7 @@ struct Eased {
 /// Input of the cut optimiser: depth, width and speed limits before there is a path. Given values are kept.
 struct CutQuestion {
   CutKind kind = CutKind::kRough;
-  std::string_view law = "drilling";  ///< kAxial: of the loads, a name of cut/law; static text
+  std::string law = "drilling";  ///< kAxial: of the loads, a name of cut/law
   model::Cutter cutter;
   model::WorkMaterial material;
   model::Machine machine;

@@ -155,7 +155,7 @@ const AxialLaw& law_of(const CutQuestion& q) {
   static const std::vector<AxialLaw> kLaws = axial_laws();
   const auto it =
       std::find_if(kLaws.begin(), kLaws.end(), [&](const AxialLaw& l) { return l.name == q.law; });
-  if (it == kLaws.end()) throw std::logic_error("no law of loads is called " + std::string(q.law));
+  if (it == kLaws.end()) throw std::logic_error("no law of loads is called " + q.law);
   return *it;
 }
 
