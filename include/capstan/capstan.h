@@ -68,11 +68,9 @@ struct PlanOptions {
   /// "POCKET*/tool"; "feed<=2000"; "tool=em12*"; "HOLE<POCKET". `edits` is a file of them.
   std::vector<std::string> set = {}, pin = {}, limit = {}, forbid = {}, order = {};
   std::string edits = {};
-  /// Of `bind_...`: what a control says of its running machine: the most that the spindle gives, kW; how far
-  /// axes go, mm in machine coordinates, "X=0:350,Z=-200:-5"; the feed override, %, at most 100. 0, empty: as
-  /// the machine has it.
+  /// Of `bind_...`: what a control says of its running machine: the most that the spindle gives, kW; the
+  /// feed override, %, at most 100. 0: as the machine has it.
   double spindle_power_kw = 0.0;
-  std::string axis_limits = {};
   unsigned feed_override = 0;
   std::string shop = {};  ///< a file of the shop's settings (`capstan shop init` writes one); what is empty
                           ///< here is as it says

@@ -22,7 +22,7 @@ struct Field {
 
 /// A number in the service's form. The service refuses a number that is not finite like any other text.
 std::string number(double v) { return std::isfinite(v) ? shortest(v) : "not finite"; }
-std::string above_zero(double v) { return v <= 0.0 ? std::string() : number(v); }
+std::string unless_zero(double v) { return v == 0.0 ? std::string() : number(v); }
 std::string flag(bool v) { return v ? "yes" : ""; }
 
 /// An option that may be repeated, and its field.
@@ -71,8 +71,7 @@ constexpr std::array kFields = {
     Field{"from", [](const PlanOptions& o) { return o.from == 0 ? "" : std::to_string(o.from); }},
     Field{"stop-at-deadline", [](const PlanOptions& o) { return flag(o.stop_at_deadline); }},
     Field{"measured", [](const PlanOptions& o) { return o.measured; }},
-    Field{"spindle-power", [](const PlanOptions& o) { return above_zero(o.spindle_power_kw); }},
-    Field{"axis-limits", [](const PlanOptions& o) { return o.axis_limits; }},
+    Field{"spindle-power", [](const PlanOptions& o) { return unless_zero(o.spindle_power_kw); }},
     Field{"feed-override",
           [](const PlanOptions& o) { return o.feed_override == 0 ? "" : std::to_string(o.feed_override); }},
     Field{"strict", [](const PlanOptions& o) { return flag(o.strict); }},

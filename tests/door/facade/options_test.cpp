@@ -63,7 +63,6 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.from = 3;
   o.stop_at_deadline = true;
   o.spindle_power_kw = 5.5;
-  o.axis_limits = "X=0:350";
   o.feed_override = 80;
   o.threads = 3;
   const service::Request r = request(o);
@@ -92,8 +91,6 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.from, 3u);
   EXPECT_TRUE(r.stop_at_deadline);
   EXPECT_EQ(r.state.spindle_power_kw, 5.5);
-  ASSERT_EQ(r.state.axis_limits.size(), 1U);
-  EXPECT_EQ(r.state.axis_limits[0].most_mm, 350.0);
   EXPECT_EQ(r.state.feed_override, 80U);
   EXPECT_FALSE(r.allow_findings);
   EXPECT_EQ(r.threads, 3U);

@@ -41,20 +41,6 @@ TEST(LateState, OfASpindleThatMayGiveLessTheStepsTakeLonger) {
   EXPECT_GT(less.machining_s, whole.machining_s);
 }
 
-TEST(LateState, AProgramStaysWithinTheAxisLimitsOrIsNotGiven) {
-  // The plate is longer than 20 mm.
-  const Bound out = bound("axis-limits", "X=0:20");
-  EXPECT_EQ(out.code, service::Code::kImpossible) << out.message;
-  EXPECT_EQ(out.program, "");
-  EXPECT_THAT(out.message, HasSubstr("travel"));
-}
-
-TEST(LateState, RetractsNoHigherThanTheAxisMayGo) {
-  const Bound out = bound("axis-limits", "Z=0:243");
-  ASSERT_EQ(out.code, service::Code::kDone) << out.message;
-  EXPECT_THAT(out.program, HasSubstr("G53 G0 Z243"));
-}
-
 TEST(LateState, AnOverrideAboveTheWholeFeedIsRefusedAndALowerOneIsTold) {
   EXPECT_EQ(bound("feed-override", "120").code, service::Code::kUsage);
   const Bound lower = bound("feed-override", "50");

@@ -16,13 +16,6 @@ std::string set_power(Request& r, const std::string& text) {
   return {};
 }
 
-std::string set_limits(Request& r, const std::string& text) {
-  auto limits = parse_axis_limits(text);
-  if (!limits) return limits.error().message + "; expected " + limits.error().expected;
-  r.state.axis_limits = *std::move(limits);
-  return {};
-}
-
 }  // namespace
 
 std::vector<Option> state_options() {
@@ -34,13 +27,6 @@ std::vector<Option> state_options() {
                 "steps are cut with that",
                 nullptr},
        .set = &set_power},
-      {.name = "axis-limits",
-       .value = Value::kText,
-       .help = {nullptr,
-                "how far the axes may go now, mm in machine coordinates: X=0:350,Z=-200:-5; never farther "
-                "than the machine's own travels",
-                nullptr},
-       .set = &set_limits},
       {.name = "feed-override",
        .value = Value::kWhole,
        .help = {nullptr,
