@@ -107,10 +107,6 @@ class CaseBase {
   [[nodiscard]] std::vector<Case> cases() const;
   /// Those that were cut, measured or entered, with a tool of this class; else as `cases`.
   [[nodiscard]] std::vector<Case> cut_with(std::string_view tool_class) const;
-  /// Measured cases of a material group on a machine class; an empty name: of any. At most `most`, those of
-  /// the least ids, which are a sample that neither time nor order chose; else as `cases`.
-  [[nodiscard]] std::vector<Case> measured_in(std::string_view material_group, std::string_view machine_class,
-                                              std::size_t most) const;
   /// What was found altered or gone since this was asked last, as warnings (CASE-ROW).
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 

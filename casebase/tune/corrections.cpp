@@ -38,13 +38,13 @@ bool usable(std::initializer_list<double> values) {
 }
 
 Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<const Row> rows,
-               const RegressionOptions& options, Regression fit, bool leave_out = true) {
+               const RegressionOptions& options, Regression fit) {
   Corrected out;
   out.model = std::move(model);
   out.terms = std::move(terms);
   out.cases = rows.size();
   out.groups = fit.groups;
-  if (leave_out && fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
+  if (fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
     const std::vector<LeftOut> left_out = leave_groups_out(rows, fit.coefficient.size(), options);
     out.left_out = {rms(left_out), coverage_90(left_out)};
   }
@@ -191,7 +191,7 @@ double TimeCorrection::ln_std_dev(double block_s) const {
   return how.fit.predictive_std_dev_at(time_terms(block_s));
 }
 
-std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples, bool leave_out) {
+std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples) {
   std::vector<Row> rows;
   for (const TimeSample& s : samples) {
     if (!usable({s.planned_s, s.observed_s, s.block_s})) continue;
@@ -204,7 +204,7 @@ std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples, 
   return TimeCorrection{told("time",
                              {term("ln(observed / planned) at blocks of 0.1 s", "", options.prior[0], fit, 0),
                               term("per ln of the block's time", "", options.prior[1], fit, 1)},
-                             rows, options, fit, leave_out)};
+                             rows, options, fit)};
 }
 
 std::size_t slenderness_of(double stick_out_ratio) {
@@ -219,7 +219,7 @@ double BoreCorrection::std_dev_mm(double feed_per_turn_mm, double stick_out_rati
                                        slenderness_of(stick_out_ratio));
 }
 
-std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples, bool leave_out) {
+std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples) {
   std::vector<Row> rows;
   for (const BoreSample& s : samples) {
     if (!usable({s.feed_per_turn_mm, s.stick_out_ratio}) || !std::isfinite(s.deviation_mm)) continue;
@@ -235,7 +235,7 @@ std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples,
       "size of bores",
       {term("deviation at 0.05 mm per turn and 4 D", "mm", any, fit, 0),
        term("per ln of the feed", "mm", any, fit, 1), term("per ln of the stick-out", "mm", any, fit, 2)},
-      rows, options, fit, leave_out)};
+      rows, options, fit)};
 }
 
 model::WorkMaterial corrected(model::WorkMaterial material, const Corrections& corrections) {

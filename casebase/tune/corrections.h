@@ -103,9 +103,7 @@ struct TimeCorrection {
   [[nodiscard]] double factor(double block_s) const;
   [[nodiscard]] double ln_std_dev(double block_s) const;
 };
-/// `leave_out`: whether `how.left_out` is asked for, which costs a fit for each part.
-[[nodiscard]] std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples,
-                                                         bool leave_out = true);
+[[nodiscard]] std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples);
 
 /// The deviation of a bore's diameter from what was programmed, and what it was milled with.
 struct BoreSample {
@@ -121,8 +119,7 @@ struct BoreCorrection {
   [[nodiscard]] double deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const;
   [[nodiscard]] double std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const;
 };
-[[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples,
-                                                          bool leave_out = true);
+[[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples);
 
 /// What planning may take: every member by itself.
 struct Corrections {

@@ -240,41 +240,5 @@ TEST(CorrectionsOf, BoresThatAreMilledAloneByPart) {
   EXPECT_FALSE(bores("SIDE_FINISH_MILLING", "DEFINED_THREAD"));
 }
 
-/// A bore that was milled on a part, 0.02 mm too wide, in 75 s instead of 60.
-Case milled_bore(const std::string& part) {
-  Case c = planned().step;
-  c.origin = Origin::kMeasured;
-  c.asked.width_mm = 0.0;
-  c.asked.diameter_mm = 20.0;
-  c.asked.stick_out_mm = 40.0;
-  c.observed.time_s = Figure{.value = 75.0};
-  c.observed.size_deviation_mm = Figure{.value = 0.02};
-  c.from.part = part;
-  c.from.source = "log";
-  return c;
-}
-
-TEST(SamplesOfCases, LeaveOutTimesAndBoresOfToolsThatBrokeOrChattered) {
-  const auto heard = [](const Observed& o) {
-    Case c = milled_bore("1");
-    c.observed = o;
-    const std::vector<Case> cases = {c};
-    return std::pair(times_of(cases).size(), bores_of(cases).size());
-  };
-  const Observed well = milled_bore("1").observed;
-  EXPECT_EQ(heard(well), std::pair(1UL, 1UL));
-  Observed o = well;
-  o.breakage = Figure{.value = 1.0};
-  EXPECT_EQ(heard(o), std::pair(0UL, 0UL));
-  o = well;
-  o.chatter = Figure{.value = 0.8};
-  EXPECT_EQ(heard(o), std::pair(0UL, 0UL));
-  o.chatter = Figure{.value = 0.2};  // light
-  EXPECT_EQ(heard(o), std::pair(1UL, 1UL));
-  o = well;
-  o.verdict = Verdict::kBad;  // for its size, perhaps: the size is heard
-  EXPECT_EQ(heard(o), std::pair(0UL, 1UL));
-}
-
 }  // namespace
 }  // namespace capstan::casebase::tune
