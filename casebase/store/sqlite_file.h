@@ -9,8 +9,7 @@
 
 #include "planner/ground/base/result.h"
 
-// A file of SQLite, opened defensively, and what it reports in our codes; only sqlite_store.cpp includes
-// this.
+// A file of SQLite, opened defensively, and what it reports in our codes; of this folder alone.
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -98,7 +98,8 @@ double ConvexOutline::sharpest_radius() const {
       least = std::min(least, p.r0_mm / sine);
     if (p.radius_mm > 0.0) least = std::min(least, p.radius_mm);
   }
-  return std::isinf(before) ? least : 0.0;
+  const ProfilePiece& last = piece[pieces - 1];
+  return last.radius_mm > 0.0 && ends_upright(last) ? least : 0.0;
 }
 
 std::optional<ConvexOutline> convex_outline(const CutterProfile& profile) {

@@ -26,8 +26,9 @@ inline constexpr double kRegionLimit = 1e6;
 [[nodiscard]] Region intersect(const Region& a, const Region& b);
 [[nodiscard]] Region subtract(const Region& a, const Region& b);
 /// Grown (delta > 0) or shrunk by delta with round corners; no point of the result is nearer to the old
-/// boundary than |delta| - kRegionGrid: arcs are approximated on the side away from it by up to
-/// arc_tolerance_mm; of 500 vertices and more, in steps and by up to 1.5 times that (offset/raw_offset.h).
+/// boundary than |delta| - kRegionGrid (ten of it from 500 vertices on): arcs are approximated on the side
+/// away from it by up to arc_tolerance_mm; of 500 vertices and more, in steps and by up to 1.5 times that
+/// (offset/raw_offset.h).
 [[nodiscard]] Region offset(const Region& a, double delta_mm, double arc_tolerance_mm = 0.001);
 /// As `offset`, corners kept sharp (mitred) when growing; limit 2.
 [[nodiscard]] Region offset_sharp(const Region& a, double delta_mm);

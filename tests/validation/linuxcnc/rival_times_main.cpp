@@ -34,9 +34,14 @@ double simulated(const model::Plan& plan, std::size_t step, std::string& said, b
   said = record.absent + record.failed;
   if (!said.empty()) return -1.0;
   const auto steps = linuxcnc::measured(*program, record);
-  const bool moved = steps.size() == plan.steps.size() && steps.at(step).path_s > 0.0;
-  if (moved) return steps.at(step).path_s;
-  said = "of the program " + std::to_string(steps.size()) + " steps were recorded, this one without a move";
+  if (steps.size() != plan.steps.size()) {
+    said = "of " + std::to_string(plan.steps.size()) + " steps " + std::to_string(steps.size()) +
+           " were recorded";
+  } else if (!(steps.at(step).path_s > 0.0)) {
+    said = "step " + std::to_string(step + 1) + " was recorded without a move";
+  } else {
+    return steps.at(step).path_s;
+  }
   return -1.0;
 }
 

@@ -30,8 +30,8 @@ std::vector<Option> state_options() {
       {.name = "feed-override",
        .value = Value::kWhole,
        .help = {nullptr,
-                "the feed override of the control, %; above 100 chips would be thicker than any that were "
-                "checked: turn it back",
+                "the feed override of the control, %, at most 100: at more a given feed makes thicker chips "
+                "than were checked; turn it back",
                 nullptr},
        .set =
            [](Request& r, const std::string& t) {

@@ -31,10 +31,11 @@ using model::TypeId;
 
 namespace {
 
-/// What a noun is written as: itself, or the nearest kind above it that ISO 14649 has and that is no abstract
-/// one; its own kind stands in a !CAPSTAN_TYPE beside it. Tool bodies go by their own names (dialect.cpp).
+/// What an operation is written as: itself, or the nearest kind above it that ISO 14649 has and that is no
+/// abstract one; its own kind stands in a !CAPSTAN_TYPE beside it. No other noun is: a machine is no
+/// workpiece.
 TypeId written_type(TypeId t) {
-  if (model::is_a(t, TypeId::kMillingToolBody)) return t;
+  if (!model::is_a(t, TypeId::kOperation)) return t;
   for (TypeId at = t; at != TypeId::kNone; at = model::noun_type(at).parent) {
     if (model::noun_type(at).in_iso14649) return model::noun_type(at).abstract ? t : at;
   }
@@ -79,7 +80,7 @@ class FileWriter {
     for (const auto& [what, n] : left_out_)
       losses_.push_back(cannot_store(what + (n == 1 ? "" : ", " + std::to_string(n) + " times") + ")"));
     for (const auto& [what, n] : rewritten_)
-      losses_.push_back("the .p21 form stores " + what + " as FREEFORM_OPERATION" +
+      losses_.push_back("the .p21 form stores " + what +
                         (n == 1 ? "" : " (" + std::to_string(n) + " times)"));
     return out;
   }
@@ -223,7 +224,9 @@ class FileWriter {
       return;
     }
     const void* data = m_.object(at);
-    if (written_type(at.type) != at.type) ++rewritten_[std::string(model::noun_type(at.type).keyword)];
+    if (const TypeId t = written_type(at.type); t != at.type)
+      ++rewritten_[std::string(model::noun_type(at.type).keyword) + " as " +
+                   std::string(model::noun_type(t).keyword)];
     for (const Attribute& a : model::noun_type(at.type).attributes) {
       if (!a.in_iso14649) {
         if (model::has_value(a, data)) beyond_at_.emplace_back(at, &a);

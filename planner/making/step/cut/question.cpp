@@ -46,7 +46,7 @@ constexpr double kTerraceShare = 0.25;
 constexpr double kAsWide = 1.02;
 
 CutKind kind_of(const Model& m, AnyRef op, const model::Cutter& c) {
-  if (model::mills_threads(c.cutter_class)) return CutKind::kFinish;
+  if (model::mills_threads(c.cutter_class) && !m.holds<model::Tapping>(op)) return CutKind::kFinish;
   if (!model::axial_law(op.type).empty()) {
     const bool mills = model::has(c.cutter_class, model::CutterTrait::kEndMill);
     return mills && m.holds<model::ThreadDrilling>(op) ? CutKind::kRough : CutKind::kAxial;

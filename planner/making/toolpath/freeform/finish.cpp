@@ -143,8 +143,8 @@ Result<FreeformPath> finish(const FreeformJob& task, Job& job) {
   if (!cutter) return tl::unexpected(cutter.error());
   if (!(cutter->ball_mm() > 0.0)) {
     return fail("FRF-CUTTER",
-                "finishing a surface needs a cutter without a corner, as a ball or bull nose is; '" +
-                    task.cutter.id + "' has one");
+                "finishing a surface needs a cutter that is taken without a corner; '" + task.cutter.id +
+                    "' is taken with one, as every flat and tapered mill is: name a ball or bull nosed one");
   }
   const double stepover =
       task.stepover_mm > 0.0 ? task.stepover_mm : scallop_stepover(cutter->ball_mm(), task.scallop_mm);

@@ -19,7 +19,7 @@ namespace capstan::toolpath::freeform {
 /// Units  mm, rad.
 struct FreeformJob {
   const geometry::Mesh* surface = nullptr;  ///< the finished surface; kept by the caller
-  model::Cutter cutter;                     ///< flat, ball or bull nosed
+  model::Cutter cutter;                     ///< a mill whose outline bends nowhere inwards
   /// Where the cutter's axis may go; empty: the rectangle around the mesh.
   geometry::Region area;
   /// Whether there is nothing to spare where the cutter, let down, meets no triangle: it may then go down to
@@ -68,7 +68,7 @@ struct FreeformPath {
 /// margin,
 ///            was let down on the mesh.
 /// Needs      axial_depth, stepover > 0, stepover at most the diameter.
-/// Fails      FRF-CUTTER   not flat, ball or bull nosed
+/// Fails      FRF-CUTTER   a drill, a cone, or a hollow outline
 ///            FRF-VALUE    a number that cannot be
 ///            FRF-EMPTY    nothing to cut in the area
 ///            FRF-STOPPED  the job was stopped

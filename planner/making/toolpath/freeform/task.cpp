@@ -10,10 +10,15 @@ namespace capstan::toolpath::freeform {
 
 Result<MillEnd> checked_cutter(const FreeformJob& task) {
   const std::optional<MillEnd> cutter = mill_end_of(model::profile_of(task.cutter));
+  const auto is = [&](model::CutterTrait t) { return model::has(task.cutter.cutter_class, t); };
+  if (is(model::CutterTrait::kAlongAxis) || is(model::CutterTrait::kCone)) {
+    return fail("FRF-CUTTER", "cutter '" + task.cutter.id + "' is a " +
+                                  std::string(model::words_of(task.cutter.cutter_class)) +
+                                  ", which does not mill surfaces; name a flat, bull or ball nosed end mill");
+  }
   if (!cutter) {
     return fail("FRF-CUTTER", "cutter '" + task.cutter.id +
-                                  "' has a hollow outline; freeform surfaces want a convex one: flat, bull "
-                                  "or ball nosed, tapered, lens or barrel");
+                                  "' has a hollow outline; name a flat, bull or ball nosed end mill");
   }
   if (task.surface == nullptr || task.surface->triangles.empty()) {
     return fail("FRF-EMPTY", "there is no surface to machine");

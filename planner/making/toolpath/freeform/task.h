@@ -5,7 +5,7 @@
 
 namespace capstan::toolpath::freeform {
 
-/// The cutter as a toroid, the task's numbers checked. Fails FRF-CUTTER, FRF-VALUE.
+/// The cutter's end, the task's numbers checked. Fails FRF-CUTTER, FRF-VALUE.
 [[nodiscard]] Result<MillEnd> checked_cutter(const FreeformJob& task);
 /// Where the axis may go, but for what is to be avoided.
 [[nodiscard]] geometry::Region area_of(const FreeformJob& task, const DropCutter& drop);

@@ -34,9 +34,7 @@ struct ControlWords {
 ///     kProgramNumber  O and digits alone in a block
 ///     kOWord          O with a keyword or a name, as LinuxCNC's subroutines and loops begin
 ///     kText           `text`, wherever it stands in a block without blanks
-///     kWord           `text` with no digit or decimal behind it; `other` is an address that must stand in
-///     the
-///                     block, too
+///     kWord           `text` with no digit or decimal behind it, in a block with the address `other`
 struct Sign {
   enum class Of : std::uint8_t { kProgramNumber, kOWord, kText, kWord };
   Of of = Of::kWord;

@@ -60,7 +60,9 @@ geometry::Box2 near_moves(const model::Plan& plan, const PartShapes& part, const
       }
       const auto* ws =
           step.planned == nullptr ? nullptr : plan.model.get<model::MachiningWorkingstep>(step.planned->step);
-      if (ws != nullptr) features.insert(ws->its_feature);
+      if (ws == nullptr) continue;
+      features.insert(ws->its_feature);
+      features.insert(ws->final_features.items.begin(), ws->final_features.items.end());
     }
   }
   for (const PartShapes::Entry& e : part.entries) {

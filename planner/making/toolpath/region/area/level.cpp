@@ -115,24 +115,36 @@ double LevelCutter::gap(const Level& level) const {
   return std::min(task.clearance_mm, cut ? kAirAbove : kAboveRaw);
 }
 
-double LevelCutter::ramp_angle() {
-  const double most = task.cutter.maximum_ramp_angle_rad;
-  if (!(most > 0.0)) return 0.0;
-  const double given = task.approach.angle_rad;
-  const bool asked = task.approach.kind == Approach::Kind::kRamp ||
-                     task.approach.kind == Approach::Kind::kHelix ||
-                     task.approach.kind == Approach::Kind::kZigzag;
-  if (!asked || !(given > 0.0)) return usual_ramp_rad(task);
-  if (given > most + 1e-9) {
-    warn("TPA-CHANGED", "ramp angle " + trimmed(most * 180.0 / kPi, 2) + " instead of " +
-                            trimmed(given * 180.0 / kPi, 2) + " degrees: cutter " + task.cutter.id +
-                            " allows no more");
-  }
-  return std::min({most, given, 1.5});
+namespace {
+
+/// The ramp that an approach asks for, rad; 0: none.
+double asked_ramp(const Approach& a) {
+  const bool ramps = a.kind == Approach::Kind::kRamp || a.kind == Approach::Kind::kHelix ||
+                     a.kind == Approach::Kind::kZigzag;
+  return ramps ? a.angle_rad : 0.0;
 }
 
-double LevelCutter::way_down_mm(const Level& level) {
-  const double depth = level.from_mm - level.z_mm, angle = ramp_angle();
+}  // namespace
+
+double LevelCutter::steepest() const {
+  const double most = task.cutter.maximum_ramp_angle_rad;
+  if (!(most > 0.0)) return 0.0;
+  const double asked = asked_ramp(task.approach);
+  return asked > 0.0 ? std::min({most, asked, 1.5}) : usual_ramp_rad(task);
+}
+
+double LevelCutter::ramp_angle() {
+  const double most = task.cutter.maximum_ramp_angle_rad, asked = asked_ramp(task.approach);
+  if (most > 0.0 && asked > most + 1e-9) {
+    warn("TPA-CHANGED", "ramp angle " + trimmed(most * 180.0 / kPi, 2) + " instead of " +
+                            trimmed(asked * 180.0 / kPi, 2) + " degrees: cutter " + task.cutter.id +
+                            " allows no more");
+  }
+  return steepest();
+}
+
+double LevelCutter::way_down_mm(const Level& level) const {
+  const double depth = level.from_mm - level.z_mm, angle = steepest();
   return angle > 0.0 ? depth / std::sin(angle) : depth;
 }
 

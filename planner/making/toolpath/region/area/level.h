@@ -49,7 +49,7 @@ class LevelCutter {
   /// Fails  TPA-ENTRY.
   Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
   /// How long the way down through the level's material is, mm: along a helix or ramp, else straight.
-  [[nodiscard]] double way_down_mm(const Level& level);
+  [[nodiscard]] double way_down_mm(const Level& level) const;
   /// Whether a ramp along this closed track went down to the level or deeper, and all the way round it there.
   [[nodiscard]] bool slotted(const Level& level, const Track& track) const;
   /// To a place that is cleared down to the level already, and down to it.
@@ -91,7 +91,8 @@ class LevelCutter {
   /// Whether one way in may go from the level's material down to z: chips come out, the cutter reaches.
   [[nodiscard]] bool may_go_down_to(const Level& level, double z) const;
   std::optional<Track> by_ramp(const Level& level, const Track& track);
-  [[nodiscard]] double ramp_angle();
+  [[nodiscard]] double steepest() const;  ///< ramp that is asked for and allowed, rad; 0: none
+  [[nodiscard]] double ramp_angle();      ///< the same, to be cut: says so where less is allowed than asked
   /// Height of the cutter's end over the level's material where it begins to ramp.
   [[nodiscard]] double gap(const Level& level) const;
 

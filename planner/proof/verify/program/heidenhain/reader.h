@@ -61,6 +61,7 @@ inline constexpr std::array<std::string_view, 99> kOffsets = {
     "PRESET89", "PRESET90", "PRESET91", "PRESET92", "PRESET93", "PRESET94", "PRESET95", "PRESET96",
     "PRESET97", "PRESET98", "PRESET99"};
 
+/// Source  HEIDENHAIN TNC 640, conversational programming: BEGIN PGM.
 inline constexpr std::array kSigns{
     Sign{.of = Sign::Of::kText,
          .text = "BEGINPGM",
