@@ -22,6 +22,8 @@ struct Field {
 
 /// A number in the service's form. The service refuses a number that is not finite like any other text.
 std::string number(double v) { return std::isfinite(v) ? shortest(v) : "not finite"; }
+/// Where a number below it means none, too.
+std::string above_zero(double v) { return v <= 0.0 ? std::string() : number(v); }
 std::string unless_zero(double v) { return v == 0.0 ? std::string() : number(v); }
 std::string flag(bool v) { return v ? "yes" : ""; }
 
