@@ -149,7 +149,8 @@ Result<std::int64_t> SqliteStore::check_version() {
   if (!of) return of;
   if (*of == 1) return fail(fault("CASE-SCHEMA", "it changed its version meanwhile", "open it again"));
   const auto tables = sqlite_tables();
-  const Status ours = *of == kSchemaVersion ? check_schema(tables) : check_schema(tables_of_version_2());
+  const std::size_t there = *of == kSchemaVersion ? tables.size() : tables.size() - 1;
+  const Status ours = check_schema(std::span(tables).first(there));
   if (!ours) return fail(ours.error());
   return of;
 }

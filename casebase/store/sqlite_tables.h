@@ -22,16 +22,12 @@ inline constexpr const char* kTotalTable =
 inline constexpr const char* kIdTable =
     "CREATE TABLE capstan_id(id BLOB PRIMARY KEY, number INTEGER NOT NULL) STRICT, WITHOUT ROWID";
 
-/// Each table: its name, and the text that makes it.
+/// Each table: its name, and the text that makes it. Version 2 had all but the last.
 [[nodiscard]] inline std::array<std::pair<std::string_view, std::string>, 4> sqlite_tables() {
   return {{{"capstan_head", kHeadTable},
            {"capstan_body", kBodyTable},
            {"capstan_total", kTotalTable},
            {"capstan_id", kIdTable}}};
-}
-/// Version 2 had all but that of the ids.
-[[nodiscard]] inline std::array<std::pair<std::string_view, std::string>, 3> tables_of_version_2() {
-  return {{{"capstan_head", kHeadTable}, {"capstan_body", kBodyTable}, {"capstan_total", kTotalTable}}};
 }
 
 }  // namespace capstan::casebase
