@@ -120,7 +120,7 @@ class Over {
   std::vector<std::size_t> first_, triangles_;  ///< of each cell, in the mesh's order
 };
 
-Lattice lattice_of(const Part& part) {
+Lattice lattice_of(const Part& part, const Over& solid) {
   Lattice out;
   const Vec3 size = part.raw().size();
   const std::array<double, 3> sizes{size.x, size.y, size.z};
@@ -140,41 +140,11 @@ Lattice lattice_of(const Part& part) {
   }
   out.origin = part.raw().lo +
                Vec3{kAskew[0] * out.step_mm[0], kAskew[1] * out.step_mm[1], kAskew[2] * out.step_mm[2]};
-  out.inside.assign(static_cast<std::size_t>(out.n[0]) * static_cast<std::size_t>(out.n[1]) *
-                        static_cast<std::size_t>(out.n[2]),
-                    false);
-  std::vector<std::vector<std::pair<double, int>>> columns(static_cast<std::size_t>(out.n[0]) *
-                                                           static_cast<std::size_t>(out.n[1]));
-  const auto& mesh = part.mesh();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    tick();
-    const auto c = corners(mesh, t);
-    const auto range = [&](double lo, double hi, double from, std::size_t k) {
-      const int a = std::max(0, static_cast<int>(std::floor((lo - from) / out.step_mm[k])));
-      const int b = std::min(out.n[k] - 1, static_cast<int>(std::ceil((hi - from) / out.step_mm[k])));
-      return std::pair(a, b);
-    };
-    const auto [i0, i1] =
-        range(std::min({c[0].x, c[1].x, c[2].x}), std::max({c[0].x, c[1].x, c[2].x}), out.origin.x, 0);
-    const auto [j0, j1] =
-        range(std::min({c[0].y, c[1].y, c[2].y}), std::max({c[0].y, c[1].y, c[2].y}), out.origin.y, 1);
-    for (int i = i0; i <= i1; ++i) {
-      for (int j = j0; j <= j1; ++j) {
-        double z = 0.0;
-        int up = 0;
-        if (meets(c, xy(out.at(i, j, 0)), z, up))
-          columns[static_cast<std::size_t>(i * out.n[1] + j)].emplace_back(z, up);
-      }
-    }
-  }
+  out.inside.resize(static_cast<std::size_t>(out.n[0]) * static_cast<std::size_t>(out.n[1]) *
+                    static_cast<std::size_t>(out.n[2]));
   for (int i = 0; i < out.n[0]; ++i) {
     for (int j = 0; j < out.n[1]; ++j) {
-      const auto& column = columns[static_cast<std::size_t>(i * out.n[1] + j)];
-      for (int k = 0; k < out.n[2]; ++k) {
-        int above = 0;
-        for (const auto& [z, up] : column) above += z > out.at(i, j, k).z ? up : 0;
-        out.inside[out.index(i, j, k)] = above > 0;
-      }
+      for (int k = 0; k < out.n[2]; ++k) out.inside[out.index(i, j, k)] = solid.inside(out.at(i, j, k));
     }
   }
   return out;
@@ -234,9 +204,9 @@ bool cuts(const Over& solid, const Shape& s, Vec3 at) {
 }  // namespace
 
 std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
-  const Lattice lattice = lattice_of(part);
-  const std::vector<Shape> shapes = shapes_in(m);
   const Over solid(part.mesh());
+  const Lattice lattice = lattice_of(part, solid);
+  const std::vector<Shape> shapes = shapes_in(m);
   const double each = lattice.each_mm3();
   std::map<AnyRef, double> found;
   for (int i = 0; i < lattice.n[0]; ++i) {
@@ -257,9 +227,9 @@ std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
 }
 
 Missing not_covered(const Part& part, const model::Model& m, bool all) {
-  const Lattice lattice = lattice_of(part);
-  const std::vector<Shape> shapes = shapes_in(m);
   const Over solid(part.mesh());
+  const Lattice lattice = lattice_of(part, solid);
+  const std::vector<Shape> shapes = shapes_in(m);
   const double each = lattice.each_mm3();
   std::size_t points = 0;
   Vec3 sum;
