@@ -65,16 +65,21 @@ Printed print_few_decimals(char* to, double value) {
   return {print_millionths(to, count), count % kMillionths != 0};
 }
 
+/// The shortest text of any number.
+char* print_any(char* to, double value) {
+  if (value == 0.0) {  // also -0
+    *to = '0';
+    return to + 1;
+  }
+  return std::to_chars(to, to + kNumberRoom, value).ptr;
+}
+
 }  // namespace
 
 char* print_shortest(char* to, double value) {
   need_finite(value);
-  if (value == 0.0) {
-    *to = '0';
-    return to + 1;
-  }
-  if (const Printed few = print_few_decimals(to, value); few.end != nullptr) return few.end;
-  return std::to_chars(to, to + kNumberRoom, value).ptr;
+  const Printed few = print_few_decimals(to, value);
+  return few.end != nullptr ? few.end : print_any(to, value);
 }
 
 char* print_part21_real(char* to, double value) {
@@ -82,7 +87,8 @@ char* print_part21_real(char* to, double value) {
     if (!few.point) *few.end = '.';
     return few.point ? few.end : few.end + 1;
   }
-  char* const end = print_shortest(to, value);
+  need_finite(value);
+  char* const end = print_any(to, value);
   const double size = std::abs(value);
   if (size == 0.0 || (size >= 1e-3 && size < 1e5)) {  // no exponent: the fixed notation is no longer
     if (std::find(to, end, '.') != end) return end;

@@ -45,8 +45,7 @@ bool ends_upright(const ProfilePiece& arc) {
 double CutterProfile::height(double r_mm) const {
   if (r_mm > radius_mm) return std::numeric_limits<double>::infinity();
   for (const ProfilePiece& p : pieces) {
-    if (r_mm > p.r1_mm) continue;
-    return height_on(p, r_mm);
+    if (r_mm <= p.r1_mm) return height_on(p, r_mm);
   }
   return std::numeric_limits<double>::infinity();
 }

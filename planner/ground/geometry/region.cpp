@@ -123,15 +123,17 @@ IntPoint place_of(const Paths& paths) {
 
 // Clipper rounds to whole numbers by doubles that hold the place, too. Made about a point of its own, an
 // outline is the same wherever it lies, and may be taken from what was made elsewhere.
-template <class Make>
-Region made_or_kept(IntPoint place, const std::string& question, Make make) {
+template <class Ask, class Make>
+Region made_or_kept(IntPoint place, const Ask& ask, const Make& make) {
   KeptOutlines* const kept = KeptOutlinesScope::innermost();
   Paths solution;
-  if (std::string known; kept != nullptr && kept->find(question, known)) {
+  std::string question, known;
+  if (kept != nullptr) ask(question);
+  if (kept != nullptr && kept->find(question, known)) {
     solution = paths_of(known);
   } else {
     make(solution);
-    if (kept != nullptr) kept->keep(question, bytes_of(solution));
+    if (kept != nullptr) kept->keep(std::move(question), bytes_of(solution));
   }
   shift(solution, place);
   return from_paths(solution);
@@ -142,13 +144,12 @@ Region combine(ClipType type, const std::vector<Loop>& a, const std::vector<Loop
   Paths subject = to_paths(a), clip = to_paths(b);
   const IntPoint place = place_of(subject);
   for (Paths* paths : {&subject, &clip}) shift(*paths, {-place.X, -place.Y});
-  std::string question;
-  if (KeptOutlinesScope::innermost() != nullptr) {
+  const auto ask = [&](std::string& question) {
     put(question, static_cast<int>(type));
     put(question, subject.size());
     question += bytes_of(subject) + bytes_of(clip);
-  }
-  return made_or_kept(place, question, [&](Paths& solution) {
+  };
+  return made_or_kept(place, ask, [&](Paths& solution) {
     ClipperLib::Clipper clipper;
     clipper.AddPaths(subject, ClipperLib::ptSubject, true);
     clipper.AddPaths(clip, ClipperLib::ptClip, true);
@@ -161,14 +162,13 @@ Region offset_paths(Paths paths, double delta_mm, ClipperLib::JoinType join, Cli
   poll();
   const IntPoint place = place_of(paths);
   shift(paths, {-place.X, -place.Y});
-  std::string question;
-  if (KeptOutlinesScope::innermost() != nullptr) {
+  const auto ask = [&](std::string& question) {
     put(question, kOffset);
     for (const int v : {static_cast<int>(join), static_cast<int>(end)}) put(question, v);
     for (const double v : {delta_mm, arc_tolerance_mm}) put(question, v);
     question += bytes_of(paths);
-  }
-  return made_or_kept(place, question, [&](Paths& solution) {
+  };
+  return made_or_kept(place, ask, [&](Paths& solution) {
     ClipperLib::ClipperOffset clipper(2.0, arc_tolerance_mm * kScale);
     clipper.AddPaths(paths, join, end);
     clipper.Execute(solution, delta_mm * kScale);

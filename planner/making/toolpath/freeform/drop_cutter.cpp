@@ -126,10 +126,6 @@ std::optional<MillEnd> mill_end_of(const geometry::CutterProfile& profile) {
   return std::nullopt;
 }
 
-double Toroid::height(double r) const {
-  return r > radius() ? std::numeric_limits<double>::infinity() : height_within(*this, r);
-}
-
 std::optional<Toroid> toroid_of(const geometry::CutterProfile& profile) {
   Toroid out{.disc_mm = profile.radius_mm, .ball_mm = 0.0};
   double r = 0.0;

@@ -20,8 +20,6 @@ struct Toroid {
   double disc_mm = 0.0;
   double ball_mm = 0.0;
   [[nodiscard]] double radius() const { return disc_mm + ball_mm; }
-  /// Height of the outline above the tip at distance r from the axis; +inf outside.
-  [[nodiscard]] double height(double r) const;
 };
 
 /// The toroid a profile describes; nothing for cones and other outlines.
