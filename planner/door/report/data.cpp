@@ -50,11 +50,13 @@ Json box_of(const geometry::Box3& b) { return Json::array({point(b.lo), point(b.
 
 Json finding_of(const Line& line) {
   const model::Finding& f = line.finding;
-  const char* severity = f.severity == Severity::kError     ? "error"
-                         : f.severity == Severity::kWarning ? "warning"
-                                                            : "note";
-  return {{"severity", severity}, {"code", f.code},    {"text", f.message},      {"step", f.step},
-          {"place", f.move},      {"file", line.file}, {"program", line.program}};
+  return {{"severity", to_text(f.severity)},
+          {"code", f.code},
+          {"text", f.message},
+          {"step", f.step},
+          {"place", f.move},
+          {"file", line.file},
+          {"program", line.program}};
 }
 
 Json setup_of(const model::Plan& plan, std::size_t n) {
@@ -247,7 +249,7 @@ Json whole(const model::Plan& plan, const About& about) {
   for (std::size_t n = 0; n < plan.steps.size(); ++n) steps.push_back(step_of(plan, n, ids[n], about));
   for (const Line& l : about.findings) findings.push_back(finding_of(l));
   for (const Diagnostic& d : about.told)
-    told.push_back({{"severity", d.severity == Severity::kError ? "error" : "warning"},
+    told.push_back({{"severity", to_text(d.severity)},
                     {"code", d.code},
                     {"text", d.message},
                     {"place", d.path},

@@ -24,7 +24,7 @@ void take_power(double most_w, std::vector<model::SpindlePoint>& curve) {
 }  // namespace
 
 void take_state(const MachineState& state, const std::string& sign, model::Machine& machine,
-                  std::vector<model::Provenance>& provenance, Job& job) {
+                std::vector<model::Provenance>& provenance, Job& job) {
   const auto record = [&](const std::string& name, const std::string& value) {
     provenance.push_back({name, value, sign + name});
   };
