@@ -221,7 +221,8 @@ Estimate estimate(const Cutter& c, const ToolRequirement& r, const StartValues& 
   const Machine& m = t.machine;
   Estimate out;
   if (c.cutter_class == CutterClass::kTouchProbe || !(s.feed_mm_min > 0.0)) return out;
-  const bool passes = p.passes_mm2 > 0.0 && p.ridges_mm > 0.0 && model::has(c.cutter_class, model::CutterTrait::kBall);
+  const bool passes =
+      p.passes_mm2 > 0.0 && p.ridges_mm > 0.0 && model::has(c.cutter_class, model::CutterTrait::kBall);
   out.cutting_s = passes ? passes_s(c, s, p)
                   : model::has(c.cutter_class, model::CutterTrait::kAlongAxis)
                       ? axial_s(c, r, s, w, t, p, out.limited_by)

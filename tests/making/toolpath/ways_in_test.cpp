@@ -53,6 +53,14 @@ PathJob deep_pocket() {
   return t;
 }
 
+/// The pocket as it is cut: without a fault, down to its floor.
+HeightMap cut_to_the_floor(const PathJob& t, const GeneratedPath& g) {
+  HeightMap map({-5, -5}, {85, 55}, 0.25, 0.0);
+  EXPECT_THAT(map.run(g, t.cutter).faults, testing::IsEmpty());
+  EXPECT_NEAR(map.highest(geometry::offset(geometry::offset(t.shape.reach, -5.0), 4.7)), -16.0, 1e-4);
+  return map;
+}
+
 TEST(WaysIntoAreas, EntersARegionOnceForAllItsLevels) {
   PathJob t = deep_pocket();
   t.ramp_depth_mm = 20.0;
@@ -64,9 +72,7 @@ TEST(WaysIntoAreas, EntersARegionOnceForAllItsLevels) {
   EXPECT_NEAR(in.lowest_mm, -16.0, 1e-9);
   EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
   EXPECT_LE(gouge_mm(*g, t.shape.reach, 5.0, -1e-6), 0.003);
-  HeightMap map({-5, -5}, {85, 55}, 0.25, 0.0);
-  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
-  EXPECT_NEAR(map.highest(geometry::offset(geometry::offset(t.shape.reach, -5.0), 4.7)), -16.0, 1e-4);
+  cut_to_the_floor(t, *g);
 }
 
 TEST(WaysIntoAreas, EntersALimbFromTheRingAroundItWhereTheWayDownIsLonger) {
@@ -84,9 +90,7 @@ TEST(WaysIntoAreas, EntersALimbFromTheRingAroundItWhereTheWayDownIsLonger) {
     EXPECT_EQ(ways_in(*g, 0.0).runs, ways) << level_mm;
     EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
     EXPECT_LE(gouge_mm(*g, t.shape.reach, 5.0, -1e-6), 0.003);
-    HeightMap map({-5, -5}, {85, 55}, 0.25, 0.0);
-    EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
-    EXPECT_NEAR(map.highest(geometry::offset(geometry::offset(t.shape.reach, -5.0), 4.7)), -16.0, 1e-4);
+    cut_to_the_floor(t, *g);
   }
 }
 
@@ -114,10 +118,8 @@ TEST(WaysIntoAreas, BoresNotIntoAnIslandThatBeginsLowerDown) {
   const auto g = generate(t, job);
   ASSERT_TRUE(g) << g.error().message;
   EXPECT_LE(gouge_mm(*g, t.shape.reach, 5.0, -8.0 - 1e-6), 0.003);
-  HeightMap map({-5, -5}, {85, 55}, 0.25, 0.0);
-  EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+  const HeightMap map = cut_to_the_floor(t, *g);
   EXPECT_NEAR(map.highest(geometry::offset(island, -0.5)), -8.0, 1e-4);
-  EXPECT_NEAR(map.highest(geometry::offset(geometry::offset(t.shape.reach, -5.0), 4.7)), -16.0, 1e-4);
 }
 
 TEST(WaysIntoAreas, RampsAsSteepAsTheJobSaysAndNoSteeperThanTheCutterMay) {
