@@ -6,7 +6,7 @@
 
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/features/shape.h"

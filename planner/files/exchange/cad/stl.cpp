@@ -9,7 +9,7 @@
 
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/range/ranges.h"
 

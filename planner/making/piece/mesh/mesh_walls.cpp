@@ -3,7 +3,7 @@
 #include <set>
 
 #include "planner/ground/base/number.h"
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 #include "planner/making/piece/mesh/surface_form.h"
 #include "planner/model/features/in_piece.h"
 #include "rules/facts/passage.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 
 // A torus of radius R and corner r that rests on a facet of unit normal n touches it at r n below the circle
 // of radius R - r about its axis: its axis stands (R - r) + r |n_xy| beside the point of contact, on the side

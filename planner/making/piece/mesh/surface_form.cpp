@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 
 namespace capstan::piece {
 namespace {

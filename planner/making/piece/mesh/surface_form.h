@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "planner/ground/geometry/mesh.h"
-#include "planner/ground/geometry/mesh_corners.h"
+#include "planner/ground/geometry/mesh/mesh_corners.h"
 #include "planner/making/draft/draft.h"
 #include "planner/making/piece/piece.h"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "planner/ground/base/stopping.h"
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 #include "planner/ground/memo/packed.h"
 #include "planner/ground/memo/remembered.h"
 #include "planner/model/nouns/all.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/ground/geometry/mesh_corners.h"
+#include "planner/ground/geometry/mesh/mesh_corners.h"
 #include "planner/ground/geometry/placement.h"
 #include "planner/ground/geometry/region.h"
 #include "planner/ground/memo/memo.h"

@@ -1,4 +1,4 @@
-#include "planner/ground/geometry/mesh_corners.h"
+#include "planner/ground/geometry/mesh/mesh_corners.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,62 +7,56 @@
 #include <vector>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/geometry/mesh/welded.h"
 
-// Corners are welded first (a grid of kWeldMm, neighbouring cells looked into), then edges are counted. An
-// edge of one triangle whose other side is met by several shorter ones (a corner in its middle) is closed,
-// too: edges of the border are split at corners that lie on them and counted again. What is left of the
-// border is chained into loops: seen from above, a sheet's outer loop runs round it, and a loop that runs the
-// other way is a hole.
+// Corners are welded first (welded.h), then edges are counted. An edge of one triangle whose other side is
+// met by several shorter ones (a corner in its middle) is closed, too: edges of the border are split at
+// corners that lie on them and counted again. What is left of the border is chained into loops: seen from
+// above, a sheet's outer loop runs round it, and a loop that runs the other way is a hole.
 
 namespace capstan::geometry {
 
 namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
-struct Uses {
-  int forth = 0, back = 0;  ///< from the lower to the higher number, and the other way
-};
-using Edges = std::map<Edge, Uses>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-std::vector<std::uint32_t> welded(const Mesh& mesh) {
-  using Cell = std::array<std::int64_t, 3>;
-  std::map<Cell, std::vector<std::uint32_t>> cells;
-  std::vector<std::uint32_t> out(mesh.vertices.size());
-  for (std::uint32_t i = 0; i < out.size(); ++i) {
-    const Vec3 v = mesh.vertices[i];
-    const auto at = [](double x) { return static_cast<std::int64_t>(std::floor(x / kWeldMm)); };
-    const Cell c{at(v.x), at(v.y), at(v.z)};
-    out[i] = i;
-    for (int k = 0; k < 27 && out[i] == i; ++k) {
-      const auto found = cells.find({c[0] + k % 3 - 1, c[1] + k / 3 % 3 - 1, c[2] + k / 9 - 1});
-      if (found == cells.end()) continue;
-      for (const std::uint32_t j : found->second) {
-        if (norm(mesh.vertices[j] - v) > kWeldMm) continue;
-        out[i] = j;
-        break;
-      }
+/// Uses of edges: first the lower number, then the higher one, then whether the use runs from the lower to
+/// the higher. Sorted, the uses of an edge follow one another.
+class Uses {
+ public:
+  explicit Uses(std::size_t most) { keys_.reserve(most); }
+
+  void count(std::uint32_t a, std::uint32_t b) {
+    if (a == b) return;
+    const std::uint64_t lo = std::min(a, b), hi = std::max(a, b);
+    keys_.push_back(lo << 33U | hi << 1U | (a < b ? 1U : 0U));
+  }
+
+  /// Calls `f(lower, higher, forth, back)` with each edge and how often it is used in each direction.
+  template <class F>
+  void each(const F& f) {
+    std::sort(keys_.begin(), keys_.end());
+    for (std::size_t i = 0; i < keys_.size();) {
+      const std::uint64_t edge = keys_[i] >> 1U;
+      std::size_t forth = 0, back = 0;
+      for (; i < keys_.size() && keys_[i] >> 1U == edge; ++i) ++((keys_[i] & 1U) != 0 ? forth : back);
+      f(static_cast<std::uint32_t>(edge >> 32U), static_cast<std::uint32_t>(edge & 0xFFFFFFFFU), forth, back);
     }
-    if (out[i] == i) cells[c].push_back(i);
   }
-  return out;
-}
 
-void count(Edges& edges, std::uint32_t a, std::uint32_t b) {
-  if (a == b) return;
-  Uses& u = edges[{std::min(a, b), std::max(a, b)}];
-  ++(a < b ? u.forth : u.back);
-}
-
-/// Edges used an odd number of times, each as it runs along its triangle.
-std::vector<Edge> border_of(const Edges& edges) {
-  std::vector<Edge> out;
-  for (const auto& [e, u] : edges) {
-    if ((u.forth + u.back) % 2 == 0) continue;
-    out.push_back(u.forth > u.back ? e : Edge{e.second, e.first});
+  /// Edges used an odd number of times, each as it runs along its triangle.
+  std::vector<Edge> border() {
+    std::vector<Edge> out;
+    each([&](std::uint32_t lo, std::uint32_t hi, std::size_t forth, std::size_t back) {
+      if ((forth + back) % 2 != 0) out.push_back(forth > back ? Edge{lo, hi} : Edge{hi, lo});
+    });
+    return out;
   }
-  return out;
-}
+
+ private:
+  std::vector<std::uint64_t> keys_;
+};
 
 /// The border without what corners in the middle of edges only seem to leave open.
 std::vector<Edge> without_seams(const Mesh& mesh, const std::vector<Edge>& border) {
@@ -72,7 +66,7 @@ std::vector<Edge> without_seams(const Mesh& mesh, const std::vector<Edge>& borde
   for (const Edge& e : border) corners.push_back(e.first);
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  Edges edges;
+  Uses edges(2 * border.size());
   for (const auto& [from, to] : border) {
     const Vec3 a = mesh.vertices[from], d = mesh.vertices[to] - a;
     std::vector<std::pair<double, std::uint32_t>> on;
@@ -85,12 +79,12 @@ std::vector<Edge> without_seams(const Mesh& mesh, const std::vector<Edge>& borde
     std::sort(on.begin(), on.end());
     std::uint32_t last = from;
     for (const auto& [t, c] : on) {
-      count(edges, last, c);
+      edges.count(last, c);
       last = c;
     }
-    count(edges, last, to);
+    edges.count(last, to);
   }
-  return border_of(edges);
+  return edges.border();
 }
 
 /// The border's edges, end to end.
@@ -121,14 +115,14 @@ std::string words(Vec3 p) {
 MeshForm form_of(const Mesh& mesh) {
   MeshForm out;
   const std::vector<std::uint32_t> same = welded(mesh);
-  Edges edges;
+  Uses edges(3 * mesh.triangles.size());
   double volume = 0.0, above = 0.0, below = 0.0;  // of triangles seen from above, and from below
   bool upright = false;
   const Box3 box = bounds(mesh);
   for (const Triangle& t : mesh.triangles) {
     const Triangle w{same[t[0]], same[t[1]], same[t[2]]};
     if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) continue;
-    for (std::size_t k = 0; k < 3; ++k) count(edges, w[k], w[(k + 1) % 3]);
+    for (std::size_t k = 0; k < 3; ++k) edges.count(w[k], w[(k + 1) % 3]);
     const Vec3 a = mesh.vertices[w[0]] - box.lo, b = mesh.vertices[w[1]] - box.lo,
                c = mesh.vertices[w[2]] - box.lo;
     volume += dot(a, cross(b, c)) / 6.0;
@@ -137,11 +131,11 @@ MeshForm form_of(const Mesh& mesh) {
     upright = upright || std::abs(n.z) <= 1e-9 * norm(n);
     (shadow > 0.0 ? above : below) += std::abs(shadow);
   }
-  for (const auto& [e, u] : edges) {
-    if (u.forth + u.back > 2) ++out.crowded_edges;
-    if (u.forth + u.back == 2 && u.forth != u.back) ++out.turned_edges;
-  }
-  const std::vector<Edge> border = without_seams(mesh, border_of(edges));
+  edges.each([&](std::uint32_t, std::uint32_t, std::size_t forth, std::size_t back) {
+    if (forth + back > 2) ++out.crowded_edges;
+    if (forth + back == 2 && forth != back) ++out.turned_edges;
+  });
+  const std::vector<Edge> border = without_seams(mesh, edges.border());
   out.open_edges = border.size();
   if (border.empty()) {
     out.kind = MeshForm::Kind::kSolid;
@@ -170,6 +164,7 @@ MeshForm form_of(const Mesh& mesh) {
     const double covered = std::max(above, below);
     if (std::abs(area(out.outline) - covered) <= 1e-4 * covered) {
       out.kind = MeshForm::Kind::kSheet;
+      out.faces_down = sign < 0.0;
       return out;
     }
   }

@@ -4,13 +4,10 @@
 #include <string>
 
 #include "planner/ground/geometry/mesh.h"
+#include "planner/ground/geometry/mesh/welded.h"
 #include "planner/ground/geometry/region.h"
 
 namespace capstan::geometry {
-
-/// Corners of a mesh no farther apart than this are one, mm. Default, unsourced: a hundredth of what paths
-/// leave.
-inline constexpr double kWeldMm = 1e-3;
 
 /// What a mesh bounds, by its edges.
 struct MeshForm {
@@ -24,6 +21,7 @@ struct MeshForm {
   std::size_t crowded_edges = 0;  ///< shared by more than two
   std::size_t turned_edges = 0;   ///< between two triangles that face opposite ways
   bool inside_out = false;        ///< a solid whose triangles face inwards
+  bool faces_down = false;        ///< a sheet whose triangles do
   Region outline;                 ///< of a sheet, in XY
   std::string fault;              ///< of what is neither: what it has, with the place
 };

@@ -1,4 +1,4 @@
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 
 #include <gtest/gtest.h>
 

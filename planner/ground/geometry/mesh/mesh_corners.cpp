@@ -1,4 +1,4 @@
-#include "planner/ground/geometry/mesh_corners.h"
+#include "planner/ground/geometry/mesh/mesh_corners.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "planner/ground/geometry/mesh_form.h"
+#include "planner/ground/geometry/mesh/mesh_form.h"
 
 // A mill of radius r along two walls that meet at an angle of 2 a leaves what lies between the corner and the
 // circle of radius r that touches both: its centre is r / sin a from the corner, the walls are touched at
