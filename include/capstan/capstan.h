@@ -56,7 +56,8 @@ struct PlanOptions {
   std::stop_token stop = {};
   std::string cache = {};  ///< a folder that keeps results of stages from call to call
   std::string may = {};    ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
-  std::string time = {};   ///< of `bind_...`: when, for the plan's record; any text
+  std::string mesh_unit = {};  ///< of an STL mesh, which does not state it: "mm" (the default), "inch"
+  std::string time = {};       ///< of `bind_...`: when, for the plan's record; any text
   std::string control =
       {};  ///< in place of the machine's own: "fanuc", "grbl", "haas", "heidenhain", "linuxcnc", "siemens"
   unsigned next = 0;  ///< of `bind_...`: so many workingsteps only; 0: the whole plan

@@ -48,6 +48,7 @@ constexpr std::array kFields = {
             if (!o.stock.empty() || o.stock_allowance_mm < 0.0) return o.stock;
             return "block:+" + number(o.stock_allowance_mm);
           }},
+    Field{"mesh-unit", [](const PlanOptions& o) { return o.mesh_unit; }},
     Field{"objective", [](const PlanOptions& o) { return o.objective; }},
     Field{"margin", [](const PlanOptions& o) { return o.margin; }},
     Field{"revenue", [](const PlanOptions& o) { return above_zero(o.revenue); }},

@@ -9,7 +9,6 @@
 #include "planner/files/exchange/brep/read_brep.h"
 #include "planner/files/exchange/cad/stl.h"
 #include "planner/files/exchange/common/standard.h"
-#include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/files/recognise/recognise.h"
 #include "planner/ground/base/file.h"
@@ -62,7 +61,10 @@ bool is_cad_model(std::string_view bytes) {
   return content_of(bytes) == Content::kPart && exchange::standard_of(bytes) == exchange::Standard::kShapes;
 }
 
-Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& job, bool strict) {
+namespace {
+
+Result<model::Plan> read_with(std::string bytes, const std::string& path, Job& job, bool strict,
+                              const std::optional<exchange::MeshUnit>& unit) {
   if (content_of(bytes) == Content::kPlanJson) {
     if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
     return json::read_json(std::move(bytes), path, job);
@@ -75,10 +77,9 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& j
                  .hint = std::string(foreign->hint)});
   exchange::ReadOptions options;
   options.strict = strict;
+  options.mesh_unit = unit;
   return exchange::read_bytes(std::move(bytes), path, options, job);
 }
-
-namespace {
 
 /// The shape of a CAD model as the check asks for it.
 std::shared_ptr<const verify::AskedShape> asked_shape(const exchange::Brep& shape, const std::string& name) {
@@ -99,10 +100,20 @@ std::shared_ptr<const verify::AskedShape> asked_shape(const exchange::Brep& shap
 
 }  // namespace
 
+Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& job, bool strict) {
+  return read_with(std::move(bytes), path, job, strict, {});
+}
+
 Result<PartRead> read_part(std::string bytes, const std::string& name, const from_cad::RawPiece& raw,
-                           Job& job, bool strict) {
+                           Job& job, bool strict, const std::optional<exchange::MeshUnit>& unit) {
+  if (unit && !exchange::looks_like_stl(bytes))
+    return fail({.code = "READ-UNIT",
+                 .message = "a mesh's unit is stated (" + unit->name + "), but the file is no STL mesh",
+                 .file = name,
+                 .expected = "an STL mesh, or no " + unit->source,
+                 .hint = "other files state their unit themselves"});
   if (!is_cad_model(bytes)) {
-    auto plan = read_plan(std::move(bytes), name, job, strict);
+    auto plan = read_with(std::move(bytes), name, job, strict, unit);
     if (!plan) return tl::unexpected(plan.error());
     return PartRead{*std::move(plan), nullptr};
   }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "planner/files/exchange/exchange.h"
 #include "planner/files/from_cad/from_cad.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
@@ -33,10 +35,12 @@ struct PartRead {
   std::shared_ptr<const verify::AskedShape> shape;  ///< null: the file is no CAD model
 };
 /// As read_plan, of a part to be planned, which may be a CAD model, too (ISO 10303-203, -214, -242): its
-/// features are recognised, in the raw piece that the caller names. Fails  as read_plan, exchange::read_brep
-/// and from_cad::plan_of_part.
+/// features are recognised, in the raw piece that the caller names. `unit` is that of a mesh, where the
+/// caller states it. Fails  as read_plan, exchange::read_brep and from_cad::plan_of_part; READ-UNIT for the
+/// unit of a file that is no mesh.
 [[nodiscard]] Result<PartRead> read_part(std::string bytes, const std::string& name,
-                                         const from_cad::RawPiece& raw, Job& job, bool strict = false);
+                                         const from_cad::RawPiece& raw, Job& job, bool strict = false,
+                                         const std::optional<exchange::MeshUnit>& unit = {});
 
 /// Whether the bytes are a CAD model in STEP (ISO 10303-203, -214, -242): read_brep reads such, read_plan
 /// does not.

@@ -23,7 +23,8 @@ struct Request {
   std::optional<std::string> machine, control, tools, material, rules, cases, cache;
   std::optional<geometry::Box3> stock;
   std::optional<double> stock_allowance_mm;
-  std::string stock_text;  ///< as given
+  std::string stock_text;                ///< as given
+  std::optional<std::string> mesh_unit;  ///< "mm" or "inch", of an STL mesh
   std::optional<pipeline::Objective> objective;
   std::optional<optimise::Solver> solver;
   std::optional<std::string> general_tolerance, workholding;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,11 +14,21 @@
 
 namespace capstan::exchange {
 
+/// What one unit of a mesh is, which STL does not state.
+struct MeshUnit {
+  double mm = 1.0;
+  std::string name = "mm";
+  std::string source = "assumed: STL states none";
+};
+/// The row of a plan's provenance that says it.
+inline constexpr std::string_view kMeshUnit = "mesh unit";
+
 struct ReadOptions {
   p21::Limits limits;  ///< what a file may cost
   /// One wrong reference keeps the whole file from being read. Otherwise that attribute is unset, which is an
   /// error in the job, and what needs it is not planned (planner/model/plan/decision/unreadable.h).
   bool strict = true;
+  std::optional<MeshUnit> mesh_unit = {};  ///< unset: nobody stated it
 };
 
 /// Reads a part or a plan; its content, not its name, decides the format: ISO 14649 or ISO 10303-238 (Part

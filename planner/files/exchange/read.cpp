@@ -59,10 +59,12 @@ Result<model::Plan> read_bytes(std::string bytes, const std::string& name, const
              "MODEL_BASED_INTEGRATED_MANUFACTURING_SCHEMA (ISO 10303-238)"});
   }
   if (looks_like_stl(bytes)) {
-    auto mesh = read_stl(bytes, name, job);
+    const MeshUnit unit = options.mesh_unit.value_or(MeshUnit{});
+    auto mesh = read_stl(bytes, name, job, unit.mm);
     if (!mesh) return fail(mesh.error());
-    if (auto ok = judge_mesh(*mesh, name, job); !ok) return fail(ok.error());
-    return plan_of_mesh(std::move(*mesh), name);
+    mesh = judged_mesh(std::move(*mesh), name, job, options.mesh_unit.has_value());
+    if (!mesh) return fail(mesh.error());
+    return plan_of_mesh(std::move(*mesh), name, {std::string(kMeshUnit), unit.name, unit.source});
   }
   return fail(
       {.code = "EXC-UNKNOWN-FORMAT",

@@ -45,6 +45,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.cases = "cases.db";
   o.general_tolerance = "ISO 2768-m";
   o.workholding = "auto";
+  o.mesh_unit = "inch";
   o.feeds = "constant";
   o.margin = "bold";
   o.objective = "profit";
@@ -73,6 +74,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.cases, "cases.db");
   EXPECT_EQ(r.general_tolerance, "ISO 2768-m");
   EXPECT_EQ(r.workholding, "auto");
+  EXPECT_EQ(r.mesh_unit, "inch");
   EXPECT_EQ(r.feeds, "constant");
   EXPECT_EQ(r.margin, "bold");
   EXPECT_EQ(r.objective, pipeline::Objective::kProfit);
