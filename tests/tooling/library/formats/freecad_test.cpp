@@ -344,10 +344,12 @@ TEST(Freecad, TheFluteLengthOfFusionIsTheHeightOfTheEdge) {
   for (const auto& line : out->report.dropped) {
     EXPECT_NE(line.field, "LCF") << line.what;
     EXPECT_NE(line.field, "BMC") << line.what;
+    EXPECT_NE(line.field, "RE") << line.what;  // half the diameter, which a ball says
   }
   const auto back = import_bytes(out->bytes, "a.zip", {}, job);
   ASSERT_TRUE(back) << to_text(back.error());
   EXPECT_EQ(number_of(item(back->library, "ball"), "APMX"), 13.0);
+  EXPECT_EQ(number_of(item(back->library, "ball"), "RE"), 3.0);
   EXPECT_EQ(find(item(back->library, "ball").properties, "SUBSTRATE")->text, "carbide");
   EXPECT_DOUBLE_EQ(*number_of(item(back->library, "flat"), "APMX"), 0.75 * 25.4);
   EXPECT_EQ(find(item(back->library, "flat").properties, "SUBSTRATE")->text, "hss");

@@ -29,8 +29,8 @@ struct Type {
   CutterClass cutter_class;
 };
 /// Types of tools. Source: endMill by makers' files; ballMill and radiusMill by three public importers of
-/// such files that read them alike, tslotcutter by one and by the names of hyperMILL's own pictures of tools.
-/// A corner radius makes a bull nose of an end mill and a radius mill (`class_by_radius`).
+/// such files that read them alike; tslotcutter by one, and by a public list of the system's tool classes. A
+/// corner radius makes a bull nose of an end mill and a radius mill (`class_by_radius`).
 constexpr std::array kTypes = {
     Type{"endmill", CutterClass::kEndmill},
     Type{"radiusmill", CutterClass::kEndmill},

@@ -111,7 +111,7 @@ class BitWriter {
           drop(p.symbol, "FreeCAD's bits have one material, that of the edge");
       } else if (p.symbol == "FZMAX" && p.source == freecad::kChipLoad) {
         parameters.set("Chipload", Json::string(quantity(p)));
-      } else if (p.state == ValueState::kStated && !kept) {
+      } else if (p.state == ValueState::kStated && !kept && !is_half(p)) {
         drop(p.symbol, "the shape " + std::string(shape_->type) + " has no parameter for it");
       }
       return;
@@ -120,6 +120,12 @@ class BitWriter {
     // The ball's radius and the like follow again on reading.
     if (p.state == ValueState::kDerived && shape_->type != "Custom" && rederived(p.symbol)) return;
     parameters.set(name, Json::string(text));
+  }
+
+  /// A ball's radius that is half its diameter: it is read again though no parameter says it.
+  [[nodiscard]] bool is_half(const Property& p) const {
+    const auto dc = number_of(item_, "DC");
+    return shape_->type == "Ballend" && p.symbol == "RE" && p.number && dc && *p.number == 0.5 * *dc;
   }
 
   [[nodiscard]] bool rederived(std::string_view symbol) const {
