@@ -9,10 +9,13 @@ import os
 import subprocess
 import sys
 
+# What a step takes of the plan's time, s. Of all steps it adds up to summary["total_s"].
+TIMES = ("cutting_s", "rapid_s", "link_s", "tool_change_s", "spindle_s")
+
 
 def planned(part, arguments):
     """The plan of a part, as docs/plan.schema.json describes it. Code 1 has findings, and a plan all the same."""
-    command = [os.environ.get("CAPSTAN", "capstan"), "plan", part, *arguments, "-o", "-"]
+    command = [os.environ.get("CAPSTAN", "capstan"), "plan", part, "--without", "sections", *arguments, "-o", "-"]
     run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     if run.returncode not in (0, 1):
         sys.exit(run.stderr)
@@ -21,13 +24,13 @@ def planned(part, arguments):
 
 def main():
     plan = planned(sys.argv[1], sys.argv[2:])
-    tools = {cutter["id"]: cutter for cutter in plan["cutters"]}
+    total = 0.0
     for step in plan["steps"]:
-        tool = tools[step["cutter_id"]]
-        print(f"{step['id']:32} T{tool['pocket']:<2} {step['cutter_id']:36} {step['spindle_rpm']:6.0f} 1/min "
-              f"{step['feed_mm_min']:5.0f} mm/min {step['cutting_s'] + step['rapid_s']:6.1f} s")
-    cutting, rapid = (sum(step[name] for step in plan["steps"]) for name in ("cutting_s", "rapid_s"))
-    print(f"{len(plan['steps'])} steps: {cutting:.1f} s with feed and waits, {rapid:.1f} s rapid")
+        seconds = sum(step[name] for name in TIMES)
+        total += seconds
+        print(f"{step['id']:32} {step.get('operation', ''):30} T{step['tool_number']:<2} {step['spindle_rpm']:6.0f} 1/min "
+              f"{step['feed_mm_min']:5.0f} mm/min {seconds:6.1f} s, {step['tool_change_s']:.1f} s of it tool change")
+    print(f"{len(plan['steps'])} steps: {total:.1f} s, of {plan['summary']['total_s']:.1f} s of the whole")
 
 
 if __name__ == "__main__":

@@ -75,6 +75,7 @@ struct PlanOptions {
   unsigned feed_override = 0;
   std::string shop = {};  ///< a file of the shop's settings (`capstan shop init` writes one); what is empty
                           ///< here is as it says
+  std::string without = {};  ///< "sections": plans without the cross sections along their paths
 };
 
 /// A thing said about the input or the plan, as the command prints it.

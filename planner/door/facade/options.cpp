@@ -79,6 +79,7 @@ constexpr std::array kFields = {
           [](const PlanOptions& o) { return o.feed_override == 0 ? "" : std::to_string(o.feed_override); }},
     Field{"strict", [](const PlanOptions& o) { return flag(o.strict); }},
     Field{"allow-findings", [](const PlanOptions& o) { return flag(o.allow_findings); }},
+    Field{"without", [](const PlanOptions& o) { return o.without; }},
     Field{"profile", [](const PlanOptions& o) { return o.profile; }},
     Field{"schema", [](const PlanOptions& o) { return flag(o.schema); }},
     Field{"threads", [](const PlanOptions& o) { return std::to_string(std::clamp(o.threads, 1U, 256U)); }},

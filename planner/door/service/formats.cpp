@@ -12,24 +12,23 @@
 namespace capstan::service {
 namespace {
 
-using Condemned = std::vector<model::Condemnation>;
-
 Result<Written> of_part21(Result<exchange::Written> written) {
   if (!written) return tl::unexpected(written.error());
   return Written{std::move(written->bytes), written->losses.size()};
 }
-Result<Written> iso14649(const Format& /*f*/, const model::Plan& plan, Job& job, const Condemned& /*c*/) {
+Result<Written> iso14649(const Format& /*f*/, const model::Plan& plan, Job& job, const Writing& how) {
+  if (!how.sections) return of_part21(exchange::write_iso14649(json::without_sections(plan), job));
   return of_part21(exchange::write_iso14649(plan, job));
 }
-Result<Written> ap238(const Format& /*f*/, const model::Plan& plan, Job& job, const Condemned& /*c*/) {
+Result<Written> ap238(const Format& /*f*/, const model::Plan& plan, Job& job, const Writing& how) {
+  if (!how.sections) return of_part21(exchange::write_ap238(json::without_sections(plan), job));
   return of_part21(exchange::write_ap238(plan, job));
 }
-Result<Written> plan_json(const Format& /*f*/, const model::Plan& plan, Job& /*job*/,
-                          const Condemned& /*c*/) {
-  return Written{json::write_json(plan), 0};
+Result<Written> plan_json(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Writing& how) {
+  return Written{json::write_json(plan, {.sections = !how.sections}), 0};
 }
 /// By the machine's control, which must be one of those whose programs have this ending.
-Result<Written> program(const Format& f, const model::Plan& plan, Job& job, const Condemned& condemned) {
+Result<Written> program(const Format& f, const model::Plan& plan, Job& job, const Writing& how) {
   const controls::Dialect* own = controls::find_dialect(plan.machine.control.dialect);
   if (own != nullptr && !f.is_read_by(own->id))
     return fail({.code = "OUT-CONTROL",
@@ -39,22 +38,24 @@ Result<Written> program(const Format& f, const model::Plan& plan, Job& job, cons
                             std::string(own->program.ending),
                  .hint = "write the program with that ending, or plan with control " +
                          std::string(f.control->id) + " (--control " + std::string(f.control->id) + ")"});
-  auto text = controls::write_program(plan, job, condemned);
+  auto text = controls::write_program(plan, job, how.condemned);
   if (!text) return tl::unexpected(text.error());
   return Written{*std::move(text), 0};
 }
-Result<Written> tool_table(const Format& f, const model::Plan& plan, Job& /*job*/, const Condemned& /*c*/) {
+Result<Written> tool_table(const Format& f, const model::Plan& plan, Job& /*job*/, const Writing& /*how*/) {
   return Written{f.control->write_tool_table(plan), 0};
 }
 
-Result<Written> report(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Condemned& /*c*/) {
+Result<Written> report(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Writing& /*how*/) {
   return Written{report_of(plan), 0};
 }
 
-Result<Written> edits(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Condemned& /*c*/) {
+Result<Written> edits(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Writing& /*how*/) {
   return Written{edits_text(model::edits_of(plan)), 0};
 }
 
+/// What planning reads beside the formats of plans (reading.h, `is_cad_model`).
+constexpr std::string_view kCadPart = "CAD part in STEP (AP203, AP214 or AP242)";
 constexpr std::string_view kPart21 = "model/step";  // RFC 6838 registry: ISO 10303-21 files
 
 std::vector<Format> table() {
@@ -104,8 +105,8 @@ const Format* format_of_ending(std::string_view given) {
   return nullptr;
 }
 
-Result<Written> write(const model::Plan& plan, const Format& format, Job& job, const Condemned& condemned) {
-  if (format.write != nullptr) return format.write(format, plan, job, condemned);
+Result<Written> write(const model::Plan& plan, const Format& format, Job& job, const Writing& how) {
+  if (format.write != nullptr) return format.write(format, plan, job, how);
   return fail({.code = "OUT-KIND",
                .message = std::string(format.name) + " is not written",
                .expected = written_endings()});
@@ -150,7 +151,7 @@ std::string read_text() {
       schemas += (schemas.empty() ? "" : " or ") + std::string(f.words);
       for (const std::string_view e : f.endings) endings += (endings.empty() ? "" : " ") + std::string(e);
     } else {
-      others += f.write == nullptr ? ", or " + std::string(f.words) + " mesh"
+      others += f.write == nullptr ? ", " + std::string(kCadPart) + ", or " + std::string(f.words) + " mesh"
                                    : ", " + std::string(f.words) + " JSON";
     }
   }

@@ -23,6 +23,12 @@ struct Written {
   std::size_t losses = 0;  ///< kinds of things that the format cannot hold
 };
 
+/// How a plan is written.
+struct Writing {
+  std::vector<model::Condemnation> condemned = {};  ///< for programs only (controls/controls.h)
+  bool sections = true;  ///< plans with the cross sections along their paths; the peak of each step stays
+};
+
 /// A file format of parts, plans, programs or reports: a row of `formats`.
 struct Format {
   std::string_view name;                  ///< stable, for libraries: "iso14649", "json", "linuxcnc"
@@ -33,9 +39,9 @@ struct Format {
   bool reads = false;  ///< read_plan reads it
   /// Of programs and tool tables; the first where several read files of this kind.
   const controls::Dialect* control = nullptr;
-  /// Null: it is not written. `condemned` is for programs only (controls/controls.h).
+  /// Null: it is not written.
   Result<Written> (*write)(const Format& format, const model::Plan& plan, Job& job,
-                           const std::vector<model::Condemnation>& condemned) = nullptr;
+                           const Writing& how) = nullptr;
 
   /// Whether a machine with this control reads such files.
   [[nodiscard]] bool is_read_by(std::string_view dialect) const {
@@ -57,7 +63,7 @@ struct Format {
 /// Writes the plan in a format; things that the format cannot hold are noted to the job (EXC-LOSS).
 /// Fails  OUT-KIND for a format without a writer, and as the writers.
 [[nodiscard]] Result<Written> write(const model::Plan& plan, const Format& format, Job& job,
-                                    const std::vector<model::Condemnation>& condemned = {});
+                                    const Writing& how = {});
 
 /// ".p21, .stp, ... or .tbl": the endings of all formats that are written.
 [[nodiscard]] std::string written_endings();
@@ -65,7 +71,8 @@ struct Format {
 [[nodiscard]] std::string endings_of(Holds holds);
 /// "ISO 14649 .p21 .stp, AP238 .stpnc .238, ...": the same, with what each holds.
 [[nodiscard]] std::string written_text();
-/// "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, or STL mesh": what is read.
+/// "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, CAD part in STEP (AP203, AP214 or AP242), or
+/// STL mesh": what is read.
 [[nodiscard]] std::string read_text();
 
 }  // namespace capstan::service

@@ -343,6 +343,12 @@ std::vector<Option> table() {
        0,
        0,
        "strict"},
+      {"without",
+       Value::kWord,
+       both("sections: plans are written without the cross sections along their paths; the peak of each step "
+            "stays"),
+       [](Request& r, Text /*t*/) { return r.sections = false, std::string(); },
+       {"sections"}},
       {"profile",
        Value::kText,
        {nullptr, nullptr, profile_help()},

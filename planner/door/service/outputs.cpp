@@ -61,7 +61,7 @@ Diagnostic stopped_call(const std::string& file) {
 }
 
 Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job, const model::Plan* of_program,
-            Reports reports) {
+            Reports reports, const Writing& how) {
   const auto all = [&]() -> Status {
     // Each writes into a job of its own; the diagnostics are reported in the order of the outputs.
     std::vector<Job> jobs(outputs.size());
@@ -72,7 +72,8 @@ Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job, con
         made[i] = Written{};
         return;
       }
-      made[i] = write(of_program != nullptr && format.of_program() ? *of_program : plan, format, jobs[i]);
+      made[i] =
+          write(of_program != nullptr && format.of_program() ? *of_program : plan, format, jobs[i], how);
     });
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       Output& o = outputs[i];

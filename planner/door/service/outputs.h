@@ -33,10 +33,12 @@ struct Output {
 enum class Reports : std::uint8_t { kUnjudged, kLeftToJudge };
 
 /// Fills `bytes` and `losses`, on the job's threads. Things that ISO 14649 or AP238 cannot hold are noted
-/// (EXC-LOSS). `of_program`: the plan that programs and tool tables are written of, where that is another.
+/// (EXC-LOSS). `of_program`: the plan that programs and tool tables are written of, where that is another;
+/// `how`: what plans are written without.
 /// Fails  as the writers; APP-STOPPED.
 [[nodiscard]] Status make(const model::Plan& plan, std::vector<Output>& outputs, Job& job,
-                          const model::Plan* of_program = nullptr, Reports reports = Reports::kUnjudged);
+                          const model::Plan* of_program = nullptr, Reports reports = Reports::kUnjudged,
+                          const Writing& how = {});
 
 /// " (without 3 things)", or nothing when the file holds all of the plan.
 [[nodiscard]] std::string losses_text(const Output& output);

@@ -309,7 +309,7 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
     Job silent;  // the writer's warnings were reported when it wrote the first time
     for (Output& o : outputs) {
       if (!is_program(o)) continue;
-      auto text = write(made, *o.format, silent, v.condemned);
+      auto text = write(made, *o.format, silent, {.condemned = v.condemned});
       if (!text) return tl::unexpected(text.error());
       o.bytes = std::move(text->bytes);
     }

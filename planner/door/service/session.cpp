@@ -229,7 +229,7 @@ const std::string* Session::output(std::string_view name) {
   const std::string* made = nullptr;
   guarded([&] {
     Job job;
-    auto written = write(plan_for(*bound_, *format), *format, job);
+    auto written = write(plan_for(*bound_, *format), *format, job, {.sections = request_.sections});
     if (!written) return end(Code::kImpossible, to_text(written.error()));
     made = &outputs_.emplace(name, std::move(written->bytes)).first->second;
     return code_;

@@ -14,7 +14,6 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/edited.h"
-#include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/order/workplan_order.h"
 
 namespace capstan::json {
@@ -107,22 +106,35 @@ class Reader {
       const auto it = t.find(name);
       return it == t.end() || !it->is_number() || it->get<double>() != v;
     };
+    const Summary expected = summary_of(plan_);
+    bool other = false;
     if (const auto it = tree.find("summary"); it != tree.end() && it->is_object()) {
-      const auto expected = summary_of(plan_);
-      const bool other = std::any_of(expected.begin(), expected.end(), [&](const auto& part) {
-        return differs(*it, part.first.c_str(), part.second);
-      });
+      other = std::any_of(expected.totals.begin(), expected.totals.end(),
+                          [&](const auto& part) { return differs(*it, part.first.c_str(), part.second); });
       const auto waiting = it->find("to_load");
       if (other || (waiting != it->end() && *waiting != Tree(to_load(plan_))))
         edited_.emplace_back("the summary");
     }
-    const std::vector<std::string> ids = step_ids(plan_);
     const Tree& steps = *tree.find("steps");
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const auto id = steps[i].find("id");
-      if (id != steps[i].end() &&
-          (!id->is_string() || unquoted_bytes(id->get_ref<const std::string&>()) != ids[i]))
-        edited_.push_back("the id of step '" + ids[i] + "'");
+    for (std::size_t i = 0; i < expected.steps.size(); ++i) {
+      const StepSummary& look = expected.steps[i];
+      // A plan of an earlier build states fewer.
+      const auto word = [&](std::string_view name, const std::string& text) {
+        const auto at = steps[i].find(std::string(name));
+        return at == steps[i].end() ||
+               (at->is_string() && unquoted_bytes(at->template get_ref<const std::string&>()) == text);
+      };
+      const auto number = [&](std::string_view name, double value) {
+        const auto at = steps[i].find(std::string(name));
+        return at == steps[i].end() || (at->is_number() && at->template get<double>() == value);
+      };
+      if (!word("id", look.id)) edited_.push_back("the id of step '" + look.id + "'");
+      bool as_derived = number("tool_number", look.tool_number);
+      for (const auto& [name, text] : look.words) as_derived = as_derived && word(name, text);
+      // Where the whole takes another time, something was edited from which it follows.
+      for (const auto& [name, seconds] : look.times)
+        as_derived = as_derived && (other || number(name, seconds));
+      if (!as_derived) edited_.push_back("what follows for step '" + look.id + "'");
       const auto peak = steps[i].find("peak");
       const auto& sections = plan_.steps[i].sections;
       if (peak == steps[i].end() || !peak->is_object() || !sections) continue;
@@ -132,7 +144,7 @@ class Reader {
       if (differs(*peak, "csa_mm2", most(sections->csa_mm2)) ||
           differs(*peak, "ad_max_mm", most(sections->ad_max_mm)) ||
           differs(*peak, "rd_max_mm", most(sections->rd_max_mm)))
-        edited_.push_back("the peak of step '" + ids[i] + "'");
+        edited_.push_back("the peak of step '" + look.id + "'");
     }
   }
 

@@ -5,6 +5,7 @@
 #include "planner/files/json/fields.h"
 #include "planner/files/json/ids.h"
 #include "planner/files/json/json.h"
+#include "planner/files/json/meaning.h"
 #include "planner/files/json/printer.h"
 #include "planner/model/nouns/arena/stand_in.h"
 #include "planner/model/nouns/executable.h"
@@ -34,8 +35,8 @@ class SchemaWriter {
     version();
     out_.key("summary");
     free_object(
-        "derived: what the steps add up to (cutting_s with dwells, rapid_s), what lies between them, and the "
-        "total");
+        "derived: what the steps add up to (cutting_s with dwells, rapid_s), what lies between them (link_s, "
+        "tool_change_s, spindle_s), and the total_s; times in s");
     const model::Plan plan;
     FieldSchemas top{*this};
     fields(top, plan);
@@ -69,7 +70,11 @@ class SchemaWriter {
       writer.out_.key(name);
       if (std::string_view(name) == kHashField)
         return writer.pattern("^[0-9a-f]{16}$", "hash of the value spoken of");
+      // Of a point its coordinates are in the unit that its own name says.
+      const std::string_view before = writer.unit_, own = meaning_of(name);
+      if (!own.empty()) writer.unit_ = own;
       writer.of(x);
+      writer.unit_ = before;
     }
   };
   struct Names {
@@ -96,12 +101,13 @@ class SchemaWriter {
     if (!description.empty()) text("description", description);
     out_.close();
   }
-  void free_object(std::string_view description) {
+  void described(std::string_view type, std::string_view description) {
     out_.open('{', false);
-    text("type", "object");
-    text("description", description);
+    text("type", type);
+    if (!description.empty()) text("description", description);
     out_.close();
   }
+  void free_object(std::string_view description) { described("object", description); }
   void reference(std::string_view definition) {
     out_.open('{', false);
     text("$ref", "#/definitions/" + std::string(definition));
@@ -158,7 +164,7 @@ class SchemaWriter {
     } else if constexpr (std::is_integral_v<T>) {
       type("integer");
     } else if constexpr (std::is_floating_point_v<T>) {
-      type("number");
+      described("number", unit_);
     } else if constexpr (IsText<T>) {
       type("string");
     } else if constexpr (std::is_enum_v<T>) {
@@ -207,12 +213,7 @@ class SchemaWriter {
     text("type", "object");
     out_.key("properties");
     out_.open('{', false);
-    if constexpr (std::is_same_v<T, model::StepResult>) {
-      out_.key("id");
-      type("string");
-      out_.key("peak");
-      free_object("derived: the largest cross section");
-    }
+    if constexpr (std::is_same_v<T, model::StepResult>) derived_of_step();
     FieldSchemas each{*this};
     fields(each, x);
     out_.close();
@@ -220,6 +221,30 @@ class SchemaWriter {
     fields(names, x);
     required(names.required);
     out_.close();
+  }
+
+  /// Of a step, for readers that follow no reference and add nothing up.
+  void derived_of_step() {
+    constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+        {"id", "derived: its name, told from those of the same name; the same in every planning of the part"},
+        {"operation", "derived: the kind of its operation, as a key of objects; a rapid movement has none"},
+        {"feature", "derived: the name of its feature"}};
+    for (const auto& [name, words] : kWords) {
+      out_.key(name);
+      described("string", words);
+    }
+    out_.key("tool_number");
+    described("integer", "derived: T, the number that its program calls; 0: none");
+    constexpr std::pair<std::string_view, std::string_view> kTimes[] = {
+        {"link_s", "derived, s: the way from the step before, with the same tool"},
+        {"tool_change_s", "derived, s: the tool change that it begins with"},
+        {"spindle_s", "derived, s: its changes of spindle speed, and the stop before it or after the last"}};
+    for (const auto& [name, words] : kTimes) {
+      out_.key(name);
+      described("number", words);
+    }
+    out_.key("peak");
+    free_object("derived: the largest cross section: csa_mm2, mm2; ad_max_mm and rd_max_mm, mm");
   }
 
   void decision() {
@@ -294,7 +319,7 @@ class SchemaWriter {
     out_.key("type");
     type("string");
     out_.key("real");
-    type("number");
+    described("number", meaning_of("real"));
     out_.key("text");
     type("string");
     out_.close();
@@ -303,10 +328,8 @@ class SchemaWriter {
   }
 
   void number(const Attribute& a, std::string_view kind) {
-    out_.open('{', false);
-    text("type", kind);
-    if (a.unit != model::Unit::kNone) text("description", model::symbol(a.unit));
-    out_.close();
+    const bool real = kind == "number";
+    described(kind, a.unit != model::Unit::kNone ? model::symbol(a.unit) : real ? meaning_of(a.name) : "");
   }
 
   void attribute(const Attribute& a) {
@@ -409,6 +432,7 @@ class SchemaWriter {
   }
 
   Printer out_;
+  std::string_view unit_;  ///< of the numbers of the field that is described
   std::map<std::string, std::string> references_;
 };
 

@@ -13,6 +13,7 @@
 #include "planner/files/json/fields.h"
 #include "planner/files/json/ids.h"
 #include "planner/files/json/printer.h"
+#include "planner/files/json/summary.h"
 #include "planner/files/json/tree/tree.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
@@ -232,7 +233,8 @@ class ValueReader {
     fields(each, x);
     Names known;
     fields(known, x);
-    if constexpr (std::is_same_v<T, model::StepResult>) known.names.insert(known.names.end(), {"id", "peak"});
+    if constexpr (std::is_same_v<T, model::StepResult>)
+      known.names.insert(known.names.end(), std::begin(kDerivedOfStep), std::end(kDerivedOfStep));
     only(t, known.names, at);
     if constexpr (std::is_same_v<T, model::CutterPath>) {
       if (!model::columns_agree(x)) fault(at, "columns of one length");

@@ -13,8 +13,6 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/decision/fresh_edits.h"
-#include "planner/model/plan/order/step_ids.h"
-#include "planner/physics/motion/time.h"
 
 namespace capstan::json {
 namespace {
@@ -50,7 +48,8 @@ inline constexpr bool kInLines =
 
 class Writer {
  public:
-  explicit Writer(const Plan& plan) : plan_(plan), ids_(step_ids(plan)) {}
+  /// `whole`: as the plan, and with the sections that a step's peak is of.
+  Writer(const Plan& plan, const Plan& whole) : plan_(plan), whole_(whole), summary_(summary_of(plan)) {}
 
   std::string run() {
     out_.open('{', true);
@@ -104,7 +103,7 @@ class Writer {
   void summary() {
     out_.key("summary");
     out_.open('{', false);
-    for (const auto& [name, value] : summary_of(plan_)) {
+    for (const auto& [name, value] : summary_.totals) {
       out_.key(name);
       // Counts are whole, times are not.
       if (name.ends_with("_s"))
@@ -171,18 +170,31 @@ class Writer {
   }
 
   void derived(const model::StepResult& step) {
+    const auto at = static_cast<std::size_t>(&step - plan_.steps.data());
+    const StepSummary& look = summary_.steps.at(at);
     out_.key("id");
-    out_.text(ids_.at(static_cast<std::size_t>(&step - plan_.steps.data())));
-    if (!step.sections || step.sections->size() == 0) return;
+    out_.text(look.id);
+    out_.key("tool_number");
+    out_.integer(look.tool_number);
+    for (const auto& [name, text] : look.words) {
+      out_.key(name);
+      out_.text(text);
+    }
+    for (const auto& [name, seconds] : look.times) {
+      out_.key(name);
+      out_.number(seconds);
+    }
+    const auto& sections = whole_.steps.at(at).sections;
+    if (!sections || sections->size() == 0) return;
     const auto peak = [&](const char* name, const std::vector<double>& column) {
       out_.key(name);
       out_.number(column.empty() ? 0.0 : *std::max_element(column.begin(), column.end()));
     };
     out_.key("peak");
     out_.open('{', false);
-    peak("csa_mm2", step.sections->csa_mm2);
-    peak("ad_max_mm", step.sections->ad_max_mm);
-    peak("rd_max_mm", step.sections->rd_max_mm);
+    peak("csa_mm2", sections->csa_mm2);
+    peak("ad_max_mm", sections->ad_max_mm);
+    peak("rd_max_mm", sections->rd_max_mm);
     out_.close();
   }
 
@@ -373,7 +385,8 @@ class Writer {
   }
 
   const Plan& plan_;
-  std::vector<std::string> ids_;
+  const Plan& whole_;
+  Summary summary_;
   Printer out_;
   NumberedColumns<model::CutterPath> paths_;
   NumberedColumns<model::SectionSeries> sections_;
@@ -382,6 +395,14 @@ class Writer {
 
 }  // namespace
 
-std::string write_json(const model::Plan& plan) { return Writer(plan).run(); }
+model::Plan without_sections(model::Plan plan) {
+  for (model::StepResult& step : plan.steps) step.sections = nullptr;
+  return plan;
+}
+
+std::string write_json(const model::Plan& plan, const Without& without) {
+  if (!without.sections) return Writer(plan, plan).run();
+  return Writer(without_sections(plan), plan).run();
+}
 
 }  // namespace capstan::json

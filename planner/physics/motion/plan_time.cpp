@@ -53,9 +53,12 @@ std::string text_of(const PlanTime& t) {
 
 Result<PlanTime> time_of(const Plan& plan) {
   PlanTime out;
+  out.steps.resize(plan.steps.size());
   const StepResult* before = nullptr;
+  StepShare* last = nullptr;
   double speed_before = 0.0;
-  for (const StepResult& step : plan.steps) {
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const StepResult& step = plan.steps[i];
     if (!step.path || step.path->size() == 0) continue;
     const model::FeedSchedule schedule = schedule_of(step);
     auto time = time_of(*step.path, schedule, plan.machine);
@@ -64,29 +67,38 @@ Result<PlanTime> time_of(const Plan& plan) {
       d.path = model::step_id(plan, step) + " " + d.path;
       return fail(std::move(d));
     }
+    StepShare& share = out.steps[i];
+    share.cutting_s = time->cutting_s + time->dwell_s;
+    share.rapid_s = time->rapid_s;
     out.cutting_s += time->cutting_s;
     out.rapid_s += time->rapid_s;
     out.dwell_s += time->dwell_s;
-    out.spin_up_s += time->spindle_s;
+    const auto spindle = [&](double s) {
+      out.spin_up_s += s;
+      share.spindle_s += s;
+    };
+    spindle(time->spindle_s);
     const bool same_tool = before != nullptr && before->cutter_id == step.cutter_id;
     if (same_tool && before->setup == step.setup) {
-      out.link_s += link_s(plan, *before, step);
+      out.link_s += share.link_s = link_s(plan, *before, step);
     } else {
-      out.spin_up_s += spindle_change_s(plan.machine.spindle, speed_before, 0.0);
+      spindle(spindle_change_s(plan.machine.spindle, speed_before, 0.0));
       speed_before = 0.0;
     }
     if (!same_tool) {
-      out.tool_change_s += plan.machine.tool_change_s;
+      out.tool_change_s += share.tool_change_s = plan.machine.tool_change_s;
       ++out.tool_changes;
     }
     // The speed of entry 0 is that of the first move.
     const auto& speeds = schedule.spindle_rpm;
-    out.spin_up_s +=
-        spindle_change_s(plan.machine.spindle, speed_before, speeds.size() > 1 ? speeds[1] : speeds[0]);
+    spindle(spindle_change_s(plan.machine.spindle, speed_before, speeds.size() > 1 ? speeds[1] : speeds[0]));
     speed_before = speeds.back();
     before = &step;
+    last = &share;
   }
-  out.spin_up_s += spindle_change_s(plan.machine.spindle, speed_before, 0.0);
+  const double stop = spindle_change_s(plan.machine.spindle, speed_before, 0.0);
+  out.spin_up_s += stop;
+  if (last != nullptr) last->spindle_s += stop;
   return out;
 }
 

@@ -84,6 +84,16 @@ struct MoveReach {
 /// a start to rpm_max. Source: constant angular acceleration, derived.
 [[nodiscard]] double spindle_change_s(const model::Spindle& spindle, double from_rpm, double to_rpm);
 
+/// What one step takes of the plan's time, s: its own, and what comes before it.
+struct StepShare {
+  double cutting_s = 0.0;  ///< at feed, with dwells
+  double rapid_s = 0.0;
+  double link_s = 0.0;         ///< the way from the step before, with the same tool
+  double tool_change_s = 0.0;  ///< where it begins with one
+  double spindle_s = 0.0;  ///< its changes of speed, the stop before it; of the last step the last stop, too
+  [[nodiscard]] double total_s() const { return cutting_s + rapid_s + link_s + tool_change_s + spindle_s; }
+};
+
 /// How long the whole plan takes, s.
 struct PlanTime {
   double cutting_s = 0.0, rapid_s = 0.0, dwell_s = 0.0;
@@ -91,6 +101,7 @@ struct PlanTime {
   double tool_change_s = 0.0;  ///< the machine's chip-to-chip time for each change
   double spin_up_s = 0.0;      ///< starts, stops and changes of the spindle
   int tool_changes = 0;
+  std::vector<StepShare> steps;  ///< parallel to the plan's; zeros of one without a path. They add up to all
   [[nodiscard]] double total_s() const {
     return cutting_s + rapid_s + dwell_s + link_s + tool_change_s + spin_up_s;
   }

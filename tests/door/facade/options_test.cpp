@@ -59,6 +59,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.deadline = "200ms";
   o.strict = true;
   o.schema = true;
+  o.without = "sections";
   o.profile = "grbl";
   o.next = 2;
   o.from = 3;
@@ -88,6 +89,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.bind, pipeline::Bind::kStrategy);
   EXPECT_EQ(r.deadline, std::chrono::milliseconds(200));
   EXPECT_TRUE(r.strict && r.schema);
+  EXPECT_FALSE(r.sections);
   EXPECT_EQ(r.profile, "grbl");
   EXPECT_EQ(r.next, 2u);
   EXPECT_EQ(r.from, 3u);

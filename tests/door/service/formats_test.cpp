@@ -65,7 +65,9 @@ TEST(Formats, TextsForPeopleAreMadeOfTheTable) {
             "program .mpf, program .h, program .gcode, "
             "report .html, edits .yaml");
   EXPECT_EQ(endings_of(Holds::kProgram), ".ngc, .nc, .mpf, .h, .gcode");
-  EXPECT_EQ(read_text(), "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, or STL mesh");
+  EXPECT_EQ(read_text(),
+            "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, "
+            "CAD part in STEP (AP203, AP214 or AP242), or STL mesh");
 }
 
 TEST(Formats, AByteOrderMarkIsNoPartOfTheContent) {

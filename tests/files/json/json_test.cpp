@@ -92,6 +92,33 @@ TEST(PlanJsonProperty, AnyPlanIsReadBackToTheSameBytes) {
   }
 }
 
+TEST(PlanJson, WithoutSectionsIsThePlanWithoutThem) {
+  const model::Plan plan = json::Filler(5, 1.0).plan(2);
+  ASSERT_TRUE(std::ranges::any_of(plan.steps, [](const auto& s) { return s.sections != nullptr; }));
+  const std::string bytes = write_json(plan, {.sections = true});
+  Job job;
+  const auto back = read_json(bytes, "plan.json", job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  EXPECT_EQ(job.count(Severity::kWarning), 0U);  // nobody edited it
+  for (const auto& step : back->steps) EXPECT_EQ(step.sections, nullptr);
+  EXPECT_EQ(write_json(*back), write_json(without_sections(plan)));
+}
+
+TEST(PlanJson, TellsWhatWasEditedOfWhatFollowsForAStep) {
+  const model::Plan plan = json::Filler(5, 1.0).plan(1);
+  std::string bytes = write_json(plan);
+  const auto at = bytes.find("\"tool_number\"");
+  ASSERT_NE(at, std::string::npos);
+  const auto colon = bytes.find(':', at), end = bytes.find_first_of(",\n}", colon);
+  bytes.replace(colon + 1, end - colon - 1, "9999");
+  Job job;
+  const auto back = read_json(bytes, "plan.json", job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  ASSERT_EQ(job.count(Severity::kWarning), 1U);
+  EXPECT_NE(job.diagnostics().back().message.find("what follows for step"), std::string::npos)
+      << to_text(job.diagnostics().back());
+}
+
 TEST(PlanJson, KnowsEveryFieldOfThePlansStructs) {
   // A field added to one of these must be named in fields.h, too; then correct the size here.
 #if defined(__x86_64__) && defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG)

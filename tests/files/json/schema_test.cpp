@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -66,6 +69,44 @@ TEST_F(PlanSchema, DoesNotHoldForOtherDocuments) {
   EXPECT_NE(with("\"capstan_plan\":1", "\"capstan_plan\":2"), "");
   EXPECT_NE(with("\"project:1\"", "\"plane:1\""), "");
   EXPECT_NE(faults("{}"), "");
+}
+
+/// Calls `each` with the name and the schema of every number in a schema; items have their list's name.
+template <class F>
+void each_number(const nlohmann::json& schema, const std::string& name, const F& each) {
+  if (!schema.is_object()) return;
+  const auto type = schema.find("type");
+  if (type != schema.end() && *type == "number") each(name, schema);
+  for (const auto& item : schema.items()) {
+    if (item.key() == "properties")
+      for (const auto& field : item.value().items()) each_number(field.value(), field.key(), each);
+    else
+      each_number(item.value(), item.key() == "items" ? name : item.key(), each);
+  }
+}
+
+TEST_F(PlanSchema, SaysTheUnitOfEveryNumber) {
+  std::size_t seen = 0;
+  std::map<std::string, std::set<std::string>> said;
+  each_number(document_, "", [&](const std::string& name, const nlohmann::json& schema) {
+    ++seen;
+    EXPECT_FALSE(schema.value("description", "").empty()) << name;
+    said[name].insert(schema.value("description", ""));
+  });
+  EXPECT_GT(seen, 300U);
+  using Words = std::set<std::string>;
+  EXPECT_EQ(said["cutting_diameter_mm"], Words{"mm"});
+  EXPECT_EQ(said["feed_mm_min"], Words{"mm/min"});
+  EXPECT_EQ(said["removed_mm3"], Words{"mm3"});
+  EXPECT_EQ(said["ktc_n_mm2"], Words{"N/mm2"});
+  EXPECT_EQ(said["kte_n_mm"], Words{"N/mm"});
+  EXPECT_EQ(said["torque_nm"], Words{"Nm"});
+  EXPECT_EQ(said["peak_force_n"], Words{"N"});
+  EXPECT_EQ(said["tool_life_min"], Words{"min"});
+  EXPECT_EQ(said["rpm_min"], Words{"1/min"});  // the least speed, no minutes
+  EXPECT_EQ(said["cutting_s"], Words{"s"});
+  EXPECT_EQ(said["point_angle_rad"], Words{"rad"});
+  EXPECT_EQ(said["depth_of_step"], Words{"mm"});
 }
 
 // Run with CAPSTAN_UPDATE=1 in the environment after the model has changed.

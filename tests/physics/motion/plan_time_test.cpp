@@ -64,6 +64,28 @@ TEST(PlanTime, CountsToolChangesSpinUpsAndTheWayBetweenSteps) {
   EXPECT_NEAR(t->total_s(), 12.0 + 4.0 + 6.3 + t->link_s, 1e-9);
 }
 
+TEST(PlanTime, IsSharedAmongTheStepsWithoutRest) {
+  auto plan = plan_with({"a", "a", "b"});
+  plan.steps.push_back({});  // without a path it takes none
+  const auto t = time_of(plan);
+  ASSERT_TRUE(t) << to_text(t.error());
+  ASSERT_EQ(t->steps.size(), 4U);
+  double all = 0.0;
+  for (const StepShare& share : t->steps) all += share.total_s();
+  EXPECT_NEAR(all, t->total_s(), 1e-9);
+  // The first begins with a change and a start; the second with a way; the third with a stop, a change and a
+  // start, and the last stop is its own.
+  EXPECT_EQ(t->steps[0].tool_change_s, 6.0);
+  EXPECT_NEAR(t->steps[0].spindle_s, 1.0, 1e-12);
+  EXPECT_EQ(t->steps[0].link_s, 0.0);
+  EXPECT_EQ(t->steps[1].tool_change_s, 0.0);
+  EXPECT_EQ(t->steps[1].spindle_s, 0.0);
+  EXPECT_NEAR(t->steps[1].link_s, t->link_s, 1e-12);
+  EXPECT_EQ(t->steps[2].tool_change_s, 6.0);
+  EXPECT_NEAR(t->steps[2].spindle_s, 3.0, 1e-12);
+  EXPECT_EQ(t->steps[3].total_s(), 0.0);
+}
+
 TEST(PlanTime, OfStepsThatGoOnWhereTheOneBeforeEndedHasNoWayBetween) {
   model::Plan plan = plan_with({"a", "a"});
   auto on = std::make_shared<CutterPath>();

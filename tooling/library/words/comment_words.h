@@ -27,6 +27,10 @@ struct CommentSizes {
 [[nodiscard]] CommentSizes sizes_of_words(std::string_view words, model::CutterClass c, double diameter_mm,
                                           double mm_per_unit = 1.0);
 
+/// The nominal diameter of the one thread that the words name, mm: "M6" where ISO 261 has the size, "M8x1",
+/// "1/4-20"; 0: none, or sizes that differ. A number behind the name of a steel is its grade ("HSS M35").
+[[nodiscard]] double thread_size_of_words(std::string_view words);
+
 /// Where what a comment says is from, behind "derived: " in Cutter::sources.
 inline constexpr std::string_view kOfComment = "from the words of the comment";
 

@@ -19,9 +19,10 @@ namespace {
 using model::Cutter;
 using model::CutterClass;
 
-constexpr double kSameSize = 0.03;          // of the nominal size; M6 and 1/4 in lie 6 % apart
-constexpr double kCoarsestOfSize = 0.26;    // pitch by nominal size: M1 has 0.25 mm, ISO 261
-constexpr double kLeastIncludedDeg = 60.0;  // below it "45 deg" may as well be meant of one side
+constexpr double kSameSize = 0.03;                    // of the nominal size; M6 and 1/4 in lie 6 % apart
+constexpr double kCoarsestOfSize = 0.26;              // pitch by nominal size: M1 has 0.25 mm, ISO 261
+constexpr double kFewestTpi = 3.0, kMostTpi = 120.0;  // threads per inch; default, unsourced
+constexpr double kLeastIncludedDeg = 60.0;            // below it "45 deg" may as well be meant of one side
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool letter(char c) { return c >= 'a' && c <= 'z'; }
@@ -159,12 +160,11 @@ std::vector<double> inch_sizes(const std::string& text, std::size_t dash) {
 
 /// "1/4-20", "#10-32", "375-16", "20 TPI".
 double inch_pitch(const std::string& text, CutterClass c, double diameter_mm) {
-  constexpr double kFewest = 3.0, kMost = 120.0;
   for (std::size_t i = 1; i + 1 < text.size(); ++i) {
     if (text[i] != '-' || !digit(text[i - 1]) || !digit(text[i + 1])) continue;
     Scan s(text, i + 1);
     const auto threads = s.number();
-    if (!threads || *threads < kFewest || *threads > kMost || s.peek() == '/') continue;
+    if (!threads || *threads < kFewestTpi || *threads > kMostTpi || s.peek() == '/') continue;
     for (const double nominal : inch_sizes(text, i)) {
       const double pitch = kMmPerInch / *threads;
       if (may_cut(nominal, c, diameter_mm) && pitch <= kCoarsestOfSize * nominal) return pitch;
@@ -177,9 +177,57 @@ double inch_pitch(const std::string& text, CutterClass c, double diameter_mm) {
     while (from > 0 && digit(text[from - 1])) --from;
     if (from > 0 && (text[from - 1] == '.' || text[from - 1] == '/')) return 0.0;
     const auto threads = parse_double(std::string_view(text).substr(from, end - from));
-    if (threads && *threads >= kFewest && *threads <= kMost) return kMmPerInch / *threads;
+    if (threads && *threads >= kFewestTpi && *threads <= kMostTpi) return kMmPerInch / *threads;
   }
   return 0.0;
+}
+
+/// Whether the word before a place is a steel's: what follows it is its grade.
+bool behind_steel(const std::string& text, std::size_t at) {
+  while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '-' || text[at - 1] == '_')) --at;
+  std::size_t from = at;
+  while (from > 0 && letter(text[from - 1])) --from;
+  const std::string_view word = std::string_view(text).substr(from, at - from);
+  return word.starts_with("hss") || word == "e" || word == "pm" || word == "co" || word == "steel" ||
+         word == "stahl";
+}
+
+/// The sizes of "M6", "M8x1": where no pitch follows, those of the coarse series only.
+void metric_sizes(const std::string& text, std::vector<double>& out) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char previous = i > 0 ? text[i - 1] : ' ';
+    if (letter(previous) || digit(previous) || previous == '.' || previous == '/') continue;
+    Scan s(text, i);
+    if (!s.word("mf") && !s.word("m")) continue;
+    if (!digit(s.peek()) || behind_steel(text, i)) continue;
+    const auto nominal = s.number();
+    if (!nominal || *nominal <= 0.0 || (letter(s.peek()) && s.peek() != 'x')) continue;
+    s.spaces();
+    if (s.word("x") || s.word("*") || s.word("\xC3\x97")) {
+      s.spaces();
+      const auto p = s.number();
+      if (p && *p > 0.05 && *p <= kCoarsestOfSize * *nominal) out.push_back(*nominal);
+    } else if (coarse_pitch(*nominal) > 0.0) {
+      out.push_back(*nominal);
+    }
+  }
+}
+
+/// The sizes of "1/4-20": a fraction of an inch whose number of threads suits one reading of it.
+void fraction_sizes(const std::string& text, std::vector<double>& out) {
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (text[i] != '-' || !digit(text[i - 1]) || !digit(text[i + 1])) continue;
+    std::size_t from = i;
+    while (from > 0 && (digit(text[from - 1]) || text[from - 1] == '/')) --from;
+    if (text.find('/', from) >= i) continue;
+    Scan s(text, i + 1);
+    const auto threads = s.number();
+    if (!threads || *threads < kFewestTpi || *threads > kMostTpi || s.peek() == '/') continue;
+    std::vector<double> fit;
+    for (const double nominal : inch_sizes(text, i))
+      if (kMmPerInch / *threads <= kCoarsestOfSize * nominal) fit.push_back(nominal);
+    if (fit.size() == 1) out.push_back(fit.front());
+  }
 }
 
 double after_word(const std::string& text, std::string_view word, double mm_per_unit) {
@@ -234,10 +282,21 @@ double angle_of(const std::string& text, CutterClass c) {
   return 0.0;
 }
 
+constexpr std::size_t kLongest = 4096;  // characters; default, unsourced: far above any comment
+
 }  // namespace
 
+double thread_size_of_words(std::string_view words) {
+  const std::string text = plain_words(words.substr(0, kLongest));
+  std::vector<double> found;
+  metric_sizes(text, found);
+  fraction_sizes(text, found);
+  if (found.empty()) return 0.0;
+  const bool one = std::ranges::all_of(found, [&](double v) { return v == found.front(); });
+  return one ? found.front() : 0.0;
+}
+
 CommentSizes sizes_of_words(std::string_view words, CutterClass c, double diameter_mm, double mm_per_unit) {
-  constexpr std::size_t kLongest = 4096;  // default, unsourced: far above any comment
   const std::string text = plain_words(words.substr(0, kLongest));
   CommentSizes out;
   if (model::has(c, model::CutterTrait::kThreads)) out.pitch_mm = pitch_of(text, c, diameter_mm);

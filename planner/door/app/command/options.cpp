@@ -256,6 +256,7 @@ class CommandLine {
     files(diff, "plans", "two plans", 2, 2);
     auto* convert = command(app_, "convert", "write a part or plan in another format", Command::kConvert);
     file(convert, "file", "part or plan");
+    option(convert, "without", "sections: a plan without the cross sections along its paths");
     outputs(convert, true);
   }
   void shop() {

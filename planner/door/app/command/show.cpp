@@ -93,7 +93,10 @@ int run_convert(Session& s) {
   }
   const auto plan = service::load_plan(s.options.files[0], s.job);
   if (!plan) return s.end(plan.error(), plan.error().code == "EXC-UNSUPPORTED" ? kUsage : kUnreadable);
-  if (auto ok = service::make(*plan, *outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
+  if (auto ok = service::make(*plan, *outputs, s.job, nullptr, service::Reports::kUnjudged,
+                              {.sections = s.options.inputs.sections});
+      !ok)
+    return s.end(ok.error(), kImpossible);
   if (auto ok = service::write_all(*outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
   s.summary = "converted " + s.options.files[0];
   for (const service::Output& o : *outputs) {

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <map>
 
 #include "planner/door/app/command/session.h"
 #include "planner/ground/base/file.h"
@@ -8,6 +7,7 @@
 #include "tooling/library/cutters/generic.h"
 #include "tooling/library/formats/format.h"
 #include "tooling/library/formats/import.h"
+#include "tooling/library/formats/item/losses.h"
 #include "tooling/library/formats/json.h"
 #include "tooling/library/library.h"
 
@@ -21,12 +21,6 @@ using tooling::FormatOptions;
 using tooling::json_quoted;
 using tooling::LossReport;
 
-std::string line_text(const LossReport::Line& l) {
-  std::string out = l.tool;
-  if (!l.field.empty()) out += (out.empty() ? "" : ", ") + l.field;
-  return out + (out.empty() ? "" : ": ") + l.what;
-}
-
 std::string lines_json(const std::vector<LossReport::Line>& lines) {
   std::string out = "[";
   for (const auto& l : lines) {
@@ -39,29 +33,6 @@ std::string lines_json(const std::vector<LossReport::Line>& lines) {
 std::string report_json(const LossReport& r) {
   return "{\n  \"tools\": " + std::to_string(r.tools) + ",\n  \"derived\": " + lines_json(r.derived) +
          ",\n  \"dropped\": " + lines_json(r.dropped) + "\n}";
-}
-
-/// Groups equal lines of many tools: "18 tools, LU: the shoulder's length".
-std::vector<std::string> grouped(const std::vector<LossReport::Line>& lines) {
-  std::vector<std::pair<std::string, std::vector<const LossReport::Line*>>> groups;
-  std::map<std::string, std::size_t> at;
-  for (const auto& l : lines) {
-    const std::string key = l.field + '\n' + l.what;
-    const auto [it, fresh] = at.emplace(key, groups.size());
-    if (fresh) groups.push_back({key, {}});
-    groups[it->second].second.push_back(&l);
-  }
-  std::vector<std::string> out;
-  for (const auto& [key, of] : groups) {
-    if (of.size() == 1) {
-      out.push_back(line_text(*of.front()));
-      continue;
-    }
-    LossReport::Line all = *of.front();
-    all.tool = counted(of.size(), "tool", "tools");
-    out.push_back(line_text(all));
-  }
-  return out;
 }
 
 class Tools {
@@ -139,11 +110,13 @@ class Tools {
       s_.job.report({.code = code, .severity = Severity::kNote, .message = text, .file = file});
     };
     if (s_.options.tools.report) {
-      for (const auto& l : r.derived) note("TOOLS-DERIVED", std::string(what) + ", derived: " + line_text(l));
-      for (const auto& l : r.dropped) note("TOOLS-DROPPED", std::string(what) + ", dropped: " + line_text(l));
+      for (const auto& l : r.derived)
+        note("TOOLS-DERIVED", std::string(what) + ", derived: " + tooling::line_text(l));
+      for (const auto& l : r.dropped)
+        note("TOOLS-DROPPED", std::string(what) + ", dropped: " + tooling::line_text(l));
       return;
     }
-    const auto lines = grouped(r.dropped);
+    const auto lines = tooling::lines_together(r.dropped);
     for (std::size_t k = 0; k < lines.size() && k < tooling::kEntriesShown; ++k)
       note("TOOLS-DROPPED", std::string(what) + ", dropped: " + lines[k]);
     if (lines.size() > tooling::kEntriesShown)

@@ -131,6 +131,35 @@ TEST_F(ToolsCommand, AUnitThatTheFileLeavesOpenIsTheCallers) {
   EXPECT_THAT(out_, HasSubstr("cutting_diameter      0.5 mm"));
 }
 
+TEST_F(ToolsCommand, TheUnitOfABitWithoutOneIsTheCallers) {
+  put("bare.fctb", R"({"version": 2, "name": "b", "shape": "endmill.fcstd", "parameter": {
+      "CuttingEdgeHeight": "20", "Diameter": "6", "Length": "50", "ShankDiameter": "6"}, "attribute": {}})");
+  EXPECT_EQ(run("import bare.fctb"), 3);
+  EXPECT_THAT(err_, HasSubstr("--unit"));
+  EXPECT_EQ(run("import bare.fctb --unit mm -o bit.yaml"), 0) << err_;
+  EXPECT_THAT(slurp("bit.yaml"), HasSubstr("maximum_depth_of_cut: 20"));
+}
+
+TEST_F(ToolsCommand, LossesOfSizesAreToldBeforeThoseOfAnotherSystemsBookkeeping) {
+  std::string tools;
+  for (int n = 0; n < 3; ++n) {
+    const std::string k = std::to_string(n);
+    tools += (n > 0 ? ",\n" : "") +
+             std::string(R"({"type": "ball end mill", "unit": "millimeters", "guid": "g)") + k +
+             R"(", "description": "ball )" + k + R"(", "reference_guid": "r", "geometry":
+             {"DC": 6, "LCF": 13, "LB": 30, "OAL": 57, "SFDM": 6, "NOF": 2, "RE": 3, "HAND": true},
+             "post-process": {"turret": 0, "live": true}})";
+  }
+  put("fusion.json", "{\"data\": [" + tools + "]}");
+  EXPECT_EQ(run("import fusion.json -o a.zip"), 0) << err_;
+  EXPECT_THAT(err_, Not(HasSubstr("LCF")));
+  const auto sizes = err_.find("3 tools, LPR, HAND: the shape Ballend has no parameter for it");
+  const auto paths = err_.find("post-process.");
+  ASSERT_NE(sizes, std::string::npos) << err_;
+  ASSERT_NE(paths, std::string::npos) << err_;
+  EXPECT_LT(sizes, paths);
+}
+
 TEST_F(ToolsCommand, WrongUseEndsWithTwoAndWritesNothing) {
   EXPECT_EQ(run("import own.yaml --unit furlong -o a.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("furlong"));

@@ -181,6 +181,81 @@ INSTANTIATE_TEST_SUITE_P(
             "FamilyDetails>",
             "DATA-NUMBER"}));
 
+CatalogueItem hyper_of(const std::string& type, const std::string& params, LossReport* report = nullptr) {
+  Job job;
+  const std::string common = param("lengthOfUnit", "mm") + param("toolDiameter", "10") +
+                             param("toolTotalLength", "80") + param("cuttingEdges", "2") +
+                             param("toolShaftDiameter", "8");
+  const auto r = import_bytes(
+      "<omtdx><tools><tool type=\"" + type + "\" name=\"n\">" + common + params + "</tool></tools></omtdx>",
+      "a.xml", {}, job);
+  EXPECT_TRUE(r) << to_text(r.error());
+  if (!r) return {};
+  if (report != nullptr) *report = r->report;
+  return r->library.items.front();
+}
+
+TEST(HyperMill, ABallMillHasHalfItsDiameterForRadius) {
+  const CatalogueItem ball = hyper_of("ballMill", param("cuttingLength", "12"));
+  EXPECT_EQ(ball.cutter_class, CutterClass::kBallEndmill);
+  EXPECT_EQ(number_of(ball, "RE"), 5.0);
+  EXPECT_EQ(hyper_of("ballMill", param("cornerRadius", "5")).cutter_class, CutterClass::kBallEndmill);
+  // Of another radius it is no ball: not guessed what it is.
+  LossReport report;
+  const CatalogueItem odd = hyper_of("ballMill", param("cornerRadius", "4"), &report);
+  EXPECT_EQ(odd.cutter_class, std::nullopt);
+  EXPECT_THAT(report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr("radius of 4 mm"))));
+}
+
+TEST(HyperMill, ARadiusMillIsABullnoseAndStatesItsRadius) {
+  const CatalogueItem mill = hyper_of("radiusMill", param("cornerRadius", "2"));
+  EXPECT_EQ(mill.cutter_class, CutterClass::kBullnoseEndmill);
+  EXPECT_EQ(number_of(mill, "RE"), 2.0);
+  EXPECT_EQ(hyper_of("radiusMill", param("cornerRadius", "5")).cutter_class, CutterClass::kBallEndmill);
+  for (const char* radius : {"0", "0.00001"}) {
+    LossReport report;
+    EXPECT_EQ(hyper_of("radiusMill", param("cornerRadius", radius), &report).cutter_class, std::nullopt);
+    EXPECT_THAT(report.dropped,
+                Contains(Field(&LossReport::Line::what, HasSubstr("without a corner radius"))));
+  }
+}
+
+TEST(HyperMill, ATSlotCutterIsAsWideAsItsCuttingLengthUnlessTheDiscSaysOtherwise) {
+  // Public importers fold the letters differently: tslotcutter, Tslotcutter.
+  for (const char* type : {"tslotcutter", "Tslotcutter"}) {
+    const CatalogueItem slot = hyper_of(type, param("cuttingLength", "4") + param("discHeight", "0"));
+    EXPECT_EQ(slot.cutter_class, CutterClass::kTSlotMill) << type;
+    EXPECT_EQ(number_of(slot, "APMX"), 4.0);
+  }
+  EXPECT_EQ(hyper_of("tslotcutter", param("cuttingLength", "4") + param("discHeight", "4")).cutter_class,
+            CutterClass::kTSlotMill);
+  LossReport report;
+  const auto two = hyper_of("tslotcutter", param("cuttingLength", "4") + param("discHeight", "3"), &report);
+  EXPECT_EQ(two.cutter_class, std::nullopt);
+  EXPECT_THAT(report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr("discHeight 3"))));
+  EXPECT_EQ(hyper_of("tslotcutter", "").cutter_class, std::nullopt);  // of no height
+}
+
+TEST(HyperMill, ATaperedToolIsNoCylinder) {
+  for (const char* type : {"endMill", "ballMill", "radiusMill"}) {
+    LossReport report;
+    const CatalogueItem cone = hyper_of(
+        type, param("cornerRadius", "5") + param("tapered", "1") + param("taperAngle", "3"), &report);
+    EXPECT_EQ(cone.cutter_class, std::nullopt) << type;
+    EXPECT_THAT(report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr("tapered"))));
+  }
+}
+
+TEST(HyperMill, ATypeThatNoSourceConfirmsIsReadAndNotPlannedWith) {
+  for (const char* type : {"lollipop", "woodruff", "conicalBarrelTool", "drilTool"}) {
+    LossReport report;
+    const CatalogueItem other = hyper_of(type, "", &report);
+    EXPECT_EQ(number_of(other, "DC"), 10.0);
+    EXPECT_EQ(other.cutter_class, std::nullopt) << type;
+    EXPECT_THAT(report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr(type))));
+  }
+}
+
 TEST(CamXml, InchesSurvive) {
   Job job;
   const auto r =

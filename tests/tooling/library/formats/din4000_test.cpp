@@ -180,6 +180,78 @@ TEST(Din4000, ATapHasItsPitchAndNominalDiameter) {
   EXPECT_EQ(r->library.items.front().cutter_class, std::nullopt);
 }
 
+TEST(Din4000, ATapTakesSizeAndPitchFromItsNamesWhereTheNumbersAreMissing) {
+  auto r =
+      read(xml(tool(property("A1", "M") + property("J22", "Maschinengewindebohrer M6"), "DIN4000-80", "2")));
+  ASSERT_TRUE(r) << to_text(r.error());
+  const CatalogueItem& tap = r->library.items.front();
+  EXPECT_EQ(tap.cutter_class, CutterClass::kTap);
+  EXPECT_EQ(number_of(tap, "DC"), 6.0);
+  EXPECT_EQ(find(tap.properties, "DC")->state, ValueState::kDerived);
+  Job job;
+  LossReport report;
+  const auto cutters = cutters_of(r->library, report, job);
+  ASSERT_TRUE(cutters) << to_text(cutters.error());
+  ASSERT_EQ(cutters->size(), 1U);
+  EXPECT_EQ(cutters->front().cutting_diameter_mm, 6.0);
+  EXPECT_EQ(cutters->front().thread_pitch_mm, 1.0);  // ISO 261, coarse
+  // A number that is stated counts, whatever the name says.
+  r = read(xml(tool(property("A21", "8") + property("A3", "1") + property("J22", "M6"), "DIN4000-80", "2")));
+  ASSERT_TRUE(r);
+  EXPECT_EQ(number_of(r->library.items.front(), "DC"), 8.0);
+}
+
+TEST(Din4000, TheDiameterOfAThreadMillIsInA5OrA2) {
+  for (const char* code : {"A5", "A2"}) {
+    const auto r = read(xml(tool(property("A1", "M") + property(code, "4,5") + property("D32", "1") +
+                                     property("B2", "12") + property("F21", "4"),
+                                 "DIN4000-82", "10")));
+    ASSERT_TRUE(r) << to_text(r.error());
+    const CatalogueItem& mill = r->library.items.front();
+    EXPECT_EQ(mill.cutter_class, CutterClass::kThreadMill) << code;
+    EXPECT_EQ(number_of(mill, "DC"), 4.5) << code;
+    EXPECT_EQ(number_of(mill, "DN"), std::nullopt) << code;
+    EXPECT_EQ(number_of(mill, "TP"), 1.0);
+    EXPECT_THAT(r->report.derived, Contains(Field(&LossReport::Line::what, HasSubstr(code))));
+  }
+  auto r = read(xml(tool(property("A2", "6") + property("A5", "4,5"), "DIN4000-82", "10")));
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(number_of(r->library.items.front(), "DC"), 4.5);
+  r = read(xml(tool(property("A1", "4,5"), "DIN4000-82", "10")));
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(number_of(r->library.items.front(), "DC"), 4.5);
+  EXPECT_EQ(r->library.items.front().cutter_class, CutterClass::kThreadMill);
+  // Two diameters: not guessed which is it.
+  r = read(xml(tool(property("A1", "6") + property("A5", "4,5"), "DIN4000-82", "10")));
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(r->library.items.front().cutter_class, std::nullopt);
+  EXPECT_THAT(r->report.dropped,
+              Contains(Field(&LossReport::Line::what, HasSubstr("A1 is 6 and A5 is 4,5"))));
+}
+
+TEST(Din4000, AMillWithoutA1HasItsDiameterInA2AndItsNeckInA5) {
+  auto r = read(xml(tool(property("A2", "10") + property("A5", "9,2") + property("B2", "20"))));
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(number_of(r->library.items.front(), "DC"), 10.0);
+  EXPECT_EQ(number_of(r->library.items.front(), "DN"), 9.2);
+  for (const auto& line : r->report.dropped) EXPECT_NE(line.field, "A2") << line.what;
+  // A neck alone is no diameter.
+  EXPECT_FALSE(read(xml(tool(property("A5", "9,2") + property("B2", "20")))));
+  // Beside A1 nobody knows what A2 is.
+  r = read(xml(tool(property("A1", "10") + property("A2", "12"))));
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(number_of(r->library.items.front(), "DC"), 10.0);
+  EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::field, "A2")));
+}
+
+TEST(Din4000, AHandOfZeroIsNoneGiven) {
+  const auto r = read(xml(tool(property("A1", "10") + property("F1", "0"))));
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(find(r->library.items.front().properties, "HAND"), nullptr);
+  EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::field, "F1")));
+  EXPECT_FALSE(read(xml(tool(property("A1", "10") + property("F1", "X")))));  // an unknown hand stays a fault
+}
+
 TEST(Din4000, ABallEndMillIsKnownByItsFigureOrItsRadius) {
   auto r = read(xml(tool(property("A1", "6"), "DIN4000-82", "6")));
   ASSERT_TRUE(r);

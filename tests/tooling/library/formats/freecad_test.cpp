@@ -26,9 +26,9 @@ std::string bit(std::string_view type, std::string_view parameters) {
          "\", \"parameter\": {" + std::string(parameters) + "}, \"attribute\": {}}";
 }
 
-Result<Imported> read_bit(const std::string& text) {
+Result<Imported> read_bit(const std::string& text, std::optional<double> mm_per_unit = std::nullopt) {
   Job job;
-  return read_freecad({{"Bit/a.fctb", text}}, "a.fctb", job);
+  return read_freecad({{"Bit/a.fctb", text}}, "a.fctb", {.mm_per_unit = mm_per_unit, .column_map = {}}, job);
 }
 
 const CatalogueItem& item(const ToolLibrary& l, std::string_view id) {
@@ -250,7 +250,7 @@ TEST(Freecad, AToolNumberGivenTwiceIsRefused) {
       {{"Bit/a.fctb", bit("Endmill", R"("Diameter": "6 mm")")},
        {"Library/l.fctl",
         "{\"tools\": [{\"nr\": 1, \"path\": \"a.fctb\"},\n {\"nr\": 1, \"path\": \"a.fctb\"}]}"}},
-      "lib.zip", job);
+      "lib.zip", {}, job);
   ASSERT_FALSE(r);
   EXPECT_EQ(r.error().code, "TOOL-NUMBER");
   EXPECT_EQ(r.error().line, 2U);
@@ -260,11 +260,99 @@ TEST(Freecad, OneBadBitOfManyIsLeftOutAndTold) {
   Job job;
   const auto r = read_freecad({{"Bit/a.fctb", bit("Endmill", R"("Diameter": "6 mm")")},
                                {"Bit/b.fctb", bit("Endmill", R"("Diameter": "6")")}},
-                              "lib.zip", job);
+                              "lib.zip", {}, job);
   ASSERT_TRUE(r) << to_text(r.error());
   EXPECT_EQ(r->library.items.size(), 1U);
   EXPECT_EQ(job.count(Severity::kWarning), 1U);
   EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::tool, "b")));
+}
+
+TEST(Freecad, LengthsWithoutAUnitAreInTheUnitThatTheCallerNames) {
+  const std::string text =
+      bit("Endmill", R"("Diameter": "6.0000", "CuttingEdgeHeight": 20, "Length": "2.5 in", "Flutes": "3")");
+  // Nobody says the unit: an error that says how to.
+  const auto unsaid = read_bit(text);
+  ASSERT_FALSE(unsaid);
+  EXPECT_EQ(unsaid.error().code, "DATA-UNIT");
+  EXPECT_THAT(unsaid.error().hint, HasSubstr("--unit"));
+  const auto mm = read_bit(text, 1.0);
+  ASSERT_TRUE(mm) << to_text(mm.error());
+  const CatalogueItem& i = mm->library.items.front();
+  EXPECT_EQ(number_of(i, "DC"), 6.0);
+  EXPECT_EQ(number_of(i, "APMX"), 20.0);
+  EXPECT_DOUBLE_EQ(*number_of(i, "OAL"), 2.5 * 25.4);  // what is stated stays
+  EXPECT_EQ(number_of(i, "ZEFF"), 3.0);                // a count has none
+  EXPECT_FALSE(i.inches);
+  EXPECT_THAT(mm->report.derived, Contains(Field(&LossReport::Line::field, "unit")));
+  const auto inch = read_bit(bit("Endmill", R"("Diameter": "0.25")"), 25.4);
+  ASSERT_TRUE(inch) << to_text(inch.error());
+  EXPECT_DOUBLE_EQ(*number_of(inch->library.items.front(), "DC"), 0.25 * 25.4);
+  EXPECT_TRUE(inch->library.items.front().inches);
+  // The cylinder above a V-bit's cone: (6 - 0) / 2 / tan(45 deg) = 3, and 2.
+  const auto v = read_bit(bit("VBit", R"("Diameter": "6", "CuttingEdgeAngle": "90 deg", "TipDiameter": "0",
+                                         "CuttingEdgeHeight": "2")"),
+                          1.0);
+  ASSERT_TRUE(v) << to_text(v.error());
+  EXPECT_NEAR(*number_of(v->library.items.front(), "APMX"), 5.0, 1e-4);
+  // An angle is never in millimetres.
+  EXPECT_FALSE(read_bit(bit("Drill", R"("Diameter": "6 mm", "TipAngle": "118")"), 1.0));
+}
+
+TEST(Freecad, TheChipLoadIsTheLargestFeedPerToothAndComesBackAsItWas) {
+  Job job;
+  const auto r = read_bit(bit("Endmill", R"("Diameter": "6 mm", "Flutes": 2, "Chipload": "0.05 mm")"));
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(number_of(r->library.items.front(), "FZMAX"), 0.05);
+  for (const auto& line : r->report.dropped) EXPECT_NE(line.field, "Chipload") << line.what;
+  LossReport report;
+  const auto cutters = cutters_of(r->library, report, job);
+  ASSERT_TRUE(cutters) << to_text(cutters.error());
+  ASSERT_EQ(cutters->size(), 1U);
+  EXPECT_EQ(cutters->front().fz_max_mm, 0.05);
+  EXPECT_LE(cutters->front().fz_min_mm, 0.05);
+  const auto files = freecad_files(r->library, report);
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_THAT(files.front().bytes, HasSubstr("\"Chipload\": \"0.05 mm\""));
+  for (const auto& line : report.dropped) EXPECT_NE(line.field, "FZMAX") << line.what;
+  // FreeCAD's default, 0, says nothing.
+  const auto none = read_bit(bit("Endmill", R"("Diameter": "6 mm", "Chipload": "0.00 mm")"));
+  ASSERT_TRUE(none) << to_text(none.error());
+  EXPECT_EQ(number_of(none->library.items.front(), "FZMAX"), std::nullopt);
+  // The feed of a tap is its pitch.
+  const auto tap = read_bit(bit("Tap", R"("Diameter": "6 mm", "Pitch": "1 mm", "Chipload": "0.05 mm")"));
+  ASSERT_TRUE(tap) << to_text(tap.error());
+  EXPECT_EQ(number_of(tap->library.items.front(), "FZMAX"), std::nullopt);
+  // As a length it has a unit, or the caller's.
+  EXPECT_FALSE(read_bit(bit("Endmill", R"("Diameter": "6 mm", "Chipload": "0.05")")));
+  const auto bare = read_bit(bit("Endmill", R"("Diameter": "6 mm", "Chipload": "0.002")"), 25.4);
+  ASSERT_TRUE(bare) << to_text(bare.error());
+  EXPECT_DOUBLE_EQ(*number_of(bare->library.items.front(), "FZMAX"), 0.002 * 25.4);
+}
+
+TEST(Freecad, TheFluteLengthOfFusionIsTheHeightOfTheEdge) {
+  Job job;
+  const std::string tools =
+      R"({"data": [
+        {"type": "ball end mill", "unit": "millimeters", "guid": "ball", "description": "ball", "BMC": "carbide",
+         "geometry": {"DC": 6, "LCF": 13, "LB": 30, "OAL": 57, "SFDM": 6, "NOF": 2, "RE": 3, "HAND": true}},
+        {"type": "flat end mill", "unit": "inches", "guid": "flat", "description": "flat", "BMC": "hss",
+         "geometry": {"DC": 0.25, "LCF": 0.75, "LB": 1.5, "OAL": 2.5, "SFDM": 0.25, "NOF": 3, "HAND": true}}]})";
+  const auto in = import_bytes(tools, "a.json", {}, job);
+  ASSERT_TRUE(in) << to_text(in.error());
+  const auto out = write_freecad(in->library, {}, job);
+  ASSERT_TRUE(out) << to_text(out.error());
+  for (const auto& line : out->report.dropped) {
+    EXPECT_NE(line.field, "LCF") << line.what;
+    EXPECT_NE(line.field, "BMC") << line.what;
+    EXPECT_NE(line.field, "RE") << line.what;  // half the diameter, which a ball says
+  }
+  const auto back = import_bytes(out->bytes, "a.zip", {}, job);
+  ASSERT_TRUE(back) << to_text(back.error());
+  EXPECT_EQ(number_of(item(back->library, "ball"), "APMX"), 13.0);
+  EXPECT_EQ(number_of(item(back->library, "ball"), "RE"), 3.0);
+  EXPECT_EQ(find(item(back->library, "ball").properties, "SUBSTRATE")->text, "carbide");
+  EXPECT_DOUBLE_EQ(*number_of(item(back->library, "flat"), "APMX"), 0.75 * 25.4);
+  EXPECT_EQ(find(item(back->library, "flat").properties, "SUBSTRATE")->text, "hss");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tooling/library/formats/values.h"
 #include "tooling/library/formats/zip.h"
 #include "tooling/library/library.h"
+#include "tooling/library/words/comment_words.h"
 
 // What a tool does not say and may not be guessed.
 
@@ -60,6 +61,37 @@ TEST(Unsaid, WordsTellThePitchThatSuitsTheDiameter) {
   EXPECT_EQ(pitch("tap M8", "6"), 0.0);      // an M8 tap is not 6 mm wide
   EXPECT_EQ(pitch("tap 1/4-20", "6"), 0.0);  // nor is one of 1/4 in
   EXPECT_EQ(pitch("tap lot 12-20", "6"), 0.0);
+}
+
+TEST(Unsaid, TheSizeOfATapIsThatOfTheOneThreadInItsNames) {
+  EXPECT_EQ(thread_size_of_words("Gewindebohrer M6"), 6.0);
+  EXPECT_EQ(thread_size_of_words("M8x1 tap"), 8.0);
+  EXPECT_EQ(thread_size_of_words("MF10 x 1,25"), 10.0);
+  EXPECT_EQ(thread_size_of_words("M6-6H"), 6.0);
+  EXPECT_EQ(thread_size_of_words("M2,5"), 2.5);
+  EXPECT_EQ(thread_size_of_words("tap 1/4-20 UNC"), 6.35);
+  EXPECT_EQ(thread_size_of_words("tap 1 1/4-7 UNC"), 31.75);  // 7 threads an inch are too coarse for 1/4 in
+  // No size: a grade of steel, one that ISO 261 lacks, a bare number, two sizes, part of a word.
+  EXPECT_EQ(thread_size_of_words("HSS-E M35 tap"), 0.0);
+  EXPECT_EQ(thread_size_of_words("HSS M2"), 0.0);
+  EXPECT_EQ(thread_size_of_words("M13"), 0.0);
+  EXPECT_EQ(thread_size_of_words("tap 6"), 0.0);
+  EXPECT_EQ(thread_size_of_words("taps M6 and M8"), 0.0);
+  EXPECT_EQ(thread_size_of_words("VHM6"), 0.0);
+  EXPECT_EQ(thread_size_of_words("10-32"), 0.0);  // 10 in or number 10
+}
+
+TEST(Unsaid, ATapOfATableWithoutADiameterIsAsWideAsItsNameSays) {
+  Job job;
+  const auto lib = import_bytes(
+      "id,class,description,diameter (mm)\na,tap,tap M6,\nb,tap,tap,\nc,endmill,M6,\n", "t.csv", {}, job);
+  ASSERT_TRUE(lib) << to_text(lib.error());
+  LossReport report;
+  const auto cutters = cutters_of(lib->library, report, job);
+  ASSERT_TRUE(cutters) << to_text(cutters.error());
+  ASSERT_EQ(cutters->size(), 1U) << told(job);
+  EXPECT_EQ(cutters->front().cutting_diameter_mm, 6.0);
+  EXPECT_EQ(cutters->front().thread_pitch_mm, 1.0);
 }
 
 TEST(Unsaid, ConversionFillsInNoPitch) {

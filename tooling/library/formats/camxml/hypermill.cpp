@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "planner/ground/base/number.h"
@@ -22,6 +24,19 @@ constexpr std::array kParameters = {
 };
 constexpr std::array<std::string_view, 6> kElsewhere = {"lengthOfUnit", "manufacturer",    "orderingCode",
                                                         "comment",      "spindleRotation", "tipDiameter"};
+struct Type {
+  std::string_view name;  ///< in small letters: public importers fold them differently
+  CutterClass cutter_class;
+};
+/// Types of tools. Source: endMill by makers' files; ballMill and radiusMill by three public importers of
+/// such files that read them alike; tslotcutter by one, and by a public list of the system's tool classes. A
+/// corner radius makes a bull nose of an end mill and a radius mill (`class_by_radius`).
+constexpr std::array kTypes = {
+    Type{"endmill", CutterClass::kEndmill},
+    Type{"radiusmill", CutterClass::kEndmill},
+    Type{"ballmill", CutterClass::kBallEndmill},
+    Type{"tslotcutter", CutterClass::kTSlotMill},
+};
 /// Makers write a radius of nearly nothing where a corner is sharp.
 constexpr double kSharpMm = 1e-3;
 
@@ -102,15 +117,53 @@ class Reader {
   }
 
   void classify(CatalogueItem& item) {
-    // Of the types only this one is confirmed by a file.
-    if (item.kind == "endMill") item.cutter_class = CutterClass::kEndmill;
-    if (!item.cutter_class) leave_out(item, "the type '" + item.kind + "' is not known", out_.report);
+    const std::string type = lower_text(item.kind);
+    const auto at = std::ranges::find(kTypes, std::string_view(type), &Type::name);
+    if (at == kTypes.end())
+      leave_out(item, "the type '" + item.kind + "' is not known", out_.report);
+    else
+      item.cutter_class = at->cutter_class;
     const auto dc = number_of(item, "DC");
     if (!dc) {
       if (!gatherer_.has_fault())
         gatherer_.fault({file_, 0, item.id}, "the cutting diameter is missing", "toolDiameter");
+      return;
+    }
+    if (at == kTypes.end()) return;
+    if (const std::string* tapered = find_kept(item.kept, "tapered"); tapered != nullptr && yes(*tapered)) {
+      leave_out(item, "it is tapered, and which angle taperAngle is no source says", out_.report);
+    } else if (type == "ballmill") {
+      ball(item, *dc);
+    } else if (type == "radiusmill" && !number_of(item, "RE")) {
+      leave_out(item, "a radius mill without a corner radius", out_.report);
+    } else if (type == "tslotcutter") {
+      disc(item);
     }
     class_by_radius(item);
+  }
+
+  void ball(CatalogueItem& item, double dc) {
+    const auto re = number_of(item, "RE");
+    if (re && std::abs(*re - 0.5 * dc) > kSharpMm)
+      leave_out(item, "a ball mill of " + mm_text(dc) + " with a corner radius of " + mm_text(*re),
+                out_.report);
+    else
+      add_derived(item, "RE", 0.5 * dc, "mm", "half the diameter of a ball end mill", out_.report);
+  }
+
+  /// The head of a T-slot cutter is as high as it cuts; what discHeight is of it no source says.
+  void disc(CatalogueItem& item) {
+    const auto height = number_of(item, "APMX");
+    const std::string* stated = find_kept(item.kept, "discHeight");
+    const double other_mm =
+        stated == nullptr ? 0.0 : parse_double(*stated).value_or(0.0) * (item.inches ? kMmPerInch : 1.0);
+    if (!height)
+      leave_out(item, "a T-slot cutter without a cutting length", out_.report);
+    else if (other_mm != 0.0 && std::abs(other_mm - *height) > kSharpMm)
+      leave_out(item,
+                "a T-slot cutter with a cutting length of " + mm_text(*height) + " and discHeight " +
+                    *stated + ": which is its width no source says",
+                out_.report);
   }
 
   void preset(const XmlNode& set, const Place& place, CatalogueItem& item) {

@@ -190,6 +190,7 @@ class Maker {
     texts(item, c);
     together(t, c);
     pieces(t, c);
+    size_of_tap(item, c);
     if (c.cutting_diameter_mm <= 0.0) {
       left_out(who, "it has no cutting diameter");
       return std::nullopt;
@@ -248,6 +249,17 @@ class Maker {
     }
   }
 
+  /// A tap is as wide as its thread: where no number says so, its names may ("M6").
+  static void size_of_tap(const CatalogueItem& item, Cutter& c) {
+    if (c.cutter_class != CutterClass::kTap || c.cutting_diameter_mm > 0.0) return;
+    for (const std::string* text : {&item.description, &item.id, &item.kind}) {
+      const double size = thread_size_of_words(*text);
+      if (!(size > 0.0)) continue;
+      c.cutting_diameter_mm = size;
+      set_source(c, "cutting_diameter_mm", "derived: from the words '" + *text + "'");
+      return;
+    }
+  }
   /// Takes sizes that the numbers leave open from the tool's names.
   static void words(const CatalogueItem& item, Cutter& c) {
     for (const std::string* text : {&item.description, &item.id, &item.kind}) {

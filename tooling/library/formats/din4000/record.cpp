@@ -5,6 +5,7 @@
 #include "planner/ground/base/text.h"
 #include "tooling/library/formats/din4000/codes.h"
 #include "tooling/library/formats/din4000/din4000.h"
+#include "tooling/library/words/comment_words.h"
 
 namespace capstan::tooling::din4000 {
 namespace {
@@ -27,6 +28,7 @@ class RecordReader {
     item_.kind = r_.figure.empty() ? r_.table : r_.table + " figure " + r_.figure;
     for (const auto& [code, text] : r_.values) take(code, text);
     if (item_.description.empty()) item_.description = item_.id;
+    diameter_elsewhere();
     derive();
     classify();
     contradictions();
@@ -36,6 +38,14 @@ class RecordReader {
  private:
   void take(const std::string& code, const std::string& text) {
     if (trimmed_text(text).empty()) return;
+    if (table_ == "82" && (code == "A2" || (mills_thread() && (code == "A1" || code == "A5")))) {
+      item_.kept.emplace_back(code, text);  // see diameter_elsewhere
+      return;
+    }
+    if (mills_thread() && code == "D32") {
+      add("TP", code, text);
+      return;
+    }
     const Code* c = find_code(table_, code);
     if (c == nullptr) {
       item_.kept.emplace_back(code, text);
@@ -47,12 +57,21 @@ class RecordReader {
       person(code, text);
       return;
     }
-    // Makers write 0 for a mass or a speed they do not give.
-    if ((c->symbol == "WT" || c->symbol == "RPMX") && (text == "0" || text == "0,0" || text == "0.0")) return;
+    // Makers write 0 for a mass or a speed they do not give, and for a hand.
+    const bool zero = text == "0" || text == "0,0" || text == "0.0";
+    if (zero && (c->symbol == "WT" || c->symbol == "RPMX")) return;
+    if (zero && c->symbol == "HAND") {
+      report_.dropped.push_back({item_.id, code, "0 is neither R, L nor N: no hand is given"});
+      return;
+    }
+    add(c->symbol, code, text, c->unit);
+  }
+
+  void add(std::string_view symbol, const std::string& code, const std::string& text,
+           std::string_view unit = "mm") {
     Place at = place_;
     at.path = r_.id + ", " + code;
-    gatherer_.fault(
-        add_value(item_, {c->symbol, text, c->unit, "DIN 4000-" + table_ + " " + code, true}, at));
+    gatherer_.fault(add_value(item_, {symbol, text, unit, "DIN 4000-" + table_ + " " + code, true}, at));
   }
 
   void person(const std::string& code, const std::string& text) {
@@ -60,6 +79,35 @@ class RecordReader {
     if (code == "J22" || code == "H4" || code == "H11") item_.kept.emplace_back(code, text);
     if (code == "J3" && item_.manufacturer.empty()) item_.manufacturer = text;
     if (code == "J21" && item_.id.empty()) item_.id = item_.product_id = text;
+  }
+
+  [[nodiscard]] bool mills_thread() const {
+    return table_ == "82" && class_of(table_, r_.figure) == CutterClass::kThreadMill;
+  }
+
+  /// The cutting diameter of table 82 where A1 is not alone: of a thread mill A1 may name the thread ("M")
+  /// and A5, else A2, is the diameter; of other mills A2 is it where A1 is missing. So a public importer of
+  /// makers' files reads them (it takes D32 for the pitch of a thread mill). Two diameters say nothing.
+  void diameter_elsewhere() {
+    if (table_ != "82") return;
+    const std::string* first = kept("A1");
+    const bool is_number = first != nullptr && number_from(*first, place_, true).has_value();
+    if (is_number) add("DC", "A1", *first);
+    const bool known = find(item_.properties, "DC") != nullptr;
+    const std::string* fifth = kept("A5");  // of a thread mill
+    const std::string* other = fifth != nullptr ? fifth : kept("A2");
+    if (other == nullptr) return;
+    const std::string code = fifth != nullptr ? "A5" : "A2";
+    if (!known) {
+      add("DC", code, *other);
+      report_.derived.push_back({item_.id, "DC", code + ", as the file states no diameter in A1"});
+    } else if (mills_thread()) {
+      doubt_ = "A1 is " + *first + " and " + code + " is " + *other +
+               ": which is its cutting diameter no source says";
+    } else {
+      report_.dropped.push_back(
+          {item_.id, code, "no meaning known beside A1; kept word for word: " + *other});
+    }
   }
 
   [[nodiscard]] const std::string* kept(std::string_view code) const { return find_kept(item_.kept, code); }
@@ -116,11 +164,13 @@ class RecordReader {
       }
       return;
     }
+    if (!doubt_.empty()) {
+      leave_out(item_, doubt_, report_);
+      return;
+    }
     const auto dc = number_of(item_, "DC");
     if (item_.cutter_class == CutterClass::kTap) {
-      if (const auto size = number_of(item_, "TDZ"))
-        add_derived(item_, "DC", *size, "mm", "A21: the nominal diameter of the thread", report_);
-      if (!number_of(item_, "TP")) leave_out(item_, "the tap has no pitch (A3)", report_);
+      tap();
     } else if (!dc) {
       if (!gatherer_.has_fault())
         gatherer_.fault(place_, "the cutting diameter is missing", table_ == "81" ? "A11" : "A1");
@@ -128,6 +178,26 @@ class RecordReader {
       add_derived(item_, "RE", 0.5 * *dc, "mm", "half the diameter of a ball end mill", report_);
     }
     class_by_radius(item_);
+  }
+
+  /// What A21 and A3 leave out may be in its names: "M6".
+  void tap() {
+    const auto stated = number_of(item_, "TDZ");
+    double size = stated.value_or(0.0);
+    if (stated) {
+      add_derived(item_, "DC", size, "mm", "A21: the nominal diameter of the thread", report_);
+    } else {
+      for (const std::string* words : {&item_.description, &item_.id}) {
+        if (size > 0.0) break;
+        size = thread_size_of_words(*words);
+        if (size > 0.0) add_derived(item_, "DC", size, "mm", "from the words '" + *words + "'", report_);
+      }
+    }
+    const auto pitch = [&](const std::string& words) {
+      return sizes_of_words(words, CutterClass::kTap, size).pitch_mm > 0.0;
+    };
+    if (!number_of(item_, "TP") && !pitch(item_.description) && !pitch(item_.id))
+      leave_out(item_, "the tap has no pitch (A3)", report_);
   }
 
   void contradict(const std::string& field, const std::string& what) {
@@ -163,6 +233,7 @@ class RecordReader {
   ItemGatherer& gatherer_;
   CatalogueItem item_;
   std::string table_;
+  std::string doubt_;  ///< why its sizes do not say what it is
 };
 
 }  // namespace

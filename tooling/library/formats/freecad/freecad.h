@@ -18,15 +18,17 @@ struct FreecadFile {
 /// the folder Bit next to its own, or a zip of both. Written as a zip of Bit/ and Library/.
 ///
 /// Read     name, shape, lengths ("6.0000 mm", "0.375 \""), angles, flutes, tool numbers; unknown parameters
-///          and attributes are kept word for word.
+///          and attributes are kept word for word. Chipload (a length per tooth, for no material named) is
+///          the largest feed per tooth.
 /// Source   FreeCAD's shape classes and their property names (src/Mod/CAM/Path/Tool/shape/models); of V-bits
 /// and
 ///          chamfer mills CuttingEdgeAngle is the full angle (BIT_ATTRIBUTES.md there).
 /// Fails    FREECAD-VALUE, FREECAD-FORM, TOOL-NUMBER (twice in a library), TOOL-ID, DATA-*, FILE-*.
 /// The format is `freecad_format` (all.h). The same from files in memory; bits that no library lists are
-/// read, too. `file`: to name in diagnostics.
+/// read, too. `file`: to name in diagnostics; `options`: the unit of lengths that state none, which are a
+/// fault else.
 [[nodiscard]] Result<Imported> read_freecad(const std::vector<FreecadFile>& files, const std::string& file,
-                                            Job& job);
+                                            const FormatOptions& options, Job& job);
 /// As a zip of such files.
 [[nodiscard]] Result<Exported> write_freecad(const ToolLibrary& library, const FormatOptions& options,
                                              Job& job);

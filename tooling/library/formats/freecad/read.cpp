@@ -53,11 +53,14 @@ std::string text_of(const Json* n) { return n == nullptr ? std::string() : n->te
 
 class BitReader {
  public:
-  BitReader(const std::string& file, ItemGatherer& gatherer, LossReport& report)
-      : file_(file), gatherer_(gatherer), report_(report) {}
+  BitReader(const std::string& file, const FormatOptions& options, ItemGatherer& gatherer, LossReport& report)
+      : file_(file), gatherer_(gatherer), report_(report) {
+    if (options.mm_per_unit) unit_ = *options.mm_per_unit == kMmPerInch ? "in" : "mm";
+  }
 
   void read(const Json& root, const std::string& id) {
     item_ = {};
+    unit_taken_ = false;
     item_.id = id;
     const Json* name = root.find("name");
     if (name == nullptr) name = root.find("label");
@@ -77,6 +80,9 @@ class BitReader {
       item_.cutter_class = shape_->cutter_class;
       derive();
     }
+    if (unit_taken_)
+      report_.derived.push_back(
+          {id, "unit", "lengths without a unit are in " + unit_ + ", as the caller says"});
     (void)gatherer_.take(std::move(item_), {file_, root.line, {}});
   }
 
@@ -105,17 +111,42 @@ class BitReader {
       return;
     }
     const std::string_view symbol = freecad::symbol_of(shape, key);
+    if (key == "Chipload" && limits_feed(shape, value.text)) {
+      read_quantity("FZMAX", key, value.text, place);
+      return;
+    }
     if (symbol.empty()) {
       item_.kept.emplace_back("parameter/" + key, value.text);
       read_unmapped(key, value.text);
       return;
     }
-    const auto [number, unit] = split_quantity(value.text);
+    read_quantity(symbol, key, value.text, place);
+  }
+
+  void read_quantity(std::string_view symbol, const std::string& key, const std::string& text,
+                     const Place& place) {
+    const auto [number, stated] = split_quantity(text);
     if (number.empty()) {
-      gatherer_.fault(place, "'" + value.text + "' is no number with a unit", "a value like \"6.0000 mm\"");
+      gatherer_.fault(place, "'" + text + "' is no number with a unit", "a value like \"6.0000 mm\"");
       return;
     }
-    gatherer_.fault(add_value(item_, {symbol, number, unit, "FreeCAD " + key}, place));
+    const std::string_view unit = unit_of(symbol, stated);
+    auto fault = add_value(item_, {symbol, number, unit, "FreeCAD " + key}, place);
+    if (fault && fault->code == "DATA-UNIT" && unit.empty() && is_length(symbol))
+      fault->hint = "state the unit in the file, or give --unit";
+    gatherer_.fault(std::move(fault));
+  }
+
+  static bool is_length(std::string_view symbol) {
+    const SymbolFact* fact = symbol_fact(symbol);
+    return fact != nullptr && fact->quantity == Quantity::kLength;
+  }
+
+  /// The unit of a value: what the file states, else that of the caller for lengths.
+  std::string_view unit_of(std::string_view symbol, std::string_view stated) {
+    if (!stated.empty() || unit_.empty() || !is_length(symbol)) return stated;
+    unit_taken_ = true;
+    return unit_;
   }
 
   void read_unmapped(const std::string& key, const std::string& text) {
@@ -125,9 +156,16 @@ class BitReader {
     } else if (key == "Material" && (text == "HSS" || text == "Carbide")) {
       (void)add_value(item_, {"SUBSTRATE", text == "HSS" ? "hss" : "carbide", "", "FreeCAD Material"},
                       {file_, 0, {}});
-    } else if (key != "CuttingEdgeHeight" && key != "TaperAngle") {  // these are used below
+    } else if (key != "CuttingEdgeHeight" && key != "TaperAngle" && key != "Chipload") {
+      // The first two are used below, of the third is only what says nothing.
       report_.dropped.push_back({item_.id, key, "no symbol for it; kept word for word"});
     }
+  }
+
+  /// Chipload, a length per tooth (ToolBit's schema), names no material: it is no start value for one but the
+  /// most that the bit takes in any. 0 is FreeCAD's own default and says nothing; a tap feeds by its pitch.
+  static bool limits_feed(const Shape& shape, const std::string& text) {
+    return shape.cutter_class != CutterClass::kTap && parse_double(split_quantity(text).first) != 0.0;
   }
 
   void derive() {
@@ -174,7 +212,7 @@ class BitReader {
         if (key != "parameter/CuttingEdgeHeight") continue;
         const auto [number, unit] = split_quantity(text);
         const auto v = parse_double(number);
-        const auto u = mm_per_unit_of(unit);
+        const auto u = mm_per_unit_of(unit_of("APMX", unit));
         if (v && u) straight = *v * *u;
       }
       add_derived(item_, "APMX", rounded(cone + straight, 4), "mm",
@@ -237,6 +275,8 @@ class BitReader {
   LossReport& report_;
   CatalogueItem item_;
   const Shape* shape_ = nullptr;
+  std::string unit_;         ///< of lengths without one: "mm", "in"; empty: they are a fault
+  bool unit_taken_ = false;  ///< by the bit that is read
 };
 
 /// The entries of a library: tool number -> bit.
@@ -348,7 +388,7 @@ bool recognises(std::string_view bytes, std::string_view file) {
          (head.find("\"tools\"") != std::string_view::npos && head.find(".fctb\"") != std::string_view::npos);
 }
 
-Result<Imported> read(std::string_view bytes, const std::string& file, const FormatOptions& /*options*/,
+Result<Imported> read(std::string_view bytes, const std::string& file, const FormatOptions& options,
                       Job& job) {
   std::vector<FreecadFile> files;
   if (is_zip(bytes)) {
@@ -360,16 +400,17 @@ Result<Imported> read(std::string_view bytes, const std::string& file, const For
     if (list) files = bits_of(bytes, file);
     files.push_back({stem_of(file) + (list ? ".fctl" : ".fctb"), std::string(bytes)});
   }
-  return read_freecad(files, file, job);
+  return read_freecad(files, file, options, job);
 }
 
 }  // namespace
 
-Result<Imported> read_freecad(const std::vector<FreecadFile>& files, const std::string& file, Job& job) {
+Result<Imported> read_freecad(const std::vector<FreecadFile>& files, const std::string& file,
+                              const FormatOptions& options, Job& job) {
   Imported out;
   out.library.source = file;
   ItemGatherer gatherer(out, file, "FREECAD-VALUE", job);
-  BitReader reader(file, gatherer, out.report);
+  BitReader reader(file, options, gatherer, out.report);
   for (const FreecadFile& f : files) {
     const std::string name = files.size() == 1 ? file : file + " (" + f.path + ")";
     auto root = parse_json(f.bytes, name);

@@ -15,6 +15,9 @@ struct Shape {
   std::optional<model::CutterClass> cutter_class;
 };
 
+/// Source of a largest feed per tooth that a bit states as its chip load.
+inline constexpr std::string_view kChipLoad = "FreeCAD Chipload";
+
 /// By type, by an alias ("v-bit", "torus", "thread-mill") or by the name of the shape's file.
 [[nodiscard]] const Shape* find_shape(std::string_view type);
 /// The file of FreeCAD that draws it: "endmill.fcstd"; empty for a custom shape.

@@ -93,12 +93,25 @@ class BitWriter {
   }
 
   void write_property(const Property& p, Json& parameters) {
-    const std::string_view name = freecad::parameter_of(*shape_, p.symbol);
-    if (name.empty() || (shape_->type == "VBit" && p.symbol == "APMX")) {
-      const bool kept = p.symbol == "SUBSTRATE" && find_kept(item_.kept, "parameter/Material") != nullptr;
-      if (p.symbol == "SUBSTRATE" && !kept && (p.text == "hss" || p.text == "carbide")) {
-        parameters.set("Material", Json::string(p.text == "hss" ? "HSS" : "Carbide"));
-      } else if (p.state == ValueState::kStated && !kept) {
+    // Planning takes either for the depth of cut (`kCutterSymbols`): of a tool that states only its flutes,
+    // these are the height of the edge.
+    const bool flutes = p.symbol == "LCF" && find(item_.properties, "APMX") == nullptr;
+    const std::string_view symbol = flutes ? std::string_view("APMX") : p.symbol;
+    const std::string_view name = freecad::parameter_of(*shape_, symbol);
+    if (name.empty() || (shape_->type == "VBit" && symbol == "APMX")) {
+      // What the bit had stands among the kept parameters.
+      const bool material = p.symbol == "SUBSTRATE" || p.symbol == "BMC";
+      const bool kept = material && find_kept(item_.kept, "parameter/Material") != nullptr;
+      if (material && !kept && (p.text == "hss" || p.text == "carbide")) {
+        // The edge's own material counts, the body's where there is no other.
+        const Property* edge = find(item_.properties, "SUBSTRATE");
+        if (p.symbol == "SUBSTRATE" || edge == nullptr)
+          parameters.set("Material", Json::string(p.text == "hss" ? "HSS" : "Carbide"));
+        else if (edge->text != p.text)
+          drop(p.symbol, "FreeCAD's bits have one material, that of the edge");
+      } else if (p.symbol == "FZMAX" && p.source == freecad::kChipLoad) {
+        parameters.set("Chipload", Json::string(quantity(p)));
+      } else if (p.state == ValueState::kStated && !kept && !is_half(p)) {
         drop(p.symbol, "the shape " + std::string(shape_->type) + " has no parameter for it");
       }
       return;
@@ -107,6 +120,12 @@ class BitWriter {
     // The ball's radius and the like follow again on reading.
     if (p.state == ValueState::kDerived && shape_->type != "Custom" && rederived(p.symbol)) return;
     parameters.set(name, Json::string(text));
+  }
+
+  /// A ball's radius that is half its diameter: it is read again though no parameter says it.
+  [[nodiscard]] bool is_half(const Property& p) const {
+    const auto dc = number_of(item_, "DC");
+    return shape_->type == "Ballend" && p.symbol == "RE" && p.number && dc && *p.number == 0.5 * *dc;
   }
 
   [[nodiscard]] bool rederived(std::string_view symbol) const {
