@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace capstan::model {
@@ -65,11 +66,25 @@ TEST(Ramp, OfACutterWhoseEdgesDoNotReachTheCentreHasHalfTheFeed) {
   for (const char* group : {"P", "N", "M"}) EXPECT_EQ(ramp_of(c, of(group)).feed_share, 0.5);
 }
 
-TEST(Ramp, ABoreIsAsDeepAsSlotsOfTheMaterialMayBe) {
-  EXPECT_EQ(ramp_of(mill(5.0), of("P")).slot_depth_mm, 20.0);
-  EXPECT_EQ(ramp_of(mill(5.0), of("M")).slot_depth_mm, 10.0);
+TEST(Ramp, ABoreMayBeAsDeepAsTheMaterialsChipsComeOut) {
+  EXPECT_EQ(ramp_of(mill(5.0), of("P")).bore_depth_mm, 20.0);
+  EXPECT_EQ(ramp_of(mill(5.0), of("M")).bore_depth_mm, 10.0);
+  EXPECT_EQ(ramp_of(mill(5.0), of("H")).bore_depth_mm, 5.0);
+  EXPECT_EQ(ramp_of(mill(0.0), of("M")).bore_depth_mm, 10.0);
+}
+
+TEST(Ramp, ASlotIsNoDeeperThanABoreNorThanAnySlotIsMilled) {
+  for (const char* group : {"P", "M", "K", "N", "S", "H", ""}) {
+    for (const double own_deg : {0.0, 5.0}) {
+      const Cutter c = mill(own_deg);
+      const Ramp r = ramp_of(c, of(group));
+      EXPECT_GT(r.slot_depth_mm, 0.0) << group;
+      EXPECT_EQ(r.slot_depth_mm, std::min(r.bore_depth_mm, kDeepestSlotRatio * c.cutting_diameter_mm))
+          << group;
+    }
+  }
+  EXPECT_EQ(ramp_of(mill(5.0), of("P")).slot_depth_mm, 15.0);
   EXPECT_EQ(ramp_of(mill(5.0), of("H")).slot_depth_mm, 5.0);
-  EXPECT_EQ(ramp_of(mill(0.0), of("M")).slot_depth_mm, 10.0);
 }
 
 }  // namespace

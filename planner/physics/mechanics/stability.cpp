@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/domain.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -232,7 +233,7 @@ std::vector<model::ToolPointMode> modes_for(const model::Machine& machine, const
 double slender_depth_mm(double diameter_mm, double stick_out_mm) {
   if (!(diameter_mm > 0.0) || !(stick_out_mm > 0.0)) return 0.0;
   const double ratio = std::min(1.0, kSlenderRatio * diameter_mm / stick_out_mm);
-  return kDeepestSlotRatio * diameter_mm * ratio * ratio * ratio;
+  return model::kDeepestSlotRatio * diameter_mm * ratio * ratio * ratio;
 }
 
 }  // namespace capstan::mechanics

@@ -76,25 +76,25 @@ inline constexpr double kSafeTeeth = 1.5;
 [[nodiscard]] std::vector<model::ToolPointMode> modes_for(const model::Machine& machine,
                                                           const std::string& cutter_id);
 
-/// Ratio of stick-out to diameter from which chatter is likely, and the deepest slot, in diameters, up to it.
-/// Source    slots no deeper than 1.5 D (there at half speed and feed; 0.5 D at full): Dormer Pramet, milling
-///           catalogue 2021-22, p. 114, solid carbide mills, correction factors; "a stickout-to-diameter
-///           ratio above about 4:1 is where deflection and chatter risk start climbing quickly":
-///           formulafactory.tools, tool deflection calculator.
+/// Ratio of stick-out to diameter from which chatter is likely; up to it a slot may be as deep as
+/// model::kDeepestSlotRatio says.
+/// Source    "a stickout-to-diameter ratio above about 4:1 is where deflection and chatter risk start
+/// climbing
+///           quickly": formulafactory.tools, tool deflection calculator.
 inline constexpr double kSlenderRatio = 4.0;
-inline constexpr double kDeepestSlotRatio = 1.5;
 
 /// Deflection of the tip above which end mills are likely to chatter, leave a poor surface and wear early.
 /// Source    "Deflection of .001 inch or less is recommended for end milling operations": Ingersoll Cutting
 ///           Tools, rigidity analysis (generalcuttingtool.com).
 inline constexpr double kQuietDeflectionMm = 0.0254;
 
-/// The depth that is taken without modal data: kDeepestSlotRatio D up to kSlenderRatio, then falling with the
-/// cube of the slenderness, as the stiffness of the stick-out does (a limiting depth is proportional to it).
+/// The depth that is taken without modal data: model::kDeepestSlotRatio D up to kSlenderRatio, then falling
+/// with the cube of the slenderness, as the stiffness of the stick-out does (a limiting depth is proportional
+/// to it).
 ///
 /// Needs     positive values; else 0.
 /// Uncertainty  a rule of thumb: machines differ by a factor of two and more.
-/// Source    the constants above; the cube: F L^3 / (3 E I), derived.
+/// Source    these constants; the cube: F L^3 / (3 E I), derived.
 [[nodiscard]] double slender_depth_mm(double diameter_mm, double stick_out_mm);
 
 }  // namespace capstan::mechanics

@@ -40,8 +40,19 @@ inline double machining_s(const model::Plan& plan) {
   return out;
 }
 
-/// Number of the 8 mm end mill in the plan of the bracket.
-inline constexpr int kEightMill = 9;
+/// Number of a plan's tool of this class and so many mm; 0: it has none.
+inline int tool_number(const model::Plan& plan, model::CutterClass cutter_class, double diameter_mm) {
+  for (const model::Cutter& c : plan.cutters)
+    if (c.cutter_class == cutter_class && c.cutting_diameter_mm == diameter_mm) return c.pocket;
+  return 0;
+}
+
+/// The 8 mm end mill of the bracket's plan, which finishes its slot.
+inline int eight_mill(const model::Plan& bracket) {
+  const int out = tool_number(bracket, model::CutterClass::kEndmill, 8.0);
+  EXPECT_NE(out, 0);
+  return out;
+}
 
 /// The plan of the plate, its tools and feeds open.
 inline model::Plan plate() {

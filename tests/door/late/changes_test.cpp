@@ -62,9 +62,12 @@ TEST(LateChanges, OfAPlanThatStandsThereAreNone) {
 }
 
 TEST(LateChanges, AWornToolIsToldWithItsSizeAndItsPathIsNoDecision) {
-  const auto worn = bound(bracket().plan, shop_of(with(bracket().table, kEightMill, "D", -0.05)));
+  const int mill = eight_mill(bracket().plan);
+  const std::string t = "T" + std::to_string(mill);
+  const auto worn = bound(bracket().plan, shop_of(with(bracket().table, mill, "D", -0.05)));
   ASSERT_TRUE(worn) << to_text(worn.error());
-  EXPECT_NE(worn->words.find("T9 endmill 7.95 mm as measured, instead of T9 endmill 8 mm"), std::string::npos)
+  EXPECT_NE(worn->words.find(t + " endmill 7.95 mm as measured, instead of " + t + " endmill 8 mm"),
+            std::string::npos)
       << worn->words;
   EXPECT_NE(worn->words.find("Time of the steps"), std::string::npos) << worn->words;
   for (const Change& c : worn->changes) {

@@ -8,9 +8,9 @@
 #include "planner/model/nouns/all.h"
 #include "tests/door/late/brought.h"
 
-// The bracket's counterbores are roughed by a 6 mm end mill and finished by an 8 mm one. Without the 6 mm
-// mill no loaded tool roughs them, for the rules ask for one of at most 6 mm there; another chain of the
-// rules does without that step.
+// The bracket's dowel holes are drilled to 7.8 mm and reamed. Without the reamer no loaded tool does that
+// step; another chain of the rules drills them to 7.5 mm and bores them, with a drill and a boring tool that
+// are loaded and that the plan does not use.
 
 namespace capstan::late {
 namespace {
@@ -23,42 +23,40 @@ const Brought& bracket() {
   return kBrought;
 }
 
-/// Number of the end mill of so many mm in the plan; 0: it has none.
-int end_mill(const model::Plan& plan, double diameter_mm) {
-  for (const model::Cutter& c : plan.cutters)
-    if (c.cutter_class == model::CutterClass::kEndmill && c.cutting_diameter_mm == diameter_mm)
-      return c.pocket;
-  return 0;
-}
+/// What bores the dowel holes, as the tool table of a plan without reamers has it.
+const char* const kBoring =
+    "T21 P21 Z+125.0 D+7.5 ;generic 7.5 mm coated carbide twist drill, 140 deg, long\n"
+    "T22 P22 Z+106.0 D+8.0075 ;generic 8 mm carbide boring tool, set to size to 10 mm\n";
 
-Result<LateOutcome> without_six(const model::Plan& plan, LatePolicy policy = {}) {
+int reamer(const model::Plan& plan) { return tool_number(plan, model::CutterClass::kReamer, 8.0); }
+
+Result<LateOutcome> without_reamer(const model::Plan& plan, LatePolicy policy = {}) {
   policy.deadline.reset();
   policy.budget = policy.fallback_budget;  // no improvement
-  const int six = end_mill(bracket().plan, 6.0);
-  EXPECT_NE(six, 0);
+  EXPECT_NE(reamer(bracket().plan), 0);
   Job job;
-  return bind(plan, shop_of(without(bracket().table, six)), policy, job);
+  return bind(plan, shop_of(without(bracket().table, reamer(bracket().plan)) + kBoring), policy, job);
 }
 
-bool roughs_a_counterbore(const model::Plan& plan) {
-  return std::any_of(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
-    return model::step_id(plan, s).find("CAP SCREW HOLE[1] mill_rough") != std::string::npos;
-  });
+bool has_step(const model::Plan& plan, const std::string& id) {
+  return std::any_of(plan.steps.begin(), plan.steps.end(),
+                     [&](const model::StepResult& s) { return model::step_id(plan, s) == id; });
 }
 
 TEST(LateAnew, WhereNoLoadedToolFitsAnOperationAllOperationsAreChosenOnceMore) {
-  ASSERT_TRUE(roughs_a_counterbore(bracket().plan));
-  const auto bound = without_six(bracket().plan);
+  ASSERT_TRUE(has_step(bracket().plan, "DOWEL HOLE 1 ream"));
+  const auto bound = without_reamer(bracket().plan);
   ASSERT_TRUE(bound) << to_text(bound.error());
   EXPECT_FALSE(bound->kept);
-  EXPECT_FALSE(roughs_a_counterbore(bound->plan));
+  EXPECT_FALSE(has_step(bound->plan, "DOWEL HOLE 1 ream"));
+  EXPECT_TRUE(has_step(bound->plan, "DOWEL HOLE 1 bore"));
   EXPECT_TRUE(bound->plan.unplanned.empty());
   EXPECT_TRUE(bound->condemned.empty());
-  EXPECT_EQ(end_mill(bound->plan, 6.0), 0);
+  EXPECT_EQ(reamer(bound->plan), 0);
   // Which tool is missing, and that therefore everything was chosen once more, stands in the answer.
-  ASSERT_EQ(bound->reopened.size(), 2U);
+  ASSERT_EQ(bound->reopened.size(), 3U);  // of each hole, and of the part
   EXPECT_THAT(bound->reopened.front(), HasSubstr("is not in the magazine"));
-  EXPECT_THAT(bound->reopened.back(), HasSubstr("CAP SCREW HOLE[1] mill_rough"));
+  EXPECT_THAT(bound->reopened.back(), HasSubstr("DOWEL HOLE 1 ream"));
   EXPECT_THAT(bound->reopened.back(), HasSubstr("all of them were chosen anew"));
   EXPECT_THAT(bound->words, HasSubstr("chosen anew"));
 }
@@ -66,19 +64,20 @@ TEST(LateAnew, WhereNoLoadedToolFitsAnOperationAllOperationsAreChosenOnceMore) {
 TEST(LateAnew, OfWorkingstepsTheWholePartIsChosenOnceMoreBeforeTheFirstIsCut) {
   LatePolicy policy;
   policy.next = Next{bracket().plan.steps.size(), 1};
-  // The counterbore's rough step is among these.
-  const auto bound = without_six(bracket().plan, policy);
+  // The reaming steps are among these.
+  const auto bound = without_reamer(bracket().plan, policy);
   ASSERT_TRUE(bound) << to_text(bound.error());
   ASSERT_TRUE(bound->part);
-  EXPECT_FALSE(roughs_a_counterbore(*bound->part));
-  EXPECT_EQ(end_mill(*bound->part, 6.0), 0);
+  EXPECT_FALSE(has_step(*bound->part, "DOWEL HOLE 1 ream"));
+  EXPECT_EQ(reamer(*bound->part), 0);
+  ASSERT_FALSE(bound->reopened.empty());
   EXPECT_THAT(bound->reopened.back(), HasSubstr("all of them were chosen anew"));
 }
 
 TEST(LateAnew, WhatIsCutIsNotChosenOnceMore) {
   LatePolicy policy;
   policy.next = Next{bracket().plan.steps.size() - 1, 2};
-  const auto bound = without_six(bracket().plan, policy);
+  const auto bound = without_reamer(bracket().plan, policy);
   ASSERT_FALSE(bound);
   EXPECT_EQ(bound.error().code, "LATE-OPEN") << to_text(bound.error());
 }
@@ -98,7 +97,7 @@ TEST(LateAnew, AnOperationOfTheFileOrAPinnedValueIsNotChosenOnceMore) {
     else
       decision.binder = model::Binder::kGiven;
     plan.ledger.set(one->first, decision);
-    const auto bound = without_six(plan);
+    const auto bound = without_reamer(plan);
     ASSERT_FALSE(bound) << pins;
     EXPECT_EQ(bound.error().code, "LATE-OPEN") << to_text(bound.error());
   }
@@ -109,7 +108,7 @@ TEST(LateAnew, AControlThatMayNotChooseOperationsIsToldSo) {
     LatePolicy policy;
     policy.may = *Decisions::parse("tools,feeds,depths,strategy");
     if (part) policy.next = Next{bracket().plan.steps.size(), 1};
-    const auto bound = without_six(bracket().plan, policy);
+    const auto bound = without_reamer(bracket().plan, policy);
     ASSERT_FALSE(bound) << part;
     EXPECT_EQ(bound.error().code, "LATE-POLICY") << to_text(bound.error());
   }

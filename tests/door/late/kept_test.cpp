@@ -36,29 +36,33 @@ void expect_same_steps(const model::Plan& a, const model::Plan& b) {
 TEST(LateKept, AToolOfAnotherLengthPlansNothingAndIsChecked) {
   for (const auto format : {pipeline::Format::kJson, pipeline::Format::kAp238}) {
     const Brought early = brought(kBracket, format);
+    const int mill = eight_mill(early.plan);
+    const std::string line = "T" + std::to_string(mill) + " ";
     for (const double by : {0.5, -0.5}) {
       Job job;
-      const auto bound = bind(early.plan, shop_of(with(early.table, kEightMill, "Z", by)), kInTime, job);
+      const std::string table = with(early.table, mill, "Z", by);
+      const auto bound = bind(early.plan, shop_of(table), kInTime, job);
       ASSERT_TRUE(bound) << to_text(bound.error());
       EXPECT_TRUE(bound->kept);
       EXPECT_FALSE(bound->improved);
       expect_same_steps(bound->plan, early.plan);
       EXPECT_FALSE(bound->program.text.empty());
-      const auto line = with(early.table, kEightMill, "Z", by);
-      EXPECT_NE(bound->program.tool_table.find(line.substr(line.find("T9 "), 14)), std::string::npos);
+      EXPECT_NE(bound->program.tool_table.find(table.substr(table.find(line), 14)), std::string::npos);
     }
   }
 }
 
 TEST(LateKept, AToolInAnotherPlaceIsCalledThere) {
   std::string table = bracket().table;
-  table.replace(table.find("T9 P9"), 5, "T12 P12");
+  const std::string number = std::to_string(eight_mill(bracket().plan));
+  const std::string line = "T" + number + " P" + number;
+  table.replace(table.find(line), line.size(), "T12 P12");
   Job job;
   const auto bound = bind(bracket().plan, shop_of(table), kInTime, job);
   ASSERT_TRUE(bound) << to_text(bound.error());
   EXPECT_TRUE(bound->kept);
   EXPECT_NE(bound->program.text.find("T12 "), std::string::npos);
-  EXPECT_EQ(bound->program.text.find("T9 "), std::string::npos);
+  EXPECT_EQ(bound->program.text.find("T" + number + " "), std::string::npos);
   for (const model::StepResult& s : bound->plan.steps) {
     const auto* ws = bound->plan.model.get<model::MachiningWorkingstep>(s.step);
     const auto* op =
@@ -72,8 +76,8 @@ TEST(LateKept, AToolInAnotherPlaceIsCalledThere) {
 }
 
 TEST(LateKept, APlanThatTheCheckCondemnsAsItIsIsMadeAnew) {
-  // So short that the holder would run into the pocket: the path holds no more.
-  const int mill = bracket().plan.cutters.back().pocket;
+  // So short that the holder would run into the slot: the path holds no more.
+  const int mill = eight_mill(bracket().plan);
   Job job;
   const auto bound = bind(bracket().plan, shop_of(with(bracket().table, mill, "Z", -40.0)), kInTime, job);
   EXPECT_TRUE(!bound || !bound->kept);
@@ -95,7 +99,7 @@ TEST(LateKept, AnotherMachineMaterialOrDiameterIsPlannedFor) {
   for (model::WorkMaterial& m : harder.materials)
     if (m.id == bracket().plan.material.id) m.kc11_n_mm2 *= 1.001;
   EXPECT_FALSE(kept(harder));
-  EXPECT_FALSE(kept(shop_of(with(bracket().table, kEightMill, "D", -0.05))));
+  EXPECT_FALSE(kept(shop_of(with(bracket().table, eight_mill(bracket().plan), "D", -0.05))));
 }
 
 TEST(LateKept, APlanWithSomethingOpenIsPlanned) {
@@ -149,7 +153,8 @@ TEST(LateKept, EachBindingIsARowOfThePlansRecordInEveryForm) {
     auto again = pipeline::read_plan(*text, "plan", job);
     ASSERT_TRUE(again) << to_text(again.error());
     policy.time = "2026-11-25T13:00:00Z";
-    const auto twice = bind(*again, shop_of(with(early.table, kEightMill, "Z", 0.5)), policy, job);
+    const auto twice =
+        bind(*again, shop_of(with(early.table, eight_mill(early.plan), "Z", 0.5)), policy, job);
     ASSERT_TRUE(twice) << to_text(twice.error());
     std::vector<model::Provenance> rows;
     for (const auto& p : twice->plan.provenance)

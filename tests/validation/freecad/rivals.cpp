@@ -170,7 +170,7 @@ Result<Match> match(const RivalCase& c, const std::string& machine) {
     if (!path) return tl::unexpected(path.error());
     const Recipe recipe = recipe_of(file);
     if (steepest_rad(*path) > kSlopeMissed * may.angle_rad) continue;
-    if (static_cast<double>(c.depth_mm) / recipe.levels > may.slot_depth_mm + 1e-9) continue;
+    if (static_cast<double>(c.depth_mm) / recipe.levels > may.bore_depth_mm + 1e-9) continue;
     Rival r;
     r.name = name_of(recipe);
     r.adaptive = recipe.operation == "adaptive";

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/making/optimise/cut/law/law.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
@@ -157,7 +158,7 @@ double deepest_level(const CutQuestion& q) {
                     : d;
   double level = most;
   if (q.kind == CutKind::kRough && !q.constant_engagement)
-    level = std::min(level, mechanics::kDeepestSlotRatio * d);
+    level = std::min(level, model::kDeepestSlotRatio * d);
   if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
   level = std::min(level * ease_of(q, "level_depth"), slender_depth(q) * ease_of(q, "stable_depth"));
   return std::min(most, level);
@@ -165,7 +166,7 @@ double deepest_level(const CutQuestion& q) {
 
 double deep_slot_share(double ap, double d) {
   if (!(ap > 0.0) || !(d > 0.0)) return 1.0;
-  const double deep = (ap / d - kFullFeedSlotRatio) / (mechanics::kDeepestSlotRatio - kFullFeedSlotRatio);
+  const double deep = (ap / d - kFullFeedSlotRatio) / (model::kDeepestSlotRatio - kFullFeedSlotRatio);
   return 1.0 - (1.0 - kDeepestSlotShare) * std::clamp(deep, 0.0, 1.0);
 }
 

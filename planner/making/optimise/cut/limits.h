@@ -125,14 +125,14 @@ inline constexpr double kSlowestSpeedShare = 0.25;
 /// may be deeper.
 [[nodiscard]] double slender_depth(const CutQuestion& q);
 
-/// Depth of a level at most. A rough one: mechanics::kDeepestSlotRatio diameters, sourced there for slots and
+/// Depth of a level at most. A rough one: model::kDeepestSlotRatio diameters, sourced there for slots and
 /// taken for wider cuts, too, whose ways begin and end in slots. Where the engagement is constant there is no
 /// slot but the entry, which is a ramp or a helix. What the material allows of either (model::Ramp) comes by
 /// CutQuestion::ap_most_mm.
 [[nodiscard]] double deepest_level(const CutQuestion& q);
 
 /// Depth of a slot, in diameters, up to which speed and feed are those of the table, and what remains of each
-/// at mechanics::kDeepestSlotRatio; between the two linear (derived).
+/// at model::kDeepestSlotRatio; between the two linear (derived).
 /// Source    Dormer Pramet, milling catalogue 2021-22, p. 114, correction factors: 0.5 D at full speed and
 ///           feed, 1.5 D at half.
 inline constexpr double kFullFeedSlotRatio = 0.5;

@@ -197,7 +197,8 @@ double deepest_slot_mm(const optimise::CutQuestion& q, const toolpath::PathJob& 
   // Narrow passes begin from an open side in the air; rings cut a slot there.
   const bool from_air = q.constant_engagement && job.shape.open;
   if (q.kind != CutKind::kRough || !walled || hollow || from_air) return 0.0;
-  return model::ramp_of(q.cutter, q.material).slot_depth_mm;
+  const model::Ramp ramp = model::ramp_of(q.cutter, q.material);
+  return q.constant_engagement ? ramp.bore_depth_mm : ramp.slot_depth_mm;
 }
 
 AnyRef technology_of(const PlanSoFar& p, const StepDraft& step) {

@@ -222,7 +222,7 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
   job.cutter = with_neck(p.wishes.library, step.cutter);
   const model::Ramp ramp = model::ramp_of(job.cutter, p.plan.material);
   job.ramp_angle_rad = ramp.angle_rad;
-  job.ramp_depth_mm = ramp.slot_depth_mm;
+  job.ramp_depth_mm = ramp.bore_depth_mm;
   job.digit_mm = std::pow(10.0, -p.plan.machine.control.decimals);
   take_milling(m, step.operation, job);
   take_drilling(m, step.operation, job);

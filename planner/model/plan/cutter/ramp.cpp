@@ -18,14 +18,17 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Row {
   std::string_view iso_group;
-  double carbide_deg, hss_deg, depth_in_d;
+  double carbide_deg, hss_deg;
+  double bore_in_d;
+  [[nodiscard]] double slot_in_d() const { return std::min(bore_in_d, kDeepestSlotRatio); }
 };
 /// Source  N: 3 to 10 degrees in soft, non-ferrous materials; M, S, H and HSS in ferrous ones: 1 to 3 (Harvey
 ///         Performance, In the Loupe, "Ramping to success"; the upper ends). P, K with carbide: standard end
 ///         mills bear 2 to 5 degrees by their flutes and core (carbide-tooling.com, ramping angle calculator;
 ///         the upper end: what a mill with more flutes bears is its own). Depth in diameters: that of slots
-///         milled in one cut by solid carbide (Tungaloy catalogue 2020-21 p. 1084); a bore along a helix is
-///         wider, so that its chips come out more easily.
+///         milled in one cut by solid carbide (Tungaloy catalogue 2020-21 p. 1084) is taken for a bore along
+///         a helix, which is wider, so that its chips come out more easily; a slot is no deeper than either
+///         maker says.
 constexpr std::array kRows = {Row{"P", 5.0, 3.0, 2.0},   Row{"M", 3.0, 3.0, 1.0}, Row{"K", 5.0, 3.0, 2.0},
                               Row{"N", 10.0, 10.0, 2.0}, Row{"S", 3.0, 3.0, 1.0}, Row{"H", 3.0, 3.0, 0.5}};
 /// Of a material whose group is not known.
@@ -50,11 +53,12 @@ const Row& row_of(const WorkMaterial& m) {
 Ramp ramp_of(const Cutter& c, const WorkMaterial& m) {
   const double most = c.maximum_ramp_angle_rad;
   const Row& row = row_of(m);
-  const double depth = row.depth_in_d * c.cutting_diameter_mm;
-  if (!(most > 0.0)) return {.angle_rad = 0.0, .feed_share = kHalf, .slot_depth_mm = depth};
+  const double slot = row.slot_in_d() * c.cutting_diameter_mm, bore = row.bore_in_d * c.cutting_diameter_mm;
+  if (!(most > 0.0))
+    return {.angle_rad = 0.0, .feed_share = kHalf, .slot_depth_mm = slot, .bore_depth_mm = bore};
   const double usual_rad = kDegree * (c.substrate == Substrate::kCarbide ? row.carbide_deg : row.hss_deg);
-  const Ramp usual{std::min(most, usual_rad), c.centre_cutting ? kThreeQuarters : kHalf, depth};
-  const Ramp steep{most, kHalf, depth};
+  const Ramp usual{std::min(most, usual_rad), c.centre_cutting ? kThreeQuarters : kHalf, slot, bore};
+  const Ramp steep{most, kHalf, slot, bore};
   const bool faster =
       steep.feed_share * std::sin(steep.angle_rad) > usual.feed_share * std::sin(usual.angle_rad);
   return faster && is_stated(c, "maximum_ramp_angle_rad") ? steep : usual;

@@ -87,8 +87,9 @@ TEST(OneTool, StandsOutAlikeInProposedStepsAndInThoseOfTheFile) {
 TEST(OneTool, WhichOfTwoKeepsTheirNameDoesNotDependOnTheOrderOfTheSteps) {
   const auto names = [](bool other_order) {
     model::Plan plan = bracket();
-    const std::string first = "M6 CORE drill", second = "CAP SCREW HOLE[1] mill_rough";
+    const std::string first = "M6 CORE drill", second = "CAP SCREW HOLE[1] mill_finish";
     for (const std::string& id : {first, second}) {
+      if (step_of(plan, id) == nullptr) return "no step '" + id + "': take another of the bracket";
       const auto& ws = plan.model.at<model::MachiningWorkingstep>(step_of(plan, id)->step);
       const auto& op = plan.model.at<model::MachiningOperation>(ws.its_operation);
       auto& tool = plan.model.at<model::MillingCuttingTool>(op.its_tool);
@@ -107,7 +108,7 @@ TEST(OneTool, WhichOfTwoKeepsTheirNameDoesNotDependOnTheOrderOfTheSteps) {
     if (!out) return std::string("no plan");
     return step_of(*out, first)->cutter_id + ", " + step_of(*out, second)->cutter_id;
   };
-  // The drill of 5 mm is smaller than the mill of 6.
+  // The drill of 5 mm is smaller than the mill of 8.
   EXPECT_EQ(names(false), "T, T~2");
   EXPECT_EQ(names(true), "T, T~2");
 }
