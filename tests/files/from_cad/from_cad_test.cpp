@@ -179,6 +179,22 @@ TEST_F(FromCad, WhatNoToolReachesFromAboveIsNotPlannedAsIfItDid) {
   EXPECT_TRUE(s.through);
 }
 
+TEST_F(FromCad, AWallThatLeansOverTheMouthIsMadeToItsEndByAMillThatRunsOut) {
+  // A floor and a wall that leans back by ten on twelve, through all of the part, open above and beside.
+  const Vec2 foot{15, 8}, end{5, 20};
+  const auto s = only(planned(prism({{0, 0}, {40, 0}, {40, foot.y}, foot, end, {0, 20}}, 60)));
+  EXPECT_TRUE(s.open && s.through);
+  constexpr double kRadius = 6.0;
+  const Vec2 along = (1.0 / norm(end - foot)) * (end - foot), off = {along.y, -along.x};
+  // The mill beside the wall's end, and past it.
+  const geometry::Region centres = geometry::offset(s.reach, -(kRadius - 0.01));
+  for (const double past : {0.0, 2.0 * kRadius}) {
+    const Vec2 p = end + past * along + kRadius * off;
+    const Vec3 at = s.frame.to_local({p.x, 30.0, p.y});
+    EXPECT_TRUE(geometry::contains(centres, xy(at))) << past;
+  }
+}
+
 TEST_F(FromCad, TheRawPieceThatIsNamedIsFacedDownToThePart) {
   const auto plan = planned(prism(slotted(), 60), {.box = geometry::Box3{{0, 0, 0}, {40, 60, 22}}});
   ASSERT_TRUE(plan) << plan.error().message;
