@@ -69,18 +69,20 @@ def main():
     asked.add_argument("--parts", type=int, default=12)
     asked.add_argument("--seconds", type=int, default=60)
     asked.add_argument("--total", type=float, default=480.0)
+    asked.add_argument("--sets", default="nist,mfcad")
+    asked.add_argument("--sizes", default="x10,x1", help="of MFCAD's parts")
     asked.add_argument("--keep", help="a folder for what each run said")
     a = asked.parse_args()
     command = os.path.abspath(a.command)
     jobs = []
     nist = os.path.join(a.corpus, "cad", "nist")
-    for name in sorted(os.listdir(nist)) if a.parts >= 0 else []:
+    for name in sorted(os.listdir(nist)) if "nist" in a.sets.split(",") else []:
         jobs.append(("nist", "all", name.rsplit(".", 1)[0], "x1", os.path.join(nist, name)))
     mfcad = os.path.join(a.corpus, "cad", "mfcad")
     names = sorted((n[:-5] for n in os.listdir(mfcad) if n.endswith(".step")), key=lambda n: (fnv(n), n))
     for half, odd in (("seen", 0), ("held", 1)):
         for name in [n for n in names if fnv(n) % 2 == odd][:a.parts]:
-            for size in ("x1", "x10"):
+            for size in a.sizes.split(",") if "mfcad" in a.sets.split(",") else []:
                 jobs.append(("mfcad", half, name, size, os.path.join(mfcad, name + ".step")))
     jobs.sort(key=lambda j: (j[3] != "x10", j[0] != "nist", j[1] != "held"))
     spent, rows = 0.0, []
@@ -102,7 +104,7 @@ def main():
         rows.append([kind, half, name, size, result,
                      figure(r"(\d+) features? of \d+ faces?; ", said), figure(r"\d+ features? of (\d+) faces?; ", said),
                      figure(r"(\d+) faces? lies? on the sides", said),
-                     figure(r"(\d+) (?:feature, group|features, groups)", said),
+                     figure(r"(\d+) groups? of faces or volumes?", said),
                      figure(r"about ([\d.]+) mm3 of [\d.]+ stay", said, "0"),
                      figure(r"([\d.]+) mm3 (?:of|are|is) .*CHK-SHAPE-GOUGE", said, "0"),
                      figure(r"([\d.]+) %", figure(r"(finished part against[^\n]*)", said)), f"{cpu:.1f}"])
