@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/features/in_piece.h"
 #include "planner/model/nouns/all.h"
 #include "tests/model/maker.h"
 
@@ -309,6 +310,13 @@ TEST(Shape, TheReachOfAMouthRoundThreeSidesGoesRoundAllOfThem) {
   Maker k;
   const FeatureShape s = open_pocket(k, {{0, 30}, {0, 0}}, {{0, 0}, {40, 0}, {40, 30}, {0, 30}});
   EXPECT_NEAR(geometry::area(s.reach), (40 + kOut) * (30 + 2 * kOut), 1e-3);
+}
+
+TEST(Shape, TheCornersOfAnOpenPocketMayKeepAShareOfItsNarrowerSideAndOfAClosedOneThreeMillimetres) {
+  Maker k;
+  const FeatureShape open = open_pocket(k, {{40, 30}, {0, 30}, {0, 0}}, {{0, 0}, {40, 0}, {40, 30}});
+  EXPECT_NEAR(unstated_corner_mm(open), 0.35 * 30, 1e-9);
+  EXPECT_NEAR(unstated_corner_mm(k.only(k.pocket(0, 0, 40, 30, 5))), 3.0, 1e-9);
 }
 
 TEST(Shape, WhatIsMissingIsNamed) {
