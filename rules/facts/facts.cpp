@@ -192,9 +192,13 @@ std::string_view slot_form(const FeatureShape& s) {
 }
 
 void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
-  geometry::Region free = s.reach.empty() ? s.area : s.reach;
-  for (const auto& island : s.islands) free = geometry::subtract(free, island.area);
-  out.passage = passage_of(free, !s.open && !(s.corner_radius_mm > 0.0));
+  geometry::Region free = s.reach.empty() ? s.area : s.reach, wanted = s.area;
+  for (const auto& island : s.islands) {
+    free = geometry::subtract(free, island.area);
+    wanted = geometry::subtract(wanted, island.area);
+  }
+  const bool corners_drawn = !s.open || s.kind == ShapeKind::kPocket;
+  out.passage = passage_of(free, corners_drawn && !(s.corner_radius_mm > 0.0), wanted);
   out.facts.set("passage_mm", out.passage.narrowest_mm);
   // A face's depth is a removal, not a size: only its texture, flatness and position bring a grade.
   out.facts.set("it_grade", s.kind == ShapeKind::kFace ? 18 : tightest_grade(s, c, out));

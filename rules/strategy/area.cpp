@@ -42,7 +42,7 @@ Limit corner_cutter(const Making& m, double allowance, double times = 1.0) {
   if (s.corner_radius_mm > 0.0)
     return {2.0 * std::max(s.corner_radius_mm - allowance, 0.5 * s.corner_radius_mm),
             "corners of radius " + mm_text(s.corner_radius_mm) + " limit the cutter"};
-  if (!s.open && m.known.passage.exact_mm > 0.0)
+  if ((!s.open || s.kind == ShapeKind::kPocket) && m.known.passage.exact_mm > 0.0)
     return {m.known.passage.exact_mm, "the outline's own corners limit the cutter"};
   return {};
 }

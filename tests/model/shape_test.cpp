@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/features/in_piece.h"
 #include "planner/model/nouns/all.h"
 #include "tests/model/maker.h"
 
@@ -268,6 +269,54 @@ TEST(Shape, AThreadInAHoleThatSaysItIsAnOuterOneIsRefused) {
     EXPECT_NE(s.error().message.find("'M6'"), std::string::npos) << s.error().message;
     EXPECT_NE(s.error().message.find("inner_or_outer_thread"), std::string::npos) << s.error().message;
   }
+}
+
+/// An open pocket by its walls and its mouth, both as polylines.
+FeatureShape open_pocket(Maker& k, const std::vector<geometry::Vec2>& walls,
+                         const std::vector<geometry::Vec2>& mouth) {
+  const auto line = [&](const std::vector<geometry::Vec2>& points) {
+    Polyline drawn;
+    for (const auto p : points) drawn.points.push_back(k.point(p.x, p.y, 0.0));
+    GeneralProfile profile;
+    profile.its_profile = k.m.add(drawn);
+    return k.m.add(profile);
+  };
+  OpenPocket p;
+  p.its_id = "P";
+  p.feature_placement = k.at(0, 0, 0);
+  p.depth = k.depth(-3);
+  p.bottom_condition = k.m.add(PlanarPocketBottomCondition{});
+  p.open_boundary = line(walls);
+  p.wall_boundary = line(mouth);
+  return k.only(k.m.add(p));
+}
+
+TEST(Shape, TheReachOfAMouthThatGoesRoundACornerGoesRoundItToo) {
+  constexpr double kOut = 100.0;  // kOpenReach of shape/open_reach.h
+  Maker k;
+  // At a corner of the piece: walls above and on the left, open below and on the right.
+  const FeatureShape s = open_pocket(k, {{40, 30}, {0, 30}, {0, 0}}, {{0, 0}, {40, 0}, {40, 30}});
+  EXPECT_NEAR(geometry::area(s.area), 40 * 30, 1e-6);
+  EXPECT_NEAR(geometry::area(s.reach), (40 + kOut) * (30 + kOut), 1e-3);
+  EXPECT_TRUE(geometry::contains(s.reach, {40 + 0.5 * kOut, -0.5 * kOut}));
+  // Drawn the other way round it is the same.
+  const FeatureShape turned = open_pocket(k, {{0, 0}, {0, 30}, {40, 30}}, {{40, 30}, {40, 0}, {0, 0}});
+  EXPECT_NEAR(geometry::area(geometry::subtract(turned.reach, s.reach)), 0.0, 1e-3);
+  EXPECT_NEAR(geometry::area(geometry::subtract(s.reach, turned.reach)), 0.0, 1e-3);
+}
+
+TEST(Shape, TheReachOfAMouthRoundThreeSidesGoesRoundAllOfThem) {
+  constexpr double kOut = 100.0;
+  Maker k;
+  const FeatureShape s = open_pocket(k, {{0, 30}, {0, 0}}, {{0, 0}, {40, 0}, {40, 30}, {0, 30}});
+  EXPECT_NEAR(geometry::area(s.reach), (40 + kOut) * (30 + 2 * kOut), 1e-3);
+}
+
+TEST(Shape, TheCornersOfAnOpenPocketMayKeepAShareOfItsNarrowerSideAndOfAClosedOneThreeMillimetres) {
+  Maker k;
+  const FeatureShape open = open_pocket(k, {{40, 30}, {0, 30}, {0, 0}}, {{0, 0}, {40, 0}, {40, 30}});
+  EXPECT_NEAR(unstated_corner_mm(open), 0.35 * 30, 1e-9);
+  EXPECT_NEAR(unstated_corner_mm(k.only(k.pocket(0, 0, 40, 30, 5))), 3.0, 1e-9);
 }
 
 TEST(Shape, WhatIsMissingIsNamed) {

@@ -1,5 +1,6 @@
 #include "rules/facts/facts.h"
 
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "rules/facts/it_grade.h"
 
 namespace capstan::rules {
@@ -100,6 +101,49 @@ TEST(Passage, OfTwoRoomsThroughANeckIsTheNeck) {
   const auto rooms =
       geometry::unite(geometry::rectangle({0, 0}, {40, 40}), geometry::rectangle({60, 0}, {100, 40}));
   expect_passage(geometry::unite(rooms, geometry::rectangle({39, 15}, {61, 25})), 40, 10, 0);
+}
+/// What a circle of radius r leaves in a point of that angle is the point, however wide the circle is.
+TEST(Passage, OfAPointSharperThanSixtyDegreesIsNotItsTip) {
+  for (const double deg : {30.0, 45.0, 59.0}) {
+    const double half = std::tan(0.5 * deg * kRadPerDegree) * 60.0;
+    const geometry::Region point = {{{{0, 0}, {60, -half}, {60, half}}}};
+    const Passage p = passage_of(point);
+    EXPECT_GE(p.narrowest_mm, 0.95 * p.widest_mm) << deg;
+    EXPECT_EQ(p.exact_mm, 0.0) << deg;
+  }
+}
+TEST(Passage, OfAPointSharperThanThirtyDegreesHasNone) {
+  const geometry::Region needle = {{{{0, 0}, {60, -6}, {60, 6}}}};
+  EXPECT_LT(passage_of(needle).narrowest_mm, 1.0);
+}
+TEST(Passage, OfAFingerWithAPointedEndIsTheFinger) {
+  const geometry::Region point = {{{{89, 27}, {100, 30}, {89, 33}}}};
+  const auto area = geometry::unite(
+      geometry::unite(geometry::rectangle({0, 0}, {60, 60}), geometry::rectangle({60, 27}, {90, 33})), point);
+  const Passage p = passage_of(area);
+  EXPECT_LE(p.narrowest_mm, 6.0 * 1.001);
+  EXPECT_GE(p.narrowest_mm, 5.0);
+}
+/// An arm of free room outside of what is to be cut limits no cutter.
+TEST(Passage, OfWhatIsAskedForIgnoresNarrowRoomBesideIt) {
+  const auto square = geometry::rectangle({0, 0}, {60, 60});
+  const auto area = geometry::unite(square, geometry::rectangle({60, 27}, {90, 33}));
+  EXPECT_LE(passage_of(area, false).narrowest_mm, 6.0 * 1.001);
+  EXPECT_GE(passage_of(area, false, square).narrowest_mm, 0.95 * 60.0);
+}
+TEST(FactsOfArea, TheCornersOfAnOpenPocketAreThoseBetweenItsWalls) {
+  constexpr double kRadius = 6.35;
+  model::FeatureShape s;
+  s.kind = model::ShapeKind::kPocket;
+  s.open = true;
+  s.depth_mm = 3.0;
+  // At a corner of the piece: one corner between two walls, the mouth round the other three.
+  const auto closed = geometry::rounded_rectangle({0, 0}, {200, 200}, kRadius);
+  s.area = geometry::intersect(closed, geometry::rectangle({0, 0}, {40, 30}));
+  s.reach = geometry::intersect(closed, geometry::rectangle({0, 0}, {140, 130}));
+  const auto f = facts_of(s, {}).facts;
+  EXPECT_NEAR(*f.number("corner_radius_mm"), kRadius, 0.04 * kRadius);
+  EXPECT_GE(*f.number("passage_mm"), 100.0);
 }
 TEST(Passage, OfNothingIsNothing) { EXPECT_EQ(passage_of({}).widest_mm, 0.0); }
 

@@ -48,7 +48,8 @@ Comparison summary(const std::vector<Comparison>& all) {
       {"freecad", "14. Roughing against FreeCAD's paths"},
       {"tuning", "15. Tuning in simulated shops"},
       {"plates", "16. NIST plates as cases"},
-      {"bind-times", "17. Late binding: times"}};
+      {"bind-times", "17. Late binding: times"},
+      {"recognition", "18. From a CAD file to a plan"}};
   Comparison out{.name = "summary"};
   Table rows{{"comparison", "figure"}, {}};
   for (const auto& [name, title] : titles) {
@@ -86,6 +87,7 @@ std::vector<Comparison> all_comparisons(const std::string& corpus, Extent extent
   out.push_back(tuning(extent));
   out.push_back(plates(corpus));
   out.push_back(bind_times(capstan::testing::source_dir() + "/docs/validation/bind_times.csv"));
+  out.push_back(recognition(corpus, capstan::testing::source_dir() + "/docs/validation/cad_plans.csv"));
   if (extent == Extent::kWhole) out.push_back(summary(out));
   return out;
 }

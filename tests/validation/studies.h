@@ -57,6 +57,10 @@ namespace capstan::validation {
 /// LinuxCNC's simulated machine, as `capstan_rival_times` recorded them.
 [[nodiscard]] Comparison freecad(const std::string& record, Extent extent);
 
+/// Recognition of MFCAD's labelled faces, tolerances read of NIST's parts, and the plans of both as
+/// cad/record_plans.py recorded them in a file.
+[[nodiscard]] Comparison recognition(const std::string& corpus, const std::string& record);
+
 /// Cycle times on LinuxCNC's simulated machine, as `capstan_cycle_times` recorded them in a file.
 [[nodiscard]] Comparison cycle_times(const std::string& file);
 

@@ -4,12 +4,13 @@ set(validation ${CMAKE_CURRENT_LIST_DIR})
 file(GLOB_RECURSE validation_sources CONFIGURE_DEPENDS ${validation}/*.cpp)
 list(FILTER validation_sources EXCLUDE REGEX "_test\\.cpp$|main\\.cpp$")
 find_package(yaml-cpp REQUIRED)
-add_library(capstan_validation_comparisons STATIC ${validation_sources})
+add_library(capstan_validation_comparisons STATIC ${validation_sources}
+  ${CMAKE_SOURCE_DIR}/tests/files/recognise/mfcad.cpp ${CMAKE_SOURCE_DIR}/tests/files/recognise/planar_step.cpp)
 target_link_libraries(capstan_validation_comparisons
   PUBLIC $<BUILD_INTERFACE:capstan_options> capstan_test_support
   PRIVATE capstan::motion capstan::mechanics capstan::optimise capstan::optimise_solvers capstan::engagement
     capstan::verify capstan::service capstan::tooling capstan_mutation capstan_sweep
-    capstan_simulated_shop capstan::casebase yaml-cpp)
+    capstan_simulated_shop capstan::casebase capstan::recognise capstan::p21 capstan::exchange yaml-cpp)
 add_executable(capstan_validation ${validation}/main.cpp)
 target_link_libraries(capstan_validation PRIVATE capstan_validation_comparisons)
 capstan_test(validation LIBS capstan_validation_comparisons COST 700)

@@ -47,7 +47,7 @@ std::map<AnyRef, MadeStep> made_steps(const model::Plan& plan, const Drafts& dra
                    s.proposal.name,
                    mill_of(s.cutter),
                    p.plan.model.holds<model::FreeformFinishMilling>(s.operation),
-                   step::cut_around(p, s)};
+                   step::may_cut_nothing(p, s)};
   }
   return out;
 }

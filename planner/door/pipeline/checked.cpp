@@ -103,9 +103,9 @@ class BansByCheck {
         out.emplace_back(s, found);
         continue;
       }
-      // A boss that others cut around exists without its own step: leave the step out before banning
-      // anything.
-      if (o.finding->code == "CHK-CUTS-NOTHING" && s.cut_around &&
+      // What others cut away exists without its own step, a boss or what is roughed: leave the step out
+      // before banning anything.
+      if (o.finding->code == "CHK-CUTS-NOTHING" && s.may_cut_nothing &&
           tries_.bans.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
         tries_.bans.cut_nothing(s.member, s.chain, s.in_chain, found);
         out.emplace_back(s, found);

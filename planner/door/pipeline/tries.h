@@ -27,7 +27,7 @@ struct MadeStep {
   std::string cutter, name;
   std::optional<draft::Mill> mill;  ///< size of an end mill, with whatever corner or nose
   bool as_found = false;            ///< depth is that of the material left there: it cannot be made thinner
-  bool cut_around = false;          ///< of a boss that other features' steps cut around
+  bool may_cut_nothing = false;     ///< it may be left out where it cuts nothing
 };
 
 /// Results of a stage for the next try.

@@ -186,23 +186,39 @@ class Maker {
     return m_.add(f);
   }
 
-  /// An open side so far outside the raw piece: its corners in order.
-  static std::vector<Vec2> past(const std::vector<Piece>& run, double mm) {
-    std::vector<Vec2> out;
-    Vec2 before;
-    for (std::size_t i = 0; i < run.size(); ++i) {
-      const Vec2 way = mm * right_of(unit(run[i].to - run[i].from));
-      out.push_back(run[i].from + way + (i == 0 ? Vec2{} : before));
-      before = way;
+  /// The direction of a piece where it ends, or begins.
+  static Vec2 heading(const Piece& p, bool at_end) {
+    if (!p.arc()) return unit(p.to - p.from);
+    const Vec2 out = unit((at_end ? p.to : p.from) - p.centre);
+    return p.sweep_rad > 0.0 ? Vec2{-out.y, out.x} : Vec2{out.y, -out.x};
+  }
+
+  /// An open side so far outside the raw piece: its corners in order. `before` and `after` are the walls that
+  /// meet it: where one leans over it, the side's end goes on in the wall's line, so that a mill makes the
+  /// wall to its end.
+  static std::vector<Vec2> past(const std::vector<Piece>& run, double mm, const Piece& before,
+                                const Piece& after) {
+    constexpr double kLeastSine = 0.17;  // of the angle, 10 degrees; default, unsourced
+    const std::size_t n = run.size();
+    const auto along = [&](std::size_t i) { return unit(run[i].to - run[i].from); };
+    const auto end = [&](Vec2 wall, Vec2 side, Vec2 inwards) {
+      const double sine = dot(wall, right_of(side));
+      const bool leans = dot(wall, inwards) < -recognise::kSameAngleRad && sine > kLeastSine;
+      return leans ? (mm / sine) * wall : mm * right_of(side);
+    };
+    std::vector<Vec2> out{run[0].from + end(heading(before, true), along(0), along(0))};
+    for (std::size_t i = 1; i < n; ++i) {
+      const Vec2 a = right_of(along(i - 1)), b = right_of(along(i));
+      out.push_back(run[i].from + (mm / std::max(0.5, 1.0 + dot(a, b))) * (a + b));
     }
-    out.push_back(run.back().to + before);
+    out.push_back(run[n - 1].to + end(-1.0 * heading(after, false), along(n - 1), -1.0 * along(n - 1)));
     return out;
   }
 
   AnyRef open_pocket(const std::vector<Piece>& wall, const std::vector<Piece>& mouth) {
     auto f = feature<model::OpenPocket>("OPEN POCKET");
     // A side that ends on the raw piece's would leave a film by rounding: it goes on past it.
-    const std::vector<Vec2> beyond = past(mouth, kLeastPastMm);
+    const std::vector<Vec2> beyond = past(mouth, kLeastPastMm, wall.back(), wall.front());
     const auto line = [](Vec2 from, Vec2 to) { return Piece{from, to, {}, 0.0, 0.0, false}; };
     std::vector<Piece> walls{line(beyond.back(), wall.front().from)};
     walls.insert(walls.end(), wall.begin(), wall.end());
@@ -330,7 +346,11 @@ class Maker {
         wall.insert(wall.end(), run.begin(), run.end());
         continue;
       }
-      for (const Vec2 corner : past(run, std::min(kMostPastMm, 0.5 * width(run) + kLeastPastMm))) go(corner);
+      const std::size_t at = (mouth + k) % sides.size();
+      const Piece& before = sides[(at + sides.size() - 1) % sides.size()].back();
+      const Piece& after = sides[(at + 1) % sides.size()].front();
+      const double mm = std::min(kMostPastMm, 0.5 * width(run) + kLeastPastMm);
+      for (const Vec2 corner : past(run, mm, before, after)) go(corner);
       go(run.back().to);
     }
     return open_pocket(wall, sides[mouth]);

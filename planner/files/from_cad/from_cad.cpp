@@ -462,9 +462,9 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
   say("CAD-RECOGNISED",
       counted(features_made, "feature", "features") + " of " + counted(faces_made, "face", "faces") + "; " +
           counted(found.on_raw.size(), "face lies", "faces lie") + " on the sides of the part's box; " +
-          counted(stays.size(), "feature, group of faces or volume is",
-                  "features, groups of faces or volumes are") +
-          " not planned");
+          (stays.empty() ? "no face and no volume is left over"
+                         : counted(stays.size(), "group of faces or volume is no feature and stays",
+                                   "groups of faces or volumes are no features and stay")));
   tell(asked, name, job);
   plan.provenance.push_back({"unit of the CAD file", brep.unit, "the file; planned in mm"});
   return plan;

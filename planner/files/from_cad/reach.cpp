@@ -111,6 +111,31 @@ std::pair<double, double> out_of_reach(const Part& part, const recognise::Featur
   return {missed, all};
 }
 
+/// Depth of the lowest floor below the raw piece's surface, mm.
+double depth(const Part& part, const Way& way) {
+  return part.raw_span(way.frame).second - way.levels_mm.front();
+}
+
+/// The ways along the raw piece's sides along which all of the faces are walls, no deeper than the first way:
+/// a bevelled corner of a plate is milled from above as well as square to its plane.
+std::vector<Way> as_walls(const Part& part, const recognise::Feature& feature,
+                          const std::vector<Way>& known) {
+  std::vector<Way> out;
+  if (known.empty()) return out;
+  for (const double sign : {1.0, -1.0}) {
+    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      const Vec3 d = sign * axis;
+      if (std::any_of(known.begin(), known.end(), [&](const Way& w) { return along(w.frame.z, d); }))
+        continue;
+      const auto way = seen_along(part, feature, d);
+      if (!way || depth(part, *way) > depth(part, known.front()) + kLevelMm) continue;
+      const auto [missed, all] = out_of_reach(part, feature, *way);
+      if (missed <= kOutOfReach * all) out.push_back(*way);
+    }
+  }
+  return out;
+}
+
 std::string words(Vec3 d) {
   return "(" + trimmed(d.x, 3) + ", " + trimmed(d.y, 3) + ", " + trimmed(d.z, 3) + ")";
 }
@@ -130,6 +155,7 @@ std::vector<Way> ways_of(const Part& part, const recognise::Feature& feature, st
             trimmed(all, 2) + " mm2: the part itself stands above";
     }
   }
+  for (const Way& way : as_walls(part, feature, out)) out.push_back(way);
   if (out.empty() && why.empty())
     why =
         "along no direction are all of its faces floors, upright walls, or fillets of one radius between "

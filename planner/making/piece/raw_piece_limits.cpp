@@ -77,9 +77,12 @@ std::string not_in_piece(const Piece& piece, const FeatureShape& s) {
 }
 
 double sharp_corner_of(const Piece& piece, const FeatureShape& s) {
-  if (piece.plan.target_mesh || !states_no_corner(piece, s)) return 0.0;
-  return model::sharp_corners(s, piece.shapes.whole, part_form(piece)).empty() ? 0.0
-                                                                               : model::unstated_corner_mm(s);
+  const bool open = s.kind == ShapeKind::kPocket && s.open && !(s.corner_radius_mm > 0.0);
+  if (piece.plan.target_mesh || (!open && !states_no_corner(piece, s))) return 0.0;
+  const auto corners = model::sharp_corners(s, piece.shapes.whole, part_form(piece));
+  const bool any =
+      std::any_of(corners.begin(), corners.end(), [](const model::SharpCorner& c) { return !c.open; });
+  return any ? model::unstated_corner_mm(s) : 0.0;
 }
 
 double corner_in_material(const Piece& piece, const FeatureShape& s) {

@@ -14,8 +14,8 @@ namespace capstan::piece {
 /// Why a feature cannot be cut from this raw piece: material above its top, or its drill's point would come
 /// out on the other side. Empty if it can.
 [[nodiscard]] std::string not_in_piece(const Piece& piece, const model::FeatureShape& shape);
-/// The radius that may stay in the inner corners of a step, an outside or a closed pocket that are drawn
-/// sharp and state none, mm; 0: there are none.
+/// The radius that may stay in the inner corners of a step, an outside or a pocket that are drawn sharp and
+/// state none, mm; 0: there are none. Corners at a pocket's mouth are none: a mill runs out there.
 [[nodiscard]] double sharp_corner_of(const Piece& piece, const model::FeatureShape& shape);
 /// The radius of a pocket's corners that limits its cutters, mm: the stated one where one of these corners
 /// lies in the raw piece; where all lie beside it, half the width of the pocket.

@@ -55,6 +55,8 @@ using model::CutBefore;
 inline constexpr std::string_view kStopped = "CHK-STOPPED";
 /// That of a check that was stopped before it began.
 [[nodiscard]] model::Finding not_begun();
+/// The code of the finding, a warning, that faces of the CAD shape are not reached: the part is not whole.
+inline constexpr std::string_view kFacesLeft = "CHK-SHAPE-FACES";
 
 /// Largest height map of one set-up.
 inline constexpr long kMaximumCells = 1000000;

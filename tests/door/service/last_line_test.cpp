@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/proof/verify/verify.h"
+
 namespace capstan::service {
 namespace {
 
@@ -61,6 +63,21 @@ TEST(LastLine, FeaturesThatAreNotPlannedMakeItNotWhole) {
   end.warned = 1;
   EXPECT_THAT(last_line(end), StartsWith("Safe, but not whole, with 1 warning of the check: 2 of 12 features "
                                          "are not planned; 21 steps"));
+}
+
+TEST(LastLine, FacesOfTheCadShapeThatAreNotReachedMakeItNotWhole) {
+  FileFinding said;
+  said.finding.code = std::string(verify::kFacesLeft);
+  said.finding.severity = Severity::kWarning;
+  Verdict verdict;
+  verdict.findings.push_back(said);
+  Ending end = planned();
+  take_verdict({}, verdict, end);
+  EXPECT_EQ(
+      last_line(end),
+      "Safe, but not whole, with 1 warning of the check: faces of the CAD shape are not reached (see above); "
+      "21 steps, 10 tools, 4 min 29 s");
+  EXPECT_TRUE(calls_safe(end));
 }
 
 TEST(LastLine, OpenDecisionsAreNotChecked) {

@@ -179,6 +179,20 @@ TEST_F(FromCad, WhatNoToolReachesFromAboveIsNotPlannedAsIfItDid) {
   EXPECT_TRUE(s.through);
 }
 
+TEST_F(FromCad, AWallThatLeansOverTheMouthIsMadeToItsEndByAMillThatRunsOut) {
+  // A floor and a wall that leans back by ten on twelve, through all of the part, open above and beside.
+  const Vec2 foot{15, 8}, end{5, 20};
+  const auto s = only(planned(prism({{0, 0}, {40, 0}, {40, foot.y}, foot, end, {0, 20}}, 60)));
+  EXPECT_TRUE(s.open && s.through);
+  constexpr double kRadius = 6.0;
+  const Vec2 along = (1.0 / norm(end - foot)) * (end - foot), off = {along.y, -along.x};
+  const geometry::Region centres = geometry::offset(s.reach, -(kRadius - 0.01));
+  for (const double past : {0.0, 2.0 * kRadius}) {
+    const Vec2 p = end + past * along + kRadius * off;
+    EXPECT_TRUE(geometry::contains(centres, xy(s.frame.to_local({p.x, 30.0, p.y})))) << past;
+  }
+}
+
 TEST_F(FromCad, TheRawPieceThatIsNamedIsFacedDownToThePart) {
   const auto plan = planned(prism(slotted(), 60), {.box = geometry::Box3{{0, 0, 0}, {40, 60, 22}}});
   ASSERT_TRUE(plan) << plan.error().message;
@@ -262,29 +276,29 @@ TEST_F(FromCad, APointThatWouldBeReadAsAnotherIsRefusedWithItsAngle) {
   EXPECT_NE(reasons(*sharp).find("a point of 60 degrees"), std::string::npos) << reasons(*sharp);
 }
 
-/// A circle about x at a height over the slotted prism, and its vertex.
-std::pair<int, int> rim_about_x(StepPart& step, double x) {
-  const int v = step.vertex({x, 32, 16});
-  const int placed = step.placement({x, 30, 16}, {1, 0, 0}, {0, 1, 0});
-  const int circle = step.add("CIRCLE(''," + StepPart::ref(placed) + ",2.)");
-  return {v, step.add("EDGE_CURVE(''," + StepPart::ref(v) + "," + StepPart::ref(v) + "," +
-                      StepPart::ref(circle) + ",.T.)")};
+/// A bore of 4 mm along x or y, from a side of the prism to another.
+void bore(StepPart& step, Vec3 from, Vec3 axis, double length, int low_side, int high_side, Holes& out) {
+  const Vec3 across{axis.y, axis.x, 0};
+  const auto rim = [&](Vec3 at) {
+    const int v = step.vertex(at + 2.0 * across);
+    const int circle = step.add("CIRCLE(''," + StepPart::ref(step.placement(at, axis, across)) + ",2.)");
+    return step.add("EDGE_CURVE(''," + StepPart::ref(v) + "," + StepPart::ref(v) + "," +
+                    StepPart::ref(circle) + ",.T.)");
+  };
+  const int low = rim(from), high = rim(from + length * axis);
+  out.bounds[low_side] = step.bound({step.oriented(low, true)}, false);
+  out.bounds[high_side] = step.bound({step.oriented(high, false)}, false);
+  out.faces.push_back(step.face(
+      "bore", {step.bound({step.oriented(high, true)}, true), step.bound({step.oriented(low, false)}, false)},
+      step.add("CYLINDRICAL_SURFACE(''," + StepPart::ref(step.placement(from, axis, across)) + ",2.)"),
+      false));
 }
 
 TEST_F(FromCad, AHoleThroughTwoEarsIsOneRoundHole) {
   const auto plan = planned(prism(slotted(), 60, "mm", [](StepPart& step) {
     Holes out;
-    for (const auto& [lo, hi, low_side, high_side] :
-         {std::tuple{0.0, 15.0, 7, 5}, std::tuple{25.0, 40.0, 3, 1}}) {
-      const int low = rim_about_x(step, lo).second, high = rim_about_x(step, hi).second;
-      out.bounds[low_side] = step.bound({step.oriented(low, true)}, false);
-      out.bounds[high_side] = step.bound({step.oriented(high, false)}, false);
-      const int placed = step.placement({lo, 30, 16}, {1, 0, 0}, {0, 1, 0});
-      out.faces.push_back(step.face(
-          "ear",
-          {step.bound({step.oriented(high, true)}, true), step.bound({step.oriented(low, false)}, false)},
-          step.add("CYLINDRICAL_SURFACE(''," + StepPart::ref(placed) + ",2.)"), false));
-    }
+    bore(step, {0, 30, 16}, {1, 0, 0}, 15, 7, 5, out);
+    bore(step, {25, 30, 16}, {1, 0, 0}, 15, 3, 1, out);
     return out;
   }));
   ASSERT_TRUE(plan) << plan.error().message;
@@ -296,6 +310,22 @@ TEST_F(FromCad, AHoleThroughTwoEarsIsOneRoundHole) {
   EXPECT_NEAR(hole.depth_mm, 40.0, 1e-6);
   EXPECT_NEAR(hole.diameter.nominal_mm, 4.0, 1e-6);
   EXPECT_TRUE(hole.through);
+}
+
+TEST_F(FromCad, BevelledCornersOfAPlateAreMilledWithItsHole) {
+  // 40 x 30 mm, 4 mm thick, two corners cut off by 8 mm; the hole asks for the direction square to the plate.
+  const std::vector<Vec2> outline = {{0, 8}, {8, 0}, {40, 0}, {40, 22}, {32, 30}, {0, 30}};
+  const auto plan = planned(prism(outline, 4, "mm", [](StepPart& step) {
+    Holes out;
+    bore(step, {20, 0, 15}, {0, 1, 0}, 4, 6, 7, out);
+    return out;
+  }));
+  ASSERT_TRUE(plan) << plan.error().message;
+  EXPECT_EQ(reasons(*plan), "");
+  const auto shapes = shapes_of(*plan);
+  EXPECT_EQ(shapes.size(), 3U);
+  for (const auto& [type, s] : shapes)
+    EXPECT_NEAR(std::abs(s.frame.z.y), 1.0, 1e-9) << "one set-up makes all of it: " << s.name;
 }
 
 TEST_F(FromCad, AHoleIntoACavityThatIsNotPlannedEndsInIt) {
@@ -420,14 +450,21 @@ TEST_F(FromCad, APartThatLiesAskewKeepsTheAxesThatAreNearestAndTheNoteTellsThem)
       << said("CAD-TURNED");
 }
 
-TEST_F(FromCad, TheNoteCountsWhatIsPlanned) {
+TEST_F(FromCad, TheNoteOfAWholePartSpeaksOfFeaturesAndNotOfThePlan) {
+  ASSERT_TRUE(planned(prism(slotted(), 60)));
+  const std::string note = said("CAD-RECOGNISED");
+  EXPECT_NE(note.find("no face and no volume is left over"), std::string::npos) << note;
+  EXPECT_EQ(note.find("planned"), std::string::npos) << note;
+}
+
+TEST_F(FromCad, TheNoteCountsWhatIsInFeatures) {
   const auto plan = planned(bored({{3, 20}, {3, 10}, {0, 10 - 3 / std::tan(30 * 0.017453292519943295)}}));
   ASSERT_TRUE(plan) << plan.error().message;
   const std::size_t stays = model::not_recognised(*plan).size();
   EXPECT_EQ(stays, 2U) << "its faces, and the volume";
   EXPECT_NE(said("CAD-RECOGNISED").find("no feature of no face;"), std::string::npos)
       << said("CAD-RECOGNISED");
-  EXPECT_NE(said("CAD-RECOGNISED").find("2 features, groups of faces or volumes are not planned"),
+  EXPECT_NE(said("CAD-RECOGNISED").find("2 groups of faces or volumes are no features and stay"),
             std::string::npos)
       << said("CAD-RECOGNISED");
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Plans CAD parts of the corpus and records what came of each: docs/validation/cad_plans.csv.
 
-    record_plans.py CAPSTAN CORPUS OUT.csv [--parts N] [--seconds S] [--total S]
+    record_plans.py CAPSTAN CORPUS OUT.csv [--parts N] [--seconds S] [--total S] [--sets nist,mfcad]
+                    [--sizes x10,x1] [--only TEXT] [--keep FOLDER]
 
 Each row: set, half, part, size, outcome, features planned, faces planned, faces on the raw piece, groups not
 planned, volume that stays mm3, volume cut away mm3, overlap %, CPU s. One process at a time, with a limit of CPU
@@ -11,8 +12,9 @@ Halves   the 32-bit FNV-1a hash of the part's name: even is `seen`, odd is `held
 Sample   of each half of MFCAD the N parts with the lowest hash. All files of NIST are run.
 Size     MFCAD's parts are cubes of 10 mm, whose passages of about 1 mm no mill of the library enters: each is
          also planned ten times as large (x10), its unit of length being read as the centimetre.
-Outcome  whole (safe, nothing left out), in_part (safe, something is left out and named), none (no feature can be
-         planned), unsafe (the check condemns the plan), refused (the file is not read), time (over the limit).
+Outcome  whole (safe, nothing left out, no plane face of the shape unreached), in_part (safe, something is left out
+         or not reached, and named), none (no feature can be planned), unsafe (the check condemns the plan), refused
+         (the file is not read), time (over the limit).
 """
 
 import argparse
@@ -69,19 +71,23 @@ def main():
     asked.add_argument("--parts", type=int, default=12)
     asked.add_argument("--seconds", type=int, default=60)
     asked.add_argument("--total", type=float, default=480.0)
+    asked.add_argument("--sets", default="nist,mfcad")
+    asked.add_argument("--sizes", default="x10,x1", help="of MFCAD's parts")
+    asked.add_argument("--only", default="", help="parts whose name holds this")
     asked.add_argument("--keep", help="a folder for what each run said")
     a = asked.parse_args()
     command = os.path.abspath(a.command)
     jobs = []
     nist = os.path.join(a.corpus, "cad", "nist")
-    for name in sorted(os.listdir(nist)) if a.parts >= 0 else []:
+    for name in sorted(os.listdir(nist)) if "nist" in a.sets.split(",") else []:
         jobs.append(("nist", "all", name.rsplit(".", 1)[0], "x1", os.path.join(nist, name)))
     mfcad = os.path.join(a.corpus, "cad", "mfcad")
     names = sorted((n[:-5] for n in os.listdir(mfcad) if n.endswith(".step")), key=lambda n: (fnv(n), n))
     for half, odd in (("seen", 0), ("held", 1)):
         for name in [n for n in names if fnv(n) % 2 == odd][:a.parts]:
-            for size in ("x1", "x10"):
+            for size in a.sizes.split(",") if "mfcad" in a.sets.split(",") else []:
                 jobs.append(("mfcad", half, name, size, os.path.join(mfcad, name + ".step")))
+    jobs = [j for j in jobs if a.only in j[2]]
     jobs.sort(key=lambda j: (j[3] != "x10", j[0] != "nist", j[1] != "held"))
     spent, rows = 0.0, []
     for kind, half, name, size, path in jobs:
@@ -102,7 +108,7 @@ def main():
         rows.append([kind, half, name, size, result,
                      figure(r"(\d+) features? of \d+ faces?; ", said), figure(r"\d+ features? of (\d+) faces?; ", said),
                      figure(r"(\d+) faces? lies? on the sides", said),
-                     figure(r"(\d+) (?:feature, group|features, groups)", said),
+                     figure(r"(\d+) groups? of faces or volumes?", said),
                      figure(r"about ([\d.]+) mm3 of [\d.]+ stay", said, "0"),
                      figure(r"([\d.]+) mm3 (?:of|are|is) .*CHK-SHAPE-GOUGE", said, "0"),
                      figure(r"([\d.]+) %", figure(r"(finished part against[^\n]*)", said)), f"{cpu:.1f}"])

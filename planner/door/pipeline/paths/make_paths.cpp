@@ -244,7 +244,7 @@ class PathMaker {
       return {};
     const std::string* nothing =
         step.proposed ? bans_.cuts_nothing(step.member, step.chain, step.in_chain) : nullptr;
-    if (nothing != nullptr && step::cut_around(p_, step) && left_out(step, *nothing)) return {};
+    if (nothing != nullptr && step::may_cut_nothing(p_, step) && left_out(step, *nothing)) return {};
     if (candidate > 0 && candidate < step.candidates.size())
       step::take_cutter(plan_, steps_, step, step.candidates[candidate]);
     if (std::find(used_.begin(), used_.end(), step.cutter.id) == used_.end()) further_.insert(step.cutter.id);

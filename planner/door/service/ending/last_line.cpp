@@ -91,7 +91,7 @@ std::string last_line(const Ending& end) {
   std::string head;
   std::vector<std::string> parts;
   const std::vector<std::string> doubted = end.condemned > 0 ? std::vector<std::string>{} : doubts(end);
-  const bool whole = end.unplanned == 0;
+  const bool whole = end.unplanned == 0 && !end.faces_left;
   std::string warnings = counted(end.warned, "warning", "warnings") + " of the check";
   if (end.condemned > 0) {
     head = end.stopped ? "Stopped, NOT SAFE" : "NOT SAFE";
@@ -116,7 +116,8 @@ std::string last_line(const Ending& end) {
   }
   if (end.late) head += ", too late";
   parts.insert(parts.end(), doubted.begin(), doubted.end());
-  if (!whole) parts.push_back(unplanned_text(end));
+  if (end.unplanned > 0) parts.push_back(unplanned_text(end));
+  if (end.faces_left) parts.emplace_back("faces of the CAD shape are not reached (see above)");
   if (end.late) parts.emplace_back("the deadline was past when the plan was there");
   if (end.warned > 0 && !warnings.empty()) parts.push_back(warnings);
   if (end.schema > 0) parts.push_back(counted(end.schema, "deviation", "deviations") + " from the schema");
@@ -152,6 +153,7 @@ namespace {
 void count_findings(const std::vector<FileFinding>& findings, Ending& into) {
   for (const FileFinding& f : findings) {
     if (f.finding.code == verify::kStopped) into.stopped = true;
+    if (f.finding.code == verify::kFacesLeft) into.faces_left = true;
     if (f.schema || f.finding.severity == Severity::kError) continue;
     if (f.finding.unproved) {
       ++into.unproved;

@@ -37,6 +37,7 @@ struct Ending {
   bool open = false;          ///< decisions are left open, so that nothing was checked
   std::size_t condemned = 0;  ///< reasons why it must not be run
   std::string why = {};       ///< what they say (model::text_of)
+  bool faces_left = false;    ///< faces of the CAD shape are not reached (verify::kFacesLeft)
   std::size_t warned = 0;     ///< warnings of the check, which condemn nothing
   std::size_t unproved = 0;   ///< things that the check could not judge (Finding::unproved)
   std::size_t unread = 0;     ///< errors of reading (reading_errors): what they are about is not in the plan

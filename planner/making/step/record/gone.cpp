@@ -92,8 +92,8 @@ std::string made_with(const PlanSoFar& p, const StepDraft& step, const model::Ma
   return ", for " + by + " is cut around the boss '" + own->its_id.value_or("") + "', which stands";
 }
 
-}  // namespace
-
+/// True if a step cuts around a boss no finer than roughing and finishing do, and kept steps of other
+/// features remove all of that material.
 bool cut_around(const PlanSoFar& p, const StepDraft& step) {
   const model::Model& m = p.plan.model;
   const auto boss = [&](const model::FeatureShape& s) {
@@ -108,6 +108,21 @@ bool cut_around(const PlanSoFar& p, const StepDraft& step) {
   return maker != nullptr && AnyRef(maker->its_feature) != step.feature;
 }
 
+/// Roughing, of whatever but a surface.
+bool roughs(const StepDraft& step) {
+  return model::has(step.operation.type, model::OperationTrait::kRoughs) &&
+         !model::has(step.operation.type, model::OperationTrait::kSurface);
+}
+
+}  // namespace
+
+bool may_cut_nothing(const PlanSoFar& p, const StepDraft& step) {
+  const bool finished = std::any_of(p.steps.begin(), p.steps.end(), [&](const StepDraft& s) {
+    return s.member == step.member && s.chain == step.chain && s.in_chain > step.in_chain;
+  });
+  return (finished && roughs(step)) || cut_around(p, step);
+}
+
 bool in_air(const PlanSoFar& p, const StepDraft& step, double removed_mm3) {
   constexpr double kNothingMm3 =
       0.01;  // default, unsourced: the height map cannot distinguish less from nothing
@@ -116,9 +131,7 @@ bool in_air(const PlanSoFar& p, const StepDraft& step, double removed_mm3) {
   if (!step.proposed || removed_mm3 > kNothingMm3 || engagement::head_height(step.cutter)) return false;
   const int rank = model::craft_rank(step.operation.type);
   if (rank == model::craft::kMarks || rank == model::craft::kDrills) return true;
-  const bool rough = model::has(step.operation.type, model::OperationTrait::kRoughs) &&
-                     !model::has(step.operation.type, model::OperationTrait::kSurface);
-  if (rough) return true;
+  if (roughs(step)) return true;
   if (!m.holds<model::Two5dMillingOperation>(step.operation)) return false;
   // A finish stays after other steps of what it finishes: of the same element, where there are several.
   return std::none_of(p.steps.begin(), p.steps.end(), [&](const StepDraft& other) {

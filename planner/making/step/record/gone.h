@@ -13,9 +13,10 @@ namespace capstan::step {
 /// feature's steps removed. A finishing pass after a kept step is not left out: it cuts what bending left.
 [[nodiscard]] bool in_air(const PlanSoFar& p, const draft::StepDraft& step, double removed_mm3);
 
-/// True if a step cuts around a boss no finer than roughing and finishing do, and kept steps of other
-/// features remove all of that material. The boss is then made without the step.
-[[nodiscard]] bool cut_around(const PlanSoFar& p, const draft::StepDraft& step);
+/// True if a step may be left out where the check finds that it cuts nothing: roughing before a finish of its
+/// feature, and the step around a boss, no finer than roughing and finishing, whose material kept steps of
+/// other features remove. The feature is made without it.
+[[nodiscard]] bool may_cut_nothing(const PlanSoFar& p, const draft::StepDraft& step);
 
 /// A proposed step with nothing to cut is taken out of the workplan and of its feature; said as a note. Its
 /// feature is then made by the last kept step over its area (final_features). False, and

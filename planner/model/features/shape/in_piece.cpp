@@ -309,7 +309,12 @@ double unstated_corner_mm(double depth_mm) {
   constexpr double kLeastMm = 3.0, kOfDepth = 1.0 / 6.0;
   return std::max(kLeastMm, kOfDepth * depth_mm);
 }
-double unstated_corner_mm(const FeatureShape& s) { return unstated_corner_mm(s.depth_mm); }
+double unstated_corner_mm(const FeatureShape& s) {
+  constexpr double kOfSide = 0.35;
+  if (s.kind != ShapeKind::kPocket || !s.open) return unstated_corner_mm(s.depth_mm);
+  const auto box = geometry::bounds(s.area);
+  return kOfSide * std::min(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+}
 
 namespace {
 

@@ -16,6 +16,7 @@
 #include "planner/proof/verify/sweep/grid/grid.h"
 #include "planner/proof/verify/sweep/grid/way.h"
 #include "planner/proof/verify/sweep/target/target.h"
+#include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
 namespace {
@@ -308,7 +309,7 @@ std::vector<model::Finding> check_shape(const ProgramText& text, const model::Pl
                        "; leave out the feature that cuts there");
   }
   if (d.left_mm3 > 0.0 || !d.high.empty()) {
-    findings.warn(36, "CHK-SHAPE-LEFT", whole,
+    findings.warn(36, d.high.empty() ? "CHK-SHAPE-LEFT" : std::string(kFacesLeft), whole,
                   "about " + trimmed(d.left_mm3, 2) + " mm3 of " + trimmed(d.asked_mm3, 1) +
                       " stay beside the part in " + of + ", up to " +
                       off_words(d.deepest_left_mm, d.worst_high_mm) + " thick" +

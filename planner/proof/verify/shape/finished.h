@@ -59,8 +59,8 @@ inline constexpr double kFarthestPlaneMm = 3.2;
                                                  const AskedShape& shape);
 
 /// The same of a program that was written of a plan, as its reader reads it; of the plan's own paths where
-/// the text is empty. Findings: CHK-SHAPE (a note with all figures), CHK-SHAPE-LEFT (a warning: 36),
-/// CHK-SHAPE-GOUGE (an error: 11).
+/// the text is empty. Findings: CHK-SHAPE (a note with all figures), CHK-SHAPE-LEFT (a warning: 36;
+/// CHK-SHAPE-FACES where plane faces are not reached), CHK-SHAPE-GOUGE (an error: 11).
 [[nodiscard]] std::vector<model::Finding> check_shape(const ProgramText& program, const model::Plan& plan,
                                                       const AskedShape& shape);
 

@@ -209,7 +209,7 @@ TEST(FinishedShape, FindingsSayWhatIsWrong) {
   const auto left = check_shape({}, moved(&model::CutterPath::z, -10.0, -9.9).plan, shape);
   ASSERT_EQ(left.size(), 2U) << told(left);
   const model::Finding& left_said = left[0].code == "CHK-SHAPE" ? left[1] : left[0];
-  EXPECT_EQ(left_said.code, "CHK-SHAPE-LEFT");
+  EXPECT_EQ(left_said.code, kFacesLeft);
   EXPECT_EQ(left_said.severity, Severity::kWarning);
   EXPECT_THAT(left_said.message, HasSubstr("up to 0.1 mm thick; plane faces not reached: #floor"));
 }

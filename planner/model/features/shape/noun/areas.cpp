@@ -17,18 +17,53 @@ using geometry::Vec2;
 
 namespace {
 
-/// A strip beside a line, on its right or left, as an area.
+/// A strip beside a line, on its right or left, as an area. Where the line turns away from that side, the
+/// strip goes round the corner to where the outer lines of both pieces meet; round a turn sharper than a
+/// right angle that far corner is cut off.
 geometry::Region beside(const std::vector<Vec2>& line, double width, bool right) {
-  geometry::Loop loop(line.begin(), line.end());
-  const double side = right ? 1.0 : -1.0;
-  for (std::size_t i = line.size(); i-- > 0;) {
-    const Vec2 a = line[i == 0 ? 0 : i - 1];
-    const Vec2 b = line[i == 0 ? 1 : i];
-    const Vec2 d = (1.0 / norm(b - a)) * (b - a);
-    loop.push_back(line[i] + (side * width) * Vec2{d.y, -d.x});
+  const double side = right ? width : -width;
+  const auto out_of = [&](std::size_t i) {  // of the piece after point i
+    const Vec2 d = (1.0 / norm(line[i + 1] - line[i])) * (line[i + 1] - line[i]);
+    return side * Vec2{d.y, -d.x};
+  };
+  std::vector<geometry::Loop> loops;
+  const auto add = [&](geometry::Loop loop) {
+    if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
+    loops.push_back(std::move(loop));
+  };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 out = out_of(i);
+    add({line[i], line[i + 1], line[i + 1] + out, line[i] + out});
+    if (i + 2 >= line.size()) break;
+    const Vec2 next = out_of(i + 1);
+    if (!(side * cross(out, next) > 0.0)) continue;
+    const double along = std::max(0.0, dot(out, next)) / (width * width);
+    add({line[i + 1], line[i + 1] + out, line[i + 1] + (1.0 / (1.0 + along)) * (out + next),
+         line[i + 1] + next});
   }
-  if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
-  return geometry::clean({loop});
+  return geometry::clean(loops);
+}
+
+/// What a mill may run out into beyond a mouth: the strip beside it, and where a wall meets it at an acute
+/// angle, as far as the wall would go on, so that the wall is made to its end. Both lines pass the mouth's
+/// two ends.
+geometry::Region before_mouth(const std::vector<Vec2>& walls, const std::vector<Vec2>& mouth, bool right) {
+  constexpr double kLeastSine = 0.17;  // of the angle, 10 degrees; default, unsourced
+  const auto unit = [](Vec2 v) { return norm(v) > 0.0 ? (1.0 / norm(v)) * v : Vec2{}; };
+  geometry::Region out = beside(mouth, kOpenReach, right);
+  const std::size_t w = walls.size(), m = mouth.size();
+  const auto flare = [&](Vec2 end, Vec2 wall, Vec2 inwards, Vec2 along) {
+    const Vec2 square = right ? Vec2{along.y, -along.x} : Vec2{-along.y, along.x};
+    const double sine = dot(wall, square);
+    if (!(dot(wall, inwards) < -1e-6) || sine < kLeastSine) return;
+    geometry::Loop loop = {end, end + kOpenReach * square, end + (kOpenReach / sine) * wall};
+    if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
+    out = geometry::unite(out, geometry::clean({loop}));
+  };
+  const Vec2 first = unit(mouth[1] - mouth[0]), last = unit(mouth[m - 1] - mouth[m - 2]);
+  flare(mouth[0], unit(walls[w - 1] - walls[w - 2]), first, first);
+  flare(mouth[m - 1], unit(walls[0] - walls[1]), -1.0 * last, last);
+  return out;
 }
 
 geometry::Region without_islands(const FeatureShape& s, geometry::Region r) {
@@ -127,14 +162,14 @@ Result<Shapes> pocket(const Model& m, AnyRef self, const Pocket& f) {
   // A stated corner radius rounds the inside corners between walls; where a wall meets the mouth there is
   // none.
   if (s->corner_radius_mm > 0.0) {
-    const auto beyond = geometry::unite(s->area, beside(mouth, kOpenReach, !clockwise));
+    const auto beyond = geometry::unite(s->area, before_mouth(*walls, mouth, !clockwise));
     auto rounded = rounded_corners(m, self, beyond, s->corner_radius_mm);
     if (!rounded) return tl::unexpected(rounded.error());
     s->area = geometry::intersect(s->area, *rounded);
   }
   if (auto ok = add_islands(m, f.its_boss, *s); !ok) return tl::unexpected(ok.error());
   // The mouth is passed in the sense of the loop: the outside lies on its right.
-  s->reach = without_islands(*s, geometry::unite(s->area, beside(mouth, kOpenReach, !clockwise)));
+  s->reach = without_islands(*s, geometry::unite(s->area, before_mouth(*walls, mouth, !clockwise)));
   return Shapes{*s};
 }
 
