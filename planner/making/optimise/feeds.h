@@ -123,6 +123,13 @@ void enter_as_a_slot(FeedQuestion& question, double ae_mm, const model::CutterPa
 /// in its own speed.
 void slow_in_deep_slots(FeedQuestion& question);
 
+/// Where a piece of a move ends, as a share of the move's length; 1: at its end.
+struct PieceEnd {
+  std::uint32_t move = 0;
+  double share = 1.0;
+  friend bool operator==(const PieceEnd&, const PieceEnd&) = default;
+};
+
 /// Splits feed moves (lines and arcs) where the allowed feed of their sections changes. A move has one feed,
 /// so that without this a heavy corner at its end would slow all of it. The path itself does not change.
 /// Pieces are at least a fifth of the diameter long, and made only where they save time. A heavy place that
@@ -131,9 +138,11 @@ void slow_in_deep_slots(FeedQuestion& question);
 /// Needs   samples and sections of this very path, `at_mm` from the start of each move, steps of samples that
 ///         do not overlap (but the second rectangle of one step). `sections` may be null.
 /// Shape   samples, sections and factors are renumbered with the moves; a dwell stays at the end of the last
-///         piece.
-void split_moves(FeedQuestion& question, model::CutterPath& path, model::SectionSeries* sections,
-                 KnownFeeds* known = nullptr);
+///         piece. Gives the pieces of all moves in order.
+std::vector<PieceEnd> split_moves(FeedQuestion& question, model::CutterPath& path,
+                                  model::SectionSeries* sections, KnownFeeds* known = nullptr);
+/// The path with its moves in these pieces. Needs  pieces of all its moves in order.
+[[nodiscard]] model::CutterPath in_pieces(const model::CutterPath& path, const std::vector<PieceEnd>& pieces);
 
 /// Relative excess over the limits of a sample at a feed, computed directly: the largest of load / limit - 1.
 /// Negative if all limits hold; nothing if the section is outside the formulas' range.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "planner/physics/engagement/planar/planar.h"
 
@@ -75,34 +77,103 @@ TEST(RememberedSections, OnCellsDependOnAllThatALookReaches) {
   }
 }
 
-TEST(RememberedSections, LeaveTheStockAsMeasuringDoes) {
-  const geometry::Box3 box{{-30, -30, -10}, {30, 30, 0}};
-  const model::Cutter mill = cutter(6.0);
+/// A slot of two lines with an arc between, down a ramp, from `at` on; whole numbers of mm but for the place.
+model::CutterPath slot(geometry::Vec2 at, double down = 1.0) {
   model::CutterPath path;
-  path.start({-40, 0, -2});
-  path.line({0, 0, -2}, model::MoveRole::kCut);
-  path.arc({10, 10, -3}, {0, 10}, false, model::MoveRole::kCut);
-  const engagement::Options options{.step_mm = 0.3};
+  path.start({at.x - 10, at.y, down - 3});
+  path.line({at.x, at.y, down - 3}, model::MoveRole::kCut);
+  path.arc({at.x + 10, at.y + 10, -3}, {at.x, at.y + 10}, false, model::MoveRole::kRamp);
+  path.line({at.x + 10, at.y + 20, -3}, model::MoveRole::kCut);
+  return path;
+}
+
+const geometry::Box3 kPlate{{-40, -40, -10}, {200, 100, 0}};
+const engagement::Options kSteps{.step_mm = 0.3};
+
+TEST(RememberedSections, LeaveTheStockAsCuttingDoes) {
+  const model::Cutter mill = cutter(6.0);
+  const auto path = slot({0, 0});
   memo::Memo memo;
-  auto first = stock::PlanarStock::from_box(box), again = stock::PlanarStock::from_box(box),
-       alone = stock::PlanarStock::from_box(box);
-  const auto want = engagement::measure(path, mill, alone, options);
-  const auto made = measure_again(first, path, mill, options, &memo);
-  const auto found = measure_again(again, path, mill, options, &memo);
-  ASSERT_TRUE(want && made && found);
+  auto first = stock::PlanarStock::from_box(kPlate), again = first, alone = first;
+  ASSERT_TRUE(alone.cut(model::profile_of(mill), path));
+  const auto made = measure_again(first, path, mill, kSteps, &memo);
+  const auto found = measure_again(again, path, mill, kSteps, &memo);
+  ASSERT_TRUE(made && found);
   EXPECT_EQ(memo.counts(memo::Stage::kSections).found, 1U);
-  EXPECT_TRUE(same(*want, *made) && same(*want, *found));
-  std::string a, b, c;
-  alone.describe({-30, -30}, {30, 30}, a);
-  first.describe({-30, -30}, {30, 30}, b);
-  again.describe({-30, -30}, {30, 30}, c);
-  EXPECT_EQ(a, b);
-  EXPECT_EQ(a, c);
+  EXPECT_TRUE(same(*made, *found));
+  for (double x = -20.0; x < 20.0; x += 0.7) {
+    for (double y = -10.0; y < 30.0; y += 0.7) {
+      EXPECT_EQ(first.height_at({x, y}), alone.height_at({x, y}));
+      EXPECT_EQ(again.height_at({x, y}), alone.height_at({x, y}));
+    }
+  }
   // And the same path once more meets nothing, whether remembered or not.
-  const auto nothing = measure_again(again, path, mill, options, &memo);
+  const auto nothing = measure_again(again, path, mill, kSteps, &memo);
   ASSERT_TRUE(nothing);
   EXPECT_EQ(memo.counts(memo::Stage::kSections).found, 1U) << "the stock is another one now";
   EXPECT_LT(nothing->removed_mm3, 1e-9);
+}
+
+TEST(RememberedSections, OfAnEqualCutElsewhereAreTheSameWithAndWithoutMemory) {
+  const model::Cutter rough = cutter(6.0), finish = cutter(8.0);
+  memo::Memo memo;
+  auto kept = stock::PlanarStock::from_box(kPlate), bare = kept;
+  std::vector<engagement::Measurement> roughed, finished;
+  // Places that no double holds, and tiles of the stock (5 mm) lie otherwise about each.
+  const std::vector<geometry::Vec2> places{{0, 0}, {41.3, 7.1}, {83.7, 0.1}, {126.1, 13.7}};
+  for (const geometry::Vec2 at : places) {
+    for (const model::Cutter* mill : {&rough, &finish}) {
+      const auto with = measure_again(kept, slot(at), *mill, kSteps, &memo);
+      const auto without = measure_again(bare, slot(at), *mill, kSteps, nullptr);
+      ASSERT_TRUE(with && without);
+      EXPECT_TRUE(same(*with, *without)) << "at " << at.x << ", " << at.y;
+      (mill == &rough ? roughed : finished).push_back(*with);
+    }
+  }
+  EXPECT_EQ(memo.counts(memo::Stage::kSections).made, 2U) << "one of each cutter";
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    EXPECT_TRUE(same(roughed[0], roughed[i]));
+    EXPECT_TRUE(same(finished[0], finished[i]));
+  }
+  EXPECT_GT(finished[0].removed_mm3, 1.0);
+}
+
+TEST(RememberedSections, OfAnEqualPathThroughOtherMaterialAreOthers) {
+  const model::Cutter mill = cutter(6.0);
+  memo::Memo memo;
+  auto stock = stock::PlanarStock::from_box(kPlate);
+  model::CutterPath beside;  // a hole beside the second slot, which its wall just meets
+  beside.start({50.0, -5.5, 5.0});
+  beside.line({50.0, -5.5, -5.0}, model::MoveRole::kPlunge);
+  ASSERT_TRUE(stock.cut(model::profile_of(mill), beside));
+  const auto whole = measure_again(stock, slot({0, 0}), mill, kSteps, &memo);
+  const auto holed = measure_again(stock, slot({55, 0}), mill, kSteps, &memo);
+  const auto at_the_side = measure_again(stock, slot({0, -36}), mill, kSteps, &memo);
+  ASSERT_TRUE(whole && holed && at_the_side);
+  EXPECT_EQ(memo.counts(memo::Stage::kSections).found, 0U);
+  EXPECT_LT(holed->removed_mm3, whole->removed_mm3);
+}
+
+// A rounding of 4.7e-10 mm moves an area by as much times its outline; floors that slope are read in strips,
+// to 1e-3 of diameter times depth (planar.h), and their strips begin where the rounding says.
+TEST(RememberedSections, AreThoseOfTheWholeStockToTheRoundingOfTheOwnFrame) {
+  const model::Cutter mill = cutter(6.0);
+  for (const auto& [down, within] : {std::pair{0.0, 1e-6}, std::pair{1.0, 1e-3 * 6.0 * 3.0}}) {
+    for (const geometry::Vec2 at :
+         {geometry::Vec2{0, 0}, geometry::Vec2{41.3, 7.1}, geometry::Vec2{-27, 0}}) {
+      auto own = stock::PlanarStock::from_box(kPlate), whole = own;
+      for (const double side : {0.0, 3.5}) {
+        const auto path = slot({at.x + side, at.y}, down);
+        const auto a = measure_again(own, path, mill, kSteps, nullptr);
+        const auto b = engagement::measure(path, mill, whole, kSteps);
+        ASSERT_TRUE(a && b);
+        ASSERT_EQ(a->sections.size(), b->sections.size());
+        EXPECT_NEAR(a->removed_mm3, b->removed_mm3, within);
+        for (std::size_t i = 0; i < a->sections.size(); ++i)
+          EXPECT_NEAR(a->sections.csa_mm2[i], b->sections.csa_mm2[i], within);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -183,7 +183,7 @@ class Pieces {
   }
 
  private:
-  static constexpr double kRounding = 1e-9;
+  static constexpr double kRounding = 1e-8;  ///< of lengths, of a path in its own frame, too
 
   /// Merges from the left until no piece is much shorter than the minimum, to bound the remaining work.
   static std::vector<Piece> binned(const std::vector<Piece>& p, double least_mm, double length) {
@@ -234,7 +234,7 @@ void repeat(std::vector<T>& to, const std::vector<T>& from, std::size_t i, std::
 template <class Move, class At>
 void renumber(std::size_t first, std::size_t last, const std::vector<Piece>& pieces, std::size_t base,
               Move move, At at) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-8;
   std::size_t piece = 0;
   double from = 0.0;
   for (std::size_t k = first; k < last; ++k) {
@@ -253,11 +253,19 @@ bool may_be_cut(const FeedQuestion& q, const CutterPath& path, std::size_t i) {
 
 }  // namespace
 
-void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s, KnownFeeds* known) {
+CutterPath in_pieces(const CutterPath& path, const std::vector<PieceEnd>& pieces) {
+  CutterPath out;
+  for (const PieceEnd& e : pieces)
+    push(out, path, e.move, e.share < 1.0 ? model::point_on_move(path, e.move, e.share) : path.point(e.move));
+  return out;
+}
+
+std::vector<PieceEnd> split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s,
+                                  KnownFeeds* known) {
   const double least = kLeastPiece * q.cut.cutter.cutting_diameter_mm;
   CutClasses classes(q, known);
   Pieces pieces_of(q, classes);
-  CutterPath out;
+  std::vector<PieceEnd> out;
   std::vector<double> feed;
   std::vector<double> speed;
   std::vector<double> dwell;
@@ -289,8 +297,8 @@ void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s, Kno
           [&](std::size_t k) -> double& { return s->at_mm[k]; });
     }
     for (std::size_t k = 0; k + 1 < pieces.size(); ++k)
-      push(out, path, i, model::point_on_move(path, i, pieces[k].end_mm / length));
-    push(out, path, i, path.point(i));
+      out.push_back({static_cast<std::uint32_t>(i), pieces[k].end_mm / length});
+    out.push_back({static_cast<std::uint32_t>(i), 1.0});
     repeat(feed, q.feed_factor, i, pieces.size());
     repeat(speed, q.speed_factor, i, pieces.size());
     if (i < q.dwell_s.size()) {
@@ -298,11 +306,12 @@ void split_moves(FeedQuestion& q, CutterPath& path, model::SectionSeries* s, Kno
       dwell.push_back(q.dwell_s[i]);
     }
   }
-  path = std::move(out);
+  path = in_pieces(path, out);
   q.samples = std::move(samples);
   q.feed_factor = std::move(feed);
   q.speed_factor = std::move(speed);
   q.dwell_s = std::move(dwell);
+  return out;
 }
 
 }  // namespace capstan::optimise

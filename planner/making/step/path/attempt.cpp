@@ -1,6 +1,7 @@
 #include "planner/making/step/path/attempt.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "planner/ground/base/earlier_diagnostics.h"
@@ -18,6 +19,7 @@
 #include "planner/making/step/record/results.h"
 #include "planner/making/workholding/clear_of_fixtures.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/path/own_frame.h"
 #include "planner/model/plan/range/columns_agree.h"
 #include "planner/physics/engagement/kept_digits.h"
 
@@ -94,48 +96,74 @@ Result<toolpath::GeneratedPath> generated(const toolpath::PathJob& task, const M
   return std::move(known->path);
 }
 
-/// Feeds along a path, with the path and what belongs to its moves as they are split for them.
+/// Feeds along a path, with what belongs to its moves as they are split for them.
 struct Scheduled {
   optimise::FeedAnswer feeds;
-  model::CutterPath path;
+  std::vector<optimise::PieceEnd> pieces;  ///< of a path that was split
   model::SectionSeries sections;
   std::vector<optimise::CutSample> samples;
   std::vector<double> feed_factor, speed_factor, dwell_s;
 };
 
-bool sound(const Scheduled& s) {
+/// Whether it can be one of this path.
+bool sound(const Scheduled& s, const model::CutterPath& path, bool split) {
   const model::FeedSchedule& f = s.feeds.schedule;
-  return model::columns_agree(s.path) && model::columns_agree(s.sections) &&
-         model::of_one_length(s.path, f.feed_mm_min, f.spindle_rpm, f.dwell_s) &&
+  const std::size_t moves = split ? s.pieces.size() : path.size();
+  return f.feed_mm_min.size() == moves && f.spindle_rpm.size() == moves && f.dwell_s.size() == moves &&
+         model::columns_agree(s.sections) &&
+         std::all_of(s.pieces.begin(), s.pieces.end(),
+                     [&](const optimise::PieceEnd& e) {
+                       return e.move < path.size() && (e.move > 0 || e.share == 1.0);
+                     }) &&
          std::all_of(s.samples.begin(), s.samples.end(),
-                     [&](const optimise::CutSample& one) { return one.move < s.path.size(); });
+                     [&](const optimise::CutSample& one) { return one.move < moves; });
+}
+
+/// Decimals of a place that was found in a path's own frame, whose grid is coarser.
+constexpr double kPlaces = 1e9;
+
+/// A path in its own frame. What feeds are asked of is taken from it, so that equal paths at other places ask
+/// the same and have one answer.
+struct OwnPath {
+  geometry::Vec2 origin;
+  model::CutterPath path;
+};
+OwnPath own_path(const model::CutterPath& path) {
+  const geometry::Vec2 origin = model::own_origin(path);
+  return {origin, model::in_own_frame(path, origin)};
 }
 
 /// Splits the moves by their sections, where there are some, and schedules the feeds of all.
-void schedule(MeasuredCut& cut, model::SectionSeries* sections, const Means& means) {
+void schedule(MeasuredCut& cut, model::SectionSeries* sections, OwnPath own, const Means& means) {
   optimise::FeedQuestion& asked = cut.asked;
-  const auto make = [&] {
-    if (sections != nullptr) optimise::split_moves(asked, *cut.path, sections, &means.cuts.known_feeds());
-    return optimise::feeds(asked, *cut.path, &means.cuts.known_feeds());
-  };
-  if (means.memo == nullptr) {
-    cut.feeds = make();
-    return;
-  }
-  const auto key = memo::key_of(memo::Stage::kFeeds, asked, *cut.path, sections);
+  const auto key =
+      means.memo != nullptr ? memo::key_of(memo::Stage::kFeeds, asked, own.path, sections) : memo::Key{};
   auto answer = memo::remembered<Scheduled>(
       means.memo, memo::Stage::kFeeds, key,
       [&]() -> Result<Scheduled> {
-        Scheduled out{make(),       *cut.path, {}, asked.samples, asked.feed_factor, asked.speed_factor,
-                      asked.dwell_s};
+        Scheduled out;
+        if (sections != nullptr)
+          out.pieces = optimise::split_moves(asked, own.path, sections, &means.cuts.known_feeds());
+        out.feeds = optimise::feeds(asked, own.path, &means.cuts.known_feeds());
+        out.samples = asked.samples;
+        out.feed_factor = asked.feed_factor;
+        out.speed_factor = asked.speed_factor;
+        out.dwell_s = asked.dwell_s;
         if (sections != nullptr) out.sections = *sections;
         return out;
       },
-      [](const Scheduled& s) { return sound(s); });
+      [&](const Scheduled& s) { return sound(s, *cut.path, sections != nullptr); });
   Scheduled known = *std::move(answer);
   cut.feeds = std::move(known.feeds);
-  *cut.path = std::move(known.path);
-  if (sections != nullptr) *sections = std::move(known.sections);
+  if (auto& at = cut.feeds.worst.at_mm) {
+    at->x = std::round((at->x + own.origin.x) * kPlaces) / kPlaces;
+    at->y = std::round((at->y + own.origin.y) * kPlaces) / kPlaces;
+    at->z = std::round(at->z * kPlaces) / kPlaces;
+  }
+  if (sections != nullptr) {
+    *cut.path = optimise::in_pieces(*cut.path, known.pieces);
+    *sections = std::move(known.sections);
+  }
   asked.samples = std::move(known.samples);
   asked.feed_factor = std::move(known.feed_factor);
   asked.speed_factor = std::move(known.speed_factor);
@@ -272,15 +300,16 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
   r.axial_depth_mm = made.answer.ap_mm;
   r.radial_depth_mm = made.answer.ae_mm;
   r.active = active_of(made.answer);
+  OwnPath own = own_path(*out.path);
   const bool thread = model::mills_threads(step.cutter.cutter_class) && !step.shapes.empty();
   auto m = thread ? measured_thread(plan.model, step, *out.path, means)
                   : measured(plan.model, step, *out.path, means.stocks, means.job);
   if (m) {
     out.removed_mm3 = m->removed_mm3;
     out.rapid_removed_mm3 = m->rapid_removed_mm3;
-    fq.samples = samples_of(*m, *out.path, step.cutter);
+    fq.samples = samples_of(*m, own.path, step.cutter);
     fq.known_to_mm = m->known_to_mm;
-    if (fq.cut.constant_engagement) optimise::enter_as_a_slot(fq, made.answer.ae_mm, *out.path);
+    if (fq.cut.constant_engagement) optimise::enter_as_a_slot(fq, made.answer.ae_mm, own.path);
     const bool own_speed = step.open_technology ? !step.keep_speed : speed_was_planned(plan, step);
     if (own_speed) optimise::slow_in_deep_slots(fq);
     // One pass over a surface, not levels: as deep and as wide as what roughing left there.
@@ -292,12 +321,12 @@ MeasuredCut measured_cut(model::Plan& plan, const PlanSoFar& p, const StepDraft&
         r.radial_depth_mm = std::max(r.radial_depth_mm, ae);
       }
     }
-    schedule(out, &m->sections, means);
+    schedule(out, &m->sections, std::move(own), means);
     engagement::keep_digits(m->sections, m->known_to_mm);
     r.sections = std::make_shared<const model::SectionSeries>(std::move(m->sections));
   } else {
-    if (thread) fq.samples = bound_samples(thread_bound(step.cutter, step.shapes.front()), *out.path);
-    schedule(out, nullptr, means);
+    if (thread) fq.samples = bound_samples(thread_bound(step.cutter, step.shapes.front()), own.path);
+    schedule(out, nullptr, std::move(own), means);
   }
   out.made = std::move(made);
   return out;

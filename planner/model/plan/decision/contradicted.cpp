@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/has_reason.h"
 #include "planner/model/plan/decision/unreadable.h"
 
 namespace capstan::model {
@@ -26,6 +27,7 @@ std::string name_of(const Plan& plan, AnyRef at) {
 
 std::vector<Contradiction> contradictions(const Plan& plan) {
   std::vector<Contradiction> out;
+  if (!has_reason(plan.ledger, kContradicted)) return out;
   for (const auto& [key, decision] : plan.ledger.entries()) {
     const Reason& why = plan.ledger.reason(decision.reason);
     if (why.id == kContradicted) out.push_back({key, why.text});

@@ -1,5 +1,7 @@
 #include "planner/model/plan/decision/fresh_edits.h"
 
+#include "planner/model/plan/decision/has_reason.h"
+
 // A decision that was read has the hash of its value (Decision::value_hash), and writing computes it anew,
 // but for the 0 that `take_edits` leaves.
 
@@ -16,6 +18,7 @@ std::uint64_t written_hash(const Model& written, const Ledger& ledger, const Dec
 
 std::vector<DecisionKey> fresh_edits(const Ledger& ledger) {
   std::vector<DecisionKey> out;
+  if (!has_reason(ledger, kEditedReason)) return out;
   for (const auto& [key, d] : ledger.entries()) {
     if (is_fresh_edit(ledger, d)) out.push_back(key);
   }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "planner/model/plan/decision/has_reason.h"
+
 namespace capstan::model {
 
 void set_not_recognised(Plan& plan, AnyRef feature, std::string why) {
@@ -11,6 +13,7 @@ void set_not_recognised(Plan& plan, AnyRef feature, std::string why) {
 
 std::map<AnyRef, std::string> not_recognised(const Plan& plan) {
   std::map<AnyRef, std::string> out;
+  if (!has_reason(plan.ledger, kNotRecognised)) return out;
   for (const auto& [key, decision] : plan.ledger.entries()) {
     const Reason& why = plan.ledger.reason(decision.reason);
     if (why.id == kNotRecognised) out.emplace(key.object, why.text);

@@ -6,6 +6,7 @@
 
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/decision/has_reason.h"
 
 namespace capstan::model {
 
@@ -91,6 +92,7 @@ struct Leads::Referrers {
 
 std::vector<Unreadable> unreadable(const Plan& plan) {
   std::vector<Unreadable> out;
+  if (!has_reason(plan.ledger, kUnreadable)) return out;
   for (const auto& [key, decision] : plan.ledger.entries()) {
     const Reason& why = plan.ledger.reason(decision.reason);
     if (why.id != kUnreadable) continue;

@@ -40,24 +40,6 @@ constexpr double kLeastTile = 1.0;    // mm
 
 bool finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// Rectangle around everything that a trail covers.
-void bounds_of(const Trail& t, Vec2& lo, Vec2& hi) {
-  lo = {std::min(t.a.x, t.b.x), std::min(t.a.y, t.b.y)};
-  hi = {std::max(t.a.x, t.b.x), std::max(t.a.y, t.b.y)};
-  if (t.arc) {
-    const double side = t.turn_rad >= 0.0 ? 1.0 : -1.0;
-    for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}}) {
-      if (side * cross(t.along, d) < 0.0 || side * cross(d, t.last) < 0.0) continue;
-      const Vec2 p = t.centre + t.path_radius_mm * d;
-      lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
-      hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
-    }
-  }
-  const Vec2 r{t.radius_mm, t.radius_mm};
-  lo = lo - r;
-  hi = hi + r;
-}
-
 /// How far from the axis an outline is lower than a height above its tip, never too little.
 double reach_of(const CutterProfile& outline, double radius_mm, double height_mm) {
   if (outline.height(radius_mm) <= height_mm) return radius_mm;
@@ -84,6 +66,7 @@ PlanarStock PlanarStock::from_box(const Box3& box, double tile_mm) {
   s.ny_ = std::max(1, static_cast<int>(std::ceil(size.y / s.tile_mm_)));
   s.tiles_.resize(static_cast<std::size_t>(s.nx_) * static_cast<std::size_t>(s.ny_));
   for (Tile& t : s.tiles_) t.highest_mm = box.hi.z;
+  s.reaching_.resize(s.tiles_.size());
   return s;
 }
 
@@ -126,8 +109,7 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
   tiles_of(lo, hi, x0, x1, y0, y1);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      Tile& tile =
-          tiles_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x)];
+      Tile& tile = tiles_[number_of(x, y)];
       if (t.lowest_mm >= tile.highest_mm) continue;
       if (!tile.trails.empty() && tile.trails.back() == id) continue;
       const Vec2 middle{box_.lo.x + (x + 0.5) * tile_mm_, box_.lo.y + (y + 0.5) * tile_mm_};
@@ -196,7 +178,6 @@ bool PlanarStock::covered(const Trail& trail, const std::vector<std::uint32_t>& 
 
 void PlanarStock::take(Trail trail) {
   tick();
-  if (record_ != nullptr) record_->push_back(trail);
   if (trail.outline != nullptr) {  // what of it goes over the piece's top matters to nobody
     const double most = reach_of(*trail.outline, trail.radius_mm, box_.hi.z - trail.za);
     if (!(most > kTouch)) return;
@@ -205,9 +186,13 @@ void PlanarStock::take(Trail trail) {
   }
   Vec2 lo, hi;
   bounds_of(trail, lo, hi);
-  if (highest(lo, hi) <= trail.lowest_mm) return;
+  if (trail.lowest_mm >= box_.hi.z || lo.x >= box_.hi.x || hi.x <= box_.lo.x || lo.y >= box_.hi.y ||
+      hi.y <= box_.lo.y)
+    return;
   const auto id = static_cast<std::uint32_t>(trails_.size());
   trails_.push_back(trail);
+  note(id, lo, hi);
+  if (highest(lo, hi) <= trail.lowest_mm) return;
   // A long skew track crosses few of the tiles in its rectangle: looked through in stretches.
   const double stretch = std::max(16.0 * tile_mm_, 2.0 * trail.radius_mm);
   if (trail.arc || trail.length_mm <= 2.0 * stretch) return place(id, lo, hi);
@@ -221,9 +206,20 @@ void PlanarStock::take(Trail trail) {
   }
 }
 
+void PlanarStock::note(std::uint32_t id, Vec2 lo, Vec2 hi) {
+  int x0, x1, y0, y1;
+  tiles_of(lo, hi, x0, x1, y0, y1);
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      reaching_[number_of(x, y)].push_back(id);
+      reached_.push_back(number_of(x, y));
+    }
+  }
+}
+
 PlanarStock::Mark PlanarStock::mark() {
   ++marks_;
-  return {changes_.size(), trails_.size(), lost_};
+  return {changes_.size(), trails_.size(), reached_.size(), lost_};
 }
 
 void PlanarStock::put_back(const Mark& mark) {
@@ -232,6 +228,10 @@ void PlanarStock::put_back(const Mark& mark) {
     changes_.pop_back();
   }
   trails_.resize(mark.trails);
+  while (reached_.size() > mark.reached) {
+    reaching_[reached_.back()].pop_back();
+    reached_.pop_back();
+  }
   lost_ = mark.lost;
 }
 
@@ -245,6 +245,12 @@ PlanarStock::Undone PlanarStock::take_out(const Mark& mark) {
     changes_.pop_back();
   }
   out.trails_.assign(trails_.begin() + static_cast<std::ptrdiff_t>(mark.trails), trails_.end());
+  for (std::size_t k = reached_.size(); k-- > mark.reached;) {
+    auto& there = reaching_[reached_[k]];
+    out.reached_.emplace_back(reached_[k], there.back());
+    there.pop_back();
+  }
+  reached_.resize(mark.reached);
   put_back(mark);
   return out;
 }
@@ -257,10 +263,17 @@ void PlanarStock::put_in(Undone undone) {
     changes_.push_back(std::move(*t));
   }
   trails_.insert(trails_.end(), undone.trails_.begin(), undone.trails_.end());
+  for (auto r = undone.reached_.rbegin(); r != undone.reached_.rend(); ++r) {
+    reaching_[r->first].push_back(r->second);
+    reached_.push_back(r->first);
+  }
   lost_ = std::move(undone.lost_);
 }
 
-void PlanarStock::forget() { changes_.clear(); }
+void PlanarStock::forget() {
+  changes_.clear();
+  reached_.clear();
+}
 
 double PlanarStock::highest(Vec2 lo, Vec2 hi) const {
   tick();
@@ -270,10 +283,7 @@ double PlanarStock::highest(Vec2 lo, Vec2 hi) const {
   tiles_of(lo, hi, x0, x1, y0, y1);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      best = std::max(
-          best,
-          tiles_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x)]
-              .highest_mm);
+      best = std::max(best, tiles_[number_of(x, y)].highest_mm);
     }
   }
   return best;
@@ -334,8 +344,7 @@ void PlanarStock::gather(Vec2 lo, Vec2 hi, Nearby& out) const {
   tiles_of(lo, hi, x0, x1, y0, y1);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      const Tile& tile =
-          tiles_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x)];
+      const Tile& tile = tiles_[number_of(x, y)];
       for (const std::uint32_t id : tile.trails) {
         if (out.seen[id] == out.round) continue;
         out.seen[id] = out.round;

@@ -10,6 +10,7 @@
 #include "planner/ground/geometry/profile.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/cutter_path.h"
+#include "planner/physics/stock/planar/part.h"
 #include "planner/physics/stock/planar/probe.h"
 #include "planner/physics/stock/planar/trail.h"
 
@@ -61,25 +62,15 @@ class PlanarStock {
   /// A copy of the profile that lives as long as this stock and its copies; null for a flat one.
   [[nodiscard]] const geometry::CutterProfile* keep(const geometry::CutterProfile& profile);
 
-  /// Appends what of the stock may matter between lo and hi: the piece, the tiles there and their trails,
-  /// packed (memo/packed.h). Where two stocks say the same, cutting and asking there give the same, to the
-  /// bit.
-  void describe(geometry::Vec2 lo, geometry::Vec2 hi, std::string& bytes) const;
-  /// While one lives, trails are added to `to` as they are given to `take`.
-  class Recording {
-   public:
-    Recording(PlanarStock& stock, std::vector<Trail>& to) : stock_(stock) { stock.record_ = &to; }
-    ~Recording() { stock_.record_ = nullptr; }
-    Recording(const Recording&) = delete;
-    Recording& operator=(const Recording&) = delete;
-
-   private:
-    PlanarStock& stock_;
-  };
+  /// What of the stock matters to a look or a cut between lo and hi, which are in the own frame of `origin`.
+  /// Every trail that reaches there is in it, superfluous ones too: which of them tiles keep depends on where
+  /// these lie.
+  [[nodiscard]] PlanarPart part(geometry::Vec2 lo, geometry::Vec2 hi, geometry::Vec2 origin) const;
+  [[nodiscard]] static PlanarStock from_part(const PlanarPart& part);
 
   /// The stock at a moment. Changes after `mark` are recorded, so that `put_back` can undo them.
   struct Mark {
-    std::size_t changes = 0, trails = 0;
+    std::size_t changes = 0, trails = 0, reached = 0;
     std::string lost;
   };
   [[nodiscard]] Mark mark();
@@ -90,6 +81,7 @@ class PlanarStock {
     friend class PlanarStock;
     std::vector<std::pair<std::size_t, Tile>> tiles_;  ///< after their changes, youngest first
     std::vector<Trail> trails_;
+    std::vector<std::pair<std::size_t, std::uint32_t>> reached_;
     std::string lost_;
   };
   [[nodiscard]] Undone take_out(const Mark& mark);
@@ -129,6 +121,10 @@ class PlanarStock {
  private:
   PlanarStock() = default;
   void tiles_of(geometry::Vec2 lo, geometry::Vec2 hi, int& x0, int& x1, int& y0, int& y1) const;
+  [[nodiscard]] std::size_t number_of(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
+  }
+  void note(std::uint32_t id, geometry::Vec2 lo, geometry::Vec2 hi);
   void place(std::uint32_t id, geometry::Vec2 lo, geometry::Vec2 hi);
   void thin(Tile& tile, geometry::Vec2 middle);
   bool covered(const Trail& trail, const std::vector<std::uint32_t>& others, geometry::Vec2 middle,
@@ -143,8 +139,9 @@ class PlanarStock {
   std::vector<std::shared_ptr<const geometry::CutterProfile>> outlines_;
   std::string lost_;
   std::vector<std::pair<std::size_t, Tile>> changes_;  ///< tiles before they were changed, oldest first
-  std::vector<Trail>* record_ = nullptr;
-  std::uint32_t marks_ = 0;  ///< how many were made
+  std::vector<std::vector<std::uint32_t>> reaching_;   ///< by tile: all trails whose rectangles reach into it
+  std::vector<std::size_t> reached_;                   ///< tiles that were added to, since the last `forget`
+  std::uint32_t marks_ = 0;                            ///< how many were made
 };
 
 }  // namespace capstan::stock

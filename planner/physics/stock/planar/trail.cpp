@@ -168,6 +168,23 @@ bool Trail::lower(const Probe& probe, double above_mm, Heights& heights) const {
   return any;
 }
 
+void bounds_of(const Trail& t, Vec2& lo, Vec2& hi) {
+  lo = {std::min(t.a.x, t.b.x), std::min(t.a.y, t.b.y)};
+  hi = {std::max(t.a.x, t.b.x), std::max(t.a.y, t.b.y)};
+  if (t.arc) {
+    const double side = t.turn_rad >= 0.0 ? 1.0 : -1.0;
+    for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}}) {
+      if (side * cross(t.along, d) < 0.0 || side * cross(d, t.last) < 0.0) continue;
+      const Vec2 p = t.centre + t.path_radius_mm * d;
+      lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
+      hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+    }
+  }
+  const Vec2 r{t.radius_mm, t.radius_mm};
+  lo = lo - r;
+  hi = hi + r;
+}
+
 std::vector<Trail> trails_of(const model::CutterPath& path, std::size_t i, double radius_mm,
                              const geometry::CutterProfile* outline) {
   std::vector<Trail> out;

@@ -56,6 +56,9 @@ struct Trail {
   bool lower(const Probe& probe, double above_mm, Heights& heights) const;
 };
 
+/// Rectangle around everything that a trail covers.
+void bounds_of(const Trail& t, geometry::Vec2& lo, geometry::Vec2& hi);
+
 /// Distances closer than this are the same, mm.
 inline constexpr double kTouch = 1e-9;
 
