@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <unordered_map>
 
@@ -47,12 +48,15 @@ struct Place {
 };
 
 template <class Point = model::CartesianPoint>
-model::Ref<model::CartesianPoint> add_point(model::Model& m, std::vector<double> coordinates) {
-  Point p;
-  p.name = "";
-  for (double& c : coordinates) c += 0.0;
-  p.coordinates = {std::move(coordinates), true};
-  return m.add(std::move(p));
+model::Ref<model::CartesianPoint> add_point(model::Model& m, std::span<const double> coordinates) {
+  const AnyRef at = m.add_object(Point::kType);
+  auto& p = *static_cast<Point*>(m.object(at));  // made in its place: there may be millions
+  p.name.emplace();
+  p.coordinates.items.resize(coordinates.size());
+  std::transform(coordinates.begin(), coordinates.end(), p.coordinates.items.begin(),
+                 [](double c) { return c + 0.0; });
+  p.coordinates.given = true;
+  return model::Ref<model::CartesianPoint>(at);
 }
 
 /// Numbers by their bits; 0 and -0 are equal.
@@ -106,7 +110,7 @@ class Curves {
       const Of v = numbers(at);
       if (!last || v != before) {
         auto& p = known[v];
-        if (!p) p = add_point(m_, {v.begin(), v.end()});
+        if (!p) p = add_point(m_, v);
         last = p;
         before = v;
       }
@@ -133,7 +137,7 @@ class Curves {
     if (!p) p = add_point(m_, numbers(p_.point(i)));
     return p;
   }
-  [[nodiscard]] std::vector<double> numbers(Vec3 p) const {
+  [[nodiscard]] std::array<double, 3> numbers(Vec3 p) const {
     const Vec3 q = f_.to_local(p);
     return {q.x, q.y, q.z};
   }
@@ -161,7 +165,7 @@ class Curves {
       }
       if (!reads_back(i, points, helix)) continue;
       for (std::size_t k = 0; k < n; ++k) {
-        const std::vector<double> c = {points[k].x, points[k].y, points[k].z};
+        const std::array c = {points[k].x, points[k].y, points[k].z};
         out.push_back({helix ? add_point<model::ViaHelixPoint>(m_, c) : add_point<model::ViaArcPoint>(m_, c),
                        i, at[k] * length});
       }
