@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "planner/files/exchange/ap238/paths/path_sections.h"
+#include "planner/files/exchange/ap238/paths/points_of_numbers.h"
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/exchange/toolpaths/schedules.h"
 #include "planner/files/exchange/toolpaths/section_points.h"
@@ -59,19 +59,6 @@ model::Ref<model::CartesianPoint> add_point(model::Model& m, std::span<const dou
   return model::Ref<model::CartesianPoint>(at);
 }
 
-/// Numbers by their bits; 0 and -0 are equal.
-struct HashOfNumbers {
-  template <std::size_t N>
-  std::size_t operator()(const std::array<double, N>& v) const {
-    std::uint64_t h = 14695981039346656037U;
-    for (const double x : v) {
-      h = (h ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U;
-      h ^= h >> 29U;
-    }
-    return h;
-  }
-};
-
 /// Curves of one path in the frame's local coordinates.
 class Curves {
  public:
@@ -102,7 +89,7 @@ class Curves {
     model::Polyline c;
     c.name = "";
     using Of = decltype(numbers(places.front()));
-    std::unordered_map<Of, model::Ref<model::CartesianPoint>, HashOfNumbers> known;
+    PointsOfNumbers<Of> known(places.size());
     model::Ref<model::CartesianPoint> last;
     Of before{};
     c.points.items.reserve(places.size());
