@@ -19,6 +19,7 @@
 #include "planner/files/exchange/toolpaths/trajectories.h"
 #include "planner/files/exchange/toolpaths/via.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/placed_nouns.h"
@@ -72,6 +73,7 @@ class Curves {
     std::vector<Place> out = {{end_of(first - 1), first, 0.0}};
     out.reserve(last - first + 2);
     for (std::size_t i = first; i <= last; ++i) {
+      tick();
       if (i > first && jumps(i)) out.push_back({end_of(i - 1), i, 0.0});
       if (is_arc(p_.kind[i])) {
         via(i, out);
