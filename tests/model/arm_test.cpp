@@ -13,6 +13,7 @@
 
 #include "planner/model/features/curve_points.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/reached.h"
 #include "planner/model/nouns/arena/walk.h"
 
 namespace capstan::model {
@@ -196,6 +197,40 @@ TEST(Nouns, WhatIsStatedOfAWorkpieceIsReachedFromIt) {
   const AnyRef roots[] = {piece};
   const auto found = reachable(m, roots);
   EXPECT_NE(std::find(found.begin(), found.end(), AnyRef(tolerance)), found.end());
+}
+
+// Also of kinds that hold no reference, are a root, or are met twice.
+TEST(Nouns, ThoseOfAKindThatAreReachedAreTheSameInTheSameOrder) {
+  Model m;
+  std::vector<AnyRef> roots;
+  for (int i = 0; i < 4; ++i) {
+    Polyline line;
+    const auto shared = m.add(CartesianPoint{});
+    for (int k = 0; k < 3; ++k) {
+      line.points.push_back(m.add(CartesianPoint{}));
+      line.points.push_back(shared);
+    }
+    line.points.push_back(Ref<CartesianPoint>(m.add(ViaArcPoint{})));
+    if (i == 2) roots.push_back(shared);
+    CutterLocationTrajectory path;
+    path.basiccurve = m.add(line);
+    ToolpathList list;
+    list.its_list.push_back(m.add(path));
+    list.its_list.push_back(m.add(Feedstop{}));
+    roots.push_back(m.add(list));
+    roots.push_back({});
+  }
+  const auto all = reachable(m, roots);
+  for (const TypeId kind :
+       {TypeId::kToolpath, TypeId::kCartesianPoint, TypeId::kViaArcPoint, TypeId::kPolyline,
+        TypeId::kToolpathList, TypeId::kWorkpiece, TypeId::kRepresentationItem}) {
+    std::vector<AnyRef> wanted;
+    for (const AnyRef r : all) {
+      if (is_a(r.type, kind)) wanted.push_back(r);
+    }
+    EXPECT_EQ(reached_of(m, roots, kind), wanted) << noun_type(kind).keyword;
+  }
+  EXPECT_FALSE(reached_of(m, roots, TypeId::kCartesianPoint).empty());
 }
 
 TEST(CurvePoints, APolylineWithAViaPointIsRefusedNotCutStraight) {

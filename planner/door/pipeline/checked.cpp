@@ -12,6 +12,8 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/ground/geometry/vec.h"
+#include "planner/model/nouns/all.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -25,7 +27,7 @@
 // outside the raw piece is left out at once. A step around a boss that cuts nothing is left out if other
 // features' steps cut around the boss: the boss is then made, and not missing. Of all tries the one with the
 // fewest errors is kept, then the one with the fewest features left out, then the first. Steps from the file
-// are never changed.
+// are never changed. Nothing is tried against features that lie farther apart than an axis travels.
 
 namespace capstan::pipeline {
 namespace {
@@ -60,7 +62,41 @@ std::string heaviest(const model::Plan& plan, const Finding& f) {
   return most == nullptr ? std::string() : model::step_id(plan, *most);
 }
 
-/// The first error of each proposed step.
+/// The middle of what a path cuts; nothing for one that cuts nothing.
+std::optional<geometry::Vec3> middle_of(const model::CutterPath& path) {
+  geometry::Box3 box;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.kind[i] != model::MoveKind::kRapid) box.add(path.point(i));
+  }
+  if (box.empty()) return std::nullopt;
+  return 0.5 * (box.lo + box.hi);
+}
+
+/// Whether the other features of the set-up lie farther apart in X or Y than the axis travels, which is what
+/// the check found: no other cutter or chain of this step's feature mends that, nor does leaving it out.
+bool too_far_apart(const model::Plan& plan, const Finding& f, AnyRef step) {
+  const auto feature_of = [&](AnyRef s) {
+    const auto* w = plan.model.get<model::MachiningWorkingstep>(s);
+    return w == nullptr ? AnyRef{} : AnyRef(w->its_feature);
+  };
+  const auto found = std::find_if(plan.steps.begin(), plan.steps.end(),
+                                  [&](const model::StepResult& s) { return s.step == step; });
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    const model::LinearAxis& of = plan.machine.axes[axis];
+    if (f.code != "CHK-TRAVEL-" + of.name || found == plan.steps.end()) continue;
+    geometry::Box3 middles;
+    for (const model::StepResult& s : plan.steps) {
+      if (s.setup != found->setup || !s.path || feature_of(s.step) == feature_of(step)) continue;
+      if (const auto middle = middle_of(*s.path)) middles.add(*middle);
+    }
+    if (middles.empty()) return false;
+    const geometry::Vec3 size = middles.size();
+    return (axis == 0 ? size.x : size.y) > of.travel_max_mm - of.travel_min_mm;
+  }
+  return false;
+}
+
+/// The first error of each proposed step that another way to make its feature may mend.
 std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Finding>& findings,
                                  const Tries& tries) {
   std::map<std::string, AnyRef> step_of;
@@ -73,7 +109,8 @@ std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Find
     const auto step = f.step.empty() ? step_of.find(heaviest(plan, f)) : step_of.find(f.step);
     if (step == step_of.end()) continue;
     const auto made = tries.made.find(step->second);
-    if (made != tries.made.end() && seen.insert(step->second).second) out.push_back({made->second, &f});
+    if (made == tries.made.end() || too_far_apart(plan, f, step->second)) continue;
+    if (seen.insert(step->second).second) out.push_back({made->second, &f});
   }
   return out;
 }

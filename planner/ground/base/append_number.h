@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 namespace capstan {
@@ -19,5 +20,7 @@ inline constexpr std::size_t kNumberRoom = 32;
 /// Appends them.
 void append_shortest(std::string& out, double value);
 void append_part21_real(std::string& out, double value);
+/// Appends `part21_real` of each, with commas between them.
+void append_part21_reals(std::string& out, std::span<const double> values);
 
 }  // namespace capstan

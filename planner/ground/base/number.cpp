@@ -32,23 +32,40 @@ namespace {
 constexpr double kDecimals = 1e6;
 constexpr std::uint64_t kMillionths = 1'000'000;
 
+/// "00" to "99".
+constexpr auto kPairs = [] {
+  std::array<char, 200> out{};
+  for (std::size_t n = 0; n < 100; ++n) {
+    out[2 * n] = static_cast<char>('0' + n / 10);
+    out[2 * n + 1] = static_cast<char>('0' + n % 10);
+  }
+  return out;
+}();
+/// How many digits of these a number needs that ends with them: none of "00", one of "10".
+constexpr auto kNeeded = [] {
+  std::array<std::uint8_t, 100> out{};
+  for (std::size_t n = 1; n < 100; ++n) out[n] = n % 10 == 0 ? 1 : 2;
+  return out;
+}();
+
 /// Two digits of a number below 100.
 char* print_pair(char* to, std::uint32_t n) {
-  to[0] = static_cast<char>('0' + n / 10);
-  to[1] = static_cast<char>('0' + n % 10);
+  std::memcpy(to, kPairs.data() + std::size_t{2} * n, 2);
   return to + 2;
 }
 
-char* print_millionths(char* to, std::uint64_t count) {
-  to = std::to_chars(to, to + kNumberRoom, count / kMillionths).ptr;
-  const auto rest = static_cast<std::uint32_t>(count % kMillionths);
-  if (rest == 0) return to;
-  *to++ = '.';
-  to = print_pair(to, rest / 10000);
-  to = print_pair(to, rest / 100 % 100);
-  to = print_pair(to, rest % 100);
-  while (to[-1] == '0') --to;
-  return to;
+/// A number below 100 without leading zeros.
+char* print_one_or_two(char* to, std::uint32_t n) {
+  if (n >= 10) return print_pair(to, n);
+  *to = static_cast<char>('0' + n);
+  return to + 1;
+}
+
+/// A number below 1e6 without leading zeros.
+char* print_whole(char* to, std::uint32_t n) {
+  if (n < 100) return print_one_or_two(to, n);
+  if (n < 10000) return print_pair(print_one_or_two(to, n / 100), n % 100);
+  return print_pair(print_pair(print_one_or_two(to, n / 10000), n / 100 % 100), n % 100);
 }
 
 /// The number as millionths, where it is so many, and whether it has a point; nullptr where it is not.
@@ -61,8 +78,17 @@ Printed print_few_decimals(char* to, double value) {
   if (!(size >= 1e-3 && size < 1e5)) return {};
   const auto count = static_cast<std::uint64_t>(size * kDecimals + 0.5);
   if (static_cast<double>(count) / kDecimals != size) return {};
-  if (value < 0.0) *to++ = '-';
-  return {print_millionths(to, count), count % kMillionths != 0};
+  *to = '-';
+  to += value < 0.0 ? 1 : 0;
+  to = print_whole(to, static_cast<std::uint32_t>(count / kMillionths));
+  const auto rest = static_cast<std::uint32_t>(count % kMillionths);
+  if (rest == 0) return {to, false};
+  *to++ = '.';
+  const std::uint32_t first = rest / 10000, second = rest / 100 % 100, third = rest % 100;
+  print_pair(print_pair(print_pair(to, first), second), third);
+  // What follows the last digit is printed over.
+  const auto digits = third != 0 ? 4 + kNeeded[third] : second != 0 ? 2 + kNeeded[second] : kNeeded[first];
+  return {to + digits, true};
 }
 
 /// The shortest text of any number.
@@ -117,6 +143,20 @@ void append_part21_real(std::string& out, double value) {
   std::array<char, kNumberRoom> buffer;
   const char* const end = print_part21_real(buffer.data(), value);
   out.append(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+}
+
+void append_part21_reals(std::string& out, std::span<const double> values) {
+  std::array<char, 32 * kNumberRoom> buffer;
+  char* to = buffer.data();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i != 0) *to++ = ',';
+    to = print_part21_real(to, values[i]);
+    if (static_cast<std::size_t>(to - buffer.data()) > buffer.size() - 2 * kNumberRoom) {
+      out.append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
+      to = buffer.data();
+    }
+  }
+  out.append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
 }
 
 std::string shortest(double value) {

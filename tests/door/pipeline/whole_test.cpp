@@ -7,12 +7,15 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "planner/making/step/cut_samples.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
+#include "tests/support/plate.h"
 #include "tests/support/scratch.h"
 #include "tests/support/shop.h"
 #include "tooling/shop/machine/machine.h"
@@ -289,6 +292,45 @@ TEST(Anew, ACleanPlanIsTheFirstOne) {
   EXPECT_EQ(checked->replanned, 0);
   EXPECT_EQ(errors(checked->findings), 0U);
   for (const auto& d : job.diagnostics()) EXPECT_NE(d.code, "PIP-ANEW") << d.message;
+}
+
+/// How often features are proposed: at each try once.
+struct Tried {
+  Checked checked;
+  int times = 0;
+};
+Tried tried(const testing::Plate& plate, double travel_x_mm) {
+  Inputs in = shop();
+  in.machine.axes[0].travel_min_mm = 0.0;
+  in.machine.axes[0].travel_max_mm = travel_x_mm;
+  Job job;
+  int times = 0;
+  job.set_progress([&](std::string_view stage, double done) { times += stage == "propose" && done == 0.0; });
+  auto checked = bind_checked(read_plan(plate.text, "plate.p21", job).value(), in, {}, job).value();
+  return {std::move(checked), times};
+}
+bool spans_too_much(const Checked& c) {
+  return std::any_of(c.findings.begin(), c.findings.end(),
+                     [](const model::Finding& f) { return f.code == "CHK-TRAVEL-X"; });
+}
+
+// Holes in a row of which any two neighbours lie farther apart than X travels, by three or more of them.
+TEST(Anew, FeaturesFartherApartThanAnAxisTravelsArePlannedOnce) {
+  const auto plate = testing::plate_of_holes(9);
+  const auto roomy = tried(plate, 500.0);
+  ASSERT_FALSE(spans_too_much(roomy.checked));
+  const auto short_of_it = tried(plate, 5.0);
+  EXPECT_TRUE(spans_too_much(short_of_it.checked));
+  EXPECT_EQ(short_of_it.times, roomy.times);
+  EXPECT_EQ(short_of_it.checked.replanned, 0);
+}
+
+// Without one of two holes the other is within the travel of any machine.
+TEST(Anew, OneFeatureBeyondTheTravelIsStillTriedInOtherWays) {
+  const auto plate = testing::plate_of_holes(2);
+  const auto roomy = tried(plate, 500.0), short_of_it = tried(plate, 5.0);
+  ASSERT_FALSE(spans_too_much(roomy.checked));
+  EXPECT_GT(short_of_it.times, roomy.times);
 }
 
 TEST(Sections, NoSectionIsWiderThanTheCutterAndWhatIsMoreIsCutByTheEnd) {

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "planner/ground/base/append_number.h"
 
@@ -56,6 +58,22 @@ TEST(Number, ShortestIsThatOfTheStandardLibrary) {
     EXPECT_EQ(shortest(v), standard(v));
   EXPECT_EQ(part21_real(1e30), "1.E+30");
   EXPECT_EQ(part21_real(1.5e-30), "1.5E-30");
+}
+
+TEST(Number, ManyAreAppendedAsOneByOne) {
+  std::mt19937_64 random(20261128);
+  std::vector<double> values;
+  std::string wanted = "(";
+  for (int i = 0; i < 1000; ++i) {
+    std::string out = "(";
+    append_part21_reals(out, values);
+    ASSERT_EQ(out, wanted) << i << " numbers";
+    // Of every length that a number has, the longest among them.
+    const double ten = std::pow(10.0, static_cast<double>(random() % 9));
+    const auto digits = static_cast<double>(random() % 100000000);
+    values.push_back(i % 3 == 0 ? -1.7976931348623157e+308 / ten : digits / ten);
+    wanted += (i == 0 ? "" : ",") + part21_real(values.back());
+  }
 }
 
 TEST(Number, FixedKeepsAndTrimmedDropsTrailingZeros) {

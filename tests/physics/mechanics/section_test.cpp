@@ -410,7 +410,8 @@ TEST(SectionAtFeeds, GivesTheSameAtAFeedWhateverItWasAskedBefore) {
     for (const Tooth& tooth : {end_mill(kHelix30), ball}) {
       const Section section{.ap_mm = 1.5, .arc = {0.4, 1.9}, .csa_mm2 = 4.0, .band_mm = 0.8};
       const auto ready = SectionAtFeeds::of(section, tooth, law);
-      ASSERT_TRUE(ready);
+      const auto chip = ThickestChip::of(section, tooth, law);
+      ASSERT_TRUE(ready && chip);
       for (const double fz : {0.1, 0.02, 0.3, 0.1}) {
         const auto l = ready->at(fz, kSpeed);
         const SectionLoads alone = loads(section, tooth, law, fz);
@@ -420,7 +421,7 @@ TEST(SectionAtFeeds, GivesTheSameAtAFeedWhateverItWasAskedBefore) {
         EXPECT_EQ(l->power_w, alone.power_w);
         EXPECT_EQ(l->mean.fx_n, alone.mean.fx_n);
         EXPECT_EQ(l->h_max_mm, alone.h_max_mm);
-        EXPECT_EQ(ready->thickest_chip_mm(fz), alone.h_max_mm);
+        EXPECT_EQ(chip->at_mm(fz), alone.h_max_mm);
       }
     }
   }

@@ -45,16 +45,24 @@ class NumberedColumns {
 using p21::quoted;
 
 void column(const std::vector<double>& v, std::string& out) {
+  std::array<char, 4096> buffer;
+  char* to = buffer.data();
+  const auto append = [&] {
+    out.append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
+    to = buffer.data();
+  };
   out += ",(";
   for (std::size_t i = 0; i < v.size(); ++i) {
-    if (i != 0) out += ',';
+    if (i != 0) *to++ = ',';
     const bool same = i != 0 && std::bit_cast<std::uint64_t>(v[i]) == std::bit_cast<std::uint64_t>(v[i - 1]);
     if (same) {
-      out += '$';
+      *to++ = '$';
     } else {
-      append_part21_real(out, v[i]);
+      to = print_part21_real(to, v[i]);
     }
+    if (static_cast<std::size_t>(to - buffer.data()) > buffer.size() - 2 * kNumberRoom) append();
   }
+  append();
   out += ')';
 }
 

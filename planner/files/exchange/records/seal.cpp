@@ -139,7 +139,10 @@ Seals sealed(const p21::File& file, SealText spelling) {
     if (e.part_count() == 1 && is_of_points(e.part(0).keyword)) {
       const p21::Record part = e.part(0);
       if (const auto it = stands(!e.is_complex(), part.keyword, part.parameters); !it.empty()) {
-        standing.add(text_of_instance(e.id(), part.keyword, it));
+        std::array<char, 24> number{'#'};
+        const char* const end = std::to_chars(number.data() + 1, number.data() + number.size(), e.id()).ptr;
+        standing.add(text_of_instance({number.data(), static_cast<std::size_t>(end - number.data())},
+                                      part.keyword, it));
         continue;
       }
     }
@@ -244,10 +247,8 @@ void Seals::add(std::span<Text> texts) {
   for (const Text& t : texts) add(t.keyword, t.hash);
 }
 
-Seals::Text text_of_instance(std::uint64_t id, std::string_view keyword, std::string_view text) {
-  std::array<char, 24> number{'#'};
-  const char* const end = std::to_chars(number.data() + 1, number.data() + number.size(), id).ptr;
-  return {keyword, text, fnv1a({number.data(), static_cast<std::size_t>(end - number.data())})};
+Seals::Text text_of_instance(std::string_view number, std::string_view keyword, std::string_view text) {
+  return {keyword, text, fnv1a(number)};
 }
 
 Seals::Text text_of_header(std::string_view keyword, std::string_view text) {

@@ -54,8 +54,9 @@ class Seals {
   ByKeyword::value_type* last_ = nullptr;  ///< most are of the keyword of the one before
 };
 /// An instance, and a header entity, as `spelled` spells it: for those who print just so, and need not be
-/// parsed. `text` begins with the keyword.
-[[nodiscard]] Seals::Text text_of_instance(std::uint64_t id, std::string_view keyword, std::string_view text);
+/// parsed. `number` is "#12", `text` begins with the keyword.
+[[nodiscard]] Seals::Text text_of_instance(std::string_view number, std::string_view keyword,
+                                           std::string_view text);
 [[nodiscard]] Seals::Text text_of_header(std::string_view keyword, std::string_view text);
 /// The header entities that seal a file: of what `rest` holds (a file), and of what was sealed already.
 [[nodiscard]] Result<std::string> seal_text(std::string rest, const Seals& sealed_already);

@@ -7,6 +7,7 @@
 
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/exchange/toolpaths/left_helix.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -92,7 +93,10 @@ class CurveWriter {
   model::Ref<model::BoundedCurve> polyline(const std::vector<Vec3>& points, std::string name = "") {
     model::Polyline c;
     c.name = std::move(name);
-    for (const Vec3 p : points) c.points.push_back(model::add_point(m_, p));
+    for (const Vec3 p : points) {
+      tick();
+      c.points.push_back(model::add_point(m_, p));
+    }
     return m_.add(std::move(c));
   }
 

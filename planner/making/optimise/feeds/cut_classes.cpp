@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/making/optimise/feeds/known_feeds.h"
 
 namespace capstan::optimise::feed {
@@ -69,6 +70,7 @@ const CutLoads& CutClasses::loads(double n_rpm) {
 }
 
 CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
+  tick();
   const long depth = static_cast<long>(std::ceil(std::log(cut.ap_mm) / kDepthStep - 1e-9));
   const double sweep = std::max(cut.exit_rad - cut.entry_rad, 1e-4);
   // One step more than needed, so that the class still covers the arc after its entry is rounded down.

@@ -191,6 +191,7 @@ std::optional<double> CutLoads::wall_mm(const mechanics::Section& section, doubl
 }
 
 std::optional<ReadyCut> CutLoads::ready(const Cut& cut) const {
+  tick(16);  // it takes some 30 us
   const mechanics::Section section{.ap_mm = cut.ap_mm,
                                    .arc = {cut.entry_rad, cut.exit_rad},
                                    .csa_mm2 = cut.csa_mm2,
@@ -198,8 +199,8 @@ std::optional<ReadyCut> CutLoads::ready(const Cut& cut) const {
   auto loads = mechanics::SectionAtFeeds::of(section, tooth_, law_);
   if (!loads) return std::nullopt;
   ReadyCut out{.cut = cut, .section = section, .loads = *std::move(loads), .strip = std::nullopt};
-  if (cut.band_mm > 0.0) {
-    auto strip = mechanics::SectionAtFeeds::of({.ap_mm = section.ap_mm, .arc = section.arc}, tooth_, law_);
+  if (cut.band_mm > 0.0 && !cut.chip_measured) {
+    auto strip = mechanics::ThickestChip::of({.ap_mm = section.ap_mm, .arc = section.arc}, tooth_, law_);
     if (!strip) return std::nullopt;
     out.strip = *std::move(strip);
   }
@@ -224,7 +225,7 @@ std::optional<State> CutLoads::at(const ReadyCut& made, double feed) const {
     chip = std::min(fz * cut.front_sin + longer, fz * cut.front_sin * tooth_.teeth);
   } else if (made.strip) {
     // How the area lies in the strip is not known: the chip is that of the front, wherever the arc has it.
-    chip = std::max(chip, made.strip->thickest_chip_mm(fz));
+    chip = std::max(chip, made.strip->at_mm(fz));
   }
   // The area of a section that is no rectangle may lie anywhere in its arc: a rib stands in front.
   chip =

@@ -67,7 +67,8 @@ struct ReadyCut {
   Cut cut;
   mechanics::Section section;
   mechanics::SectionAtFeeds loads;
-  std::optional<mechanics::SectionAtFeeds> strip;  ///< of a band: the whole strip that it lies in
+  /// Of a band whose chip is not measured: of the whole strip that it lies in.
+  std::optional<mechanics::ThickestChip> strip;
 };
 
 class CutLoads {

@@ -3,7 +3,9 @@
 #include "planner/physics/mechanics/loads/edge_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
@@ -18,24 +20,32 @@ double largest_sine(double from, double to) {
   return std::max(std::sin(from), std::sin(to));
 }
 
-void add(Pieces& all, Piece p, const ImmersionArc& arc, double band, double full_radius) {
-  if (!(p.depth > 0.0) || !(p.radius > 0.0)) return;
-  p.from = arc.entry_rad;
-  p.to = arc.exit_rad;
-  if (band > 0.0) {
-    const bool left = arc.entry_rad + arc.exit_rad < kPi;
-    const double wide = 2.0 * p.radius;
-    const ImmersionArc own =
-        immersion_arc(std::min(band, wide), wide, left ? CutDirection::kUp : CutDirection::kDown);
-    p.from = own.entry_rad;
-    p.to = own.exit_rad;
-  } else if (p.radius < full_radius) {
-    const double k = full_radius / p.radius;
-    p.from = std::acos(std::clamp(k * std::cos(arc.entry_rad), -1.0, 1.0));
-    p.to = std::acos(std::clamp(k * std::cos(arc.exit_rad), -1.0, 1.0));
+/// An end of an arc at the full radius, as a piece of that radius reaches the same line along the feed.
+double at_radius(double angle, double radius, double full_radius) {
+  if (!(radius < full_radius)) return angle;
+  return std::acos(std::clamp(full_radius / radius * std::cos(angle), -1.0, 1.0));
+}
+
+/// The part of an arc, or of a band, that a piece of that radius reaches.
+ImmersionArc own_arc(double radius, const ImmersionArc& arc, double band, double full_radius) {
+  if (!(band > 0.0)) {
+    return {at_radius(arc.entry_rad, radius, full_radius), at_radius(arc.exit_rad, radius, full_radius)};
   }
+  const bool left = arc.entry_rad + arc.exit_rad < kPi;
+  const double wide = 2.0 * radius;
+  return immersion_arc(std::min(band, wide), wide, left ? CutDirection::kUp : CutDirection::kDown);
+}
+
+double area_of(const Piece& p, double cos_from, double cos_to) {
+  return p.depth * p.radius * (cos_from - cos_to);
+}
+
+void add(Pieces& all, Piece p, const ImmersionArc& arc, double band, double full_radius) {
+  const ImmersionArc own = own_arc(p.radius, arc, band, full_radius);
+  p.from = own.entry_rad;
+  p.to = own.exit_rad;
   if (!(p.to > p.from)) return;
-  all.area += p.depth * p.radius * (std::cos(p.from) - std::cos(p.to));
+  all.area += area_of(p, std::cos(p.from), std::cos(p.to));
   all.edge_arc += p.edge * (p.to - p.from);
   const double front = largest_sine(p.from, p.to);
   all.front_sin = std::max(all.front_sin, front);
@@ -44,13 +54,17 @@ void add(Pieces& all, Piece p, const ImmersionArc& arc, double band, double full
 }
 
 /// Gauss-Legendre on -1 .. 1.
-constexpr std::array<double, kCornerPieces> kNode = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                                               0.8611363115940526};
-constexpr std::array<double, kCornerPieces> kWeight = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                                 0.3478548451374538};
+constexpr std::array<double, kCornerPieces> kNode = {-0.8611363115940526, -0.3399810435848563,
+                                                     0.3399810435848563, 0.8611363115940526};
+constexpr std::array<double, kCornerPieces> kWeight = {0.3478548451374538, 0.6521451548625461,
+                                                       0.6521451548625461, 0.3478548451374538};
 
-Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Tooth& tooth, double band) {
+/// The pieces of edge from the section's lower end up to a depth, wherever the material is: without arcs.
+Pieces edge_of(const Section& s, double ap, const Tooth& tooth) {
   Pieces out;
+  const auto keep = [&](const Piece& p) {
+    if (p.depth > 0.0 && p.radius > 0.0) out.item[out.count++] = p;
+  };
   const double full = 0.5 * tooth.cutting_diameter_mm;
   const double corner = std::min(tooth.corner_radius_mm, full);
   const double lag_per_mm = helix_lag_rad(1.0, tooth.cutting_diameter_mm, tooth.helix_rad);
@@ -72,7 +86,7 @@ Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Too
       p.lag_low = lag_per_mm * (z - low);
       z += p.depth;
       p.lag_high = lag_per_mm * (z - low);
-      add(out, p, arc, band, full);
+      keep(p);
     }
   }
   const double flank_low = std::max(low, corner);
@@ -86,10 +100,59 @@ Pieces pieces_of(const Section& s, const ImmersionArc& arc, double ap, const Too
     p.radius = full + (0.5 * (flank_low + high) - corner) * std::tan(lean);
     p.lag_low = lag_per_mm * (flank_low - low);
     p.lag_high = lag_per_mm * (high - low);
-    add(out, p, arc, band, full);
+    keep(p);
   }
   return out;
 }
+
+/// Those of them that meet the arc, or the band.
+Pieces pieces_in(const Pieces& edge, const ImmersionArc& arc, double band, double full_radius) {
+  Pieces out;
+  for (std::size_t i = 0; i < edge.count; ++i) add(out, edge.item[i], arc, band, full_radius);
+  return out;
+}
+
+/// The area of `pieces_in` alone, for many arcs of which one end stays where it is.
+class AreaIn {
+ public:
+  AreaIn(const Pieces& edge, double full_radius) : edge_(edge), full_radius_(full_radius) {}
+
+  double operator()(const ImmersionArc& arc, double band) {
+    double out = 0.0;
+    if (band > 0.0) {
+      for (std::size_t i = 0; i < edge_.count; ++i) {
+        const Piece& p = edge_.item[i];
+        const ImmersionArc own = own_arc(p.radius, arc, band, full_radius_);
+        if (own.exit_rad > own.entry_rad) out += area_of(p, std::cos(own.entry_rad), std::cos(own.exit_rad));
+      }
+      return out;
+    }
+    reach(entry_, arc.entry_rad);
+    reach(exit_, arc.exit_rad);
+    for (std::size_t i = 0; i < edge_.count; ++i) {
+      if (exit_.own[i] > entry_.own[i]) out += area_of(edge_.item[i], entry_.cosine[i], exit_.cosine[i]);
+    }
+    return out;
+  }
+
+ private:
+  struct End {
+    double angle = std::numeric_limits<double>::quiet_NaN();
+    std::array<double, kCornerPieces + 1> own, cosine;  ///< of each piece
+  };
+  void reach(End& end, double angle) const {
+    if (end.angle == angle) return;
+    end.angle = angle;
+    for (std::size_t i = 0; i < edge_.count; ++i) {
+      end.own[i] = at_radius(angle, edge_.item[i].radius, full_radius_);
+      end.cosine[i] = std::cos(end.own[i]);
+    }
+  }
+
+  const Pieces& edge_;
+  double full_radius_;
+  End entry_, exit_;
+};
 
 }  // namespace
 
@@ -112,8 +175,9 @@ Contact contact_of(const Section& s, double d) {
 }
 
 Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
-  Pieces all = pieces_of(s, c.arc, c.ap, tooth, s.band_mm);
+  const Pieces edge = edge_of(s, c.ap, tooth);
   const double full = 0.5 * tooth.cutting_diameter_mm;
+  Pieces all = pieces_in(edge, c.arc, s.band_mm, full);
   const double corner = std::min(tooth.corner_radius_mm, full);
   if (!(corner > 0.0)) return all;
   const double strip = full * (std::cos(c.arc.entry_rad) - std::cos(c.arc.exit_rad));
@@ -126,14 +190,16 @@ Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
   double left = std::clamp(full * std::cos(c.arc.entry_rad), -reach, reach);
   double right = std::clamp(full * std::cos(c.arc.exit_rad), -reach, reach);
   double band = s.band_mm;
+  AreaIn area(edge, full);
   const auto between = [&] {
-    const ImmersionArc arc{std::acos(std::min(left / full, 1.0)), std::acos(std::max(right / full, -1.0))};
-    return pieces_of(s, band > 0.0 ? c.arc : arc, c.ap, tooth, band);
+    return band > 0.0
+               ? c.arc
+               : ImmersionArc{std::acos(std::min(left / full, 1.0)), std::acos(std::max(right / full, -1.0))};
   };
   const auto move = [&](double& end, double most) {
     const double from = end;
     end = most;
-    all = between();
+    all = pieces_in(edge, between(), band, full);
     if (all.area < wanted) return false;
     double enough = 1.0;
     double less = 0.0;
@@ -141,11 +207,10 @@ Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
     for (int i = 0; i < kHalvings; ++i) {
       const double t = 0.5 * (less + enough);
       end = from + t * (most - from);
-      Pieces p = between();
-      (p.area >= wanted ? enough : less) = t;
-      if (p.area >= wanted) all = p;
+      (area(between(), band) >= wanted ? enough : less) = t;
     }
     end = from + enough * (most - from);
+    if (enough < 1.0) all = pieces_in(edge, between(), band, full);
     return true;
   };
   if (band > 0.0) {

@@ -286,10 +286,10 @@ SectionLoads plunge_loads(const Section& s, const Tooth& t, const ForceLaw& law,
 }
 
 /// The feed at which an even cutter has the thickest chip of one that runs out.
-double widened_feed(double fz, const Tooth& t, double front_sin) {
-  if (!(t.runout_mm > 0.0) || !(front_sin > 0.0)) return fz;
-  const double shift = t.runout_mm * std::sin(kPi / t.teeth);
-  return std::min(fz + shift / front_sin, fz * t.teeth);
+double widened_feed(double fz, double runout_mm, int teeth, double front_sin) {
+  if (!(runout_mm > 0.0) || !(front_sin > 0.0)) return fz;
+  const double shift = runout_mm * std::sin(kPi / teeth);
+  return std::min(fz + shift / front_sin, fz * teeth);
 }
 
 ForceVector scaled(const ForceVector& f, double k) { return {f.fx_n * k, f.fy_n * k, f.fz_n * k}; }
@@ -332,39 +332,28 @@ Status check_shape(const Section& s, const Tooth& t, const ForceLaw& law) {
   return check_range({"mc", law.kienzle.mc}, 0.0, 0.999);
 }
 
-/// What of a section is the same at every feed.
-struct SectionAtFeeds::Shape {
-  Section section;
-  Tooth tooth;
-  ForceLaw law;
+namespace {
+
+/// The edge that is in a section.
+struct EdgeIn {
   bool plunge = false;
   bool nothing = true;  ///< no engagement: no loads
   Pieces all;
-  double ratio = 1.0, more = 1.0, less = 1.0;
-  std::array<Integrals, kCornerPieces + 1> whole;  ///< of each piece over its own arc
-  Angles angles;
-  double mean_chip = 0.0;
+  double ratio = 1.0;  ///< of the area to what the edge sweeps
 };
 
-Result<SectionAtFeeds> SectionAtFeeds::of(const Section& section, const Tooth& tooth, const ForceLaw& law) {
+Result<EdgeIn> edge_in(const Section& section, const Tooth& tooth, const ForceLaw& law) {
   if (auto ok = check_shape(section, tooth, law); !ok) return fail(ok.error());
-  auto made = std::make_shared<Shape>();
-  Shape& shape = *made;
-  shape.section = section;
-  shape.tooth = tooth;
-  shape.law = law;
-  SectionAtFeeds out;
-  out.shape_ = made;
+  EdgeIn out;
   if (is_plunge(section.arc)) {
-    shape.plunge = true;
-    shape.nothing = !(section.ap_mm > 0.0) && !(section.csa_mm2 > 0.0);
+    out.plunge = true;
+    out.nothing = !(section.ap_mm > 0.0) && !(section.csa_mm2 > 0.0);
     return out;
   }
   const Contact contact = contact_of(section, tooth.cutting_diameter_mm);
   if (!(contact.ap > 0.0) || !(contact.arc.exit_rad > contact.arc.entry_rad)) return out;
-  shape.all = met_by(section, contact, tooth);
-  const Pieces& all = shape.all;
-  if (all.count == 0 || !(all.area > 0.0)) {
+  out.all = met_by(section, contact, tooth);
+  if (out.all.count == 0 || !(out.all.area > 0.0)) {
     if (!(section.csa_mm2 > 0.0)) return out;
     return fail(Diagnostic{.code = "MECH-DOMAIN",
                            .message = "an area of " + told(section.csa_mm2) + " mm2 at a depth of " +
@@ -372,11 +361,62 @@ Result<SectionAtFeeds> SectionAtFeeds::of(const Section& section, const Tooth& t
                            .path = "csa_mm2",
                            .expected = "an area that the edge can sweep"});
   }
-  shape.nothing = false;
-  shape.ratio = section.csa_mm2 > 0.0 ? section.csa_mm2 / all.area : 1.0;
-  shape.more = std::max(shape.ratio, 1.0);
+  out.nothing = false;
+  out.ratio = section.csa_mm2 > 0.0 ? section.csa_mm2 / out.all.area : 1.0;
+  return out;
+}
+
+/// The thickest chip of an even cutter over the feed per tooth.
+double over_feed(const EdgeIn& edge) { return edge.ratio > 1.0 + kIrregular ? 1.0 : edge.all.max_chip; }
+
+}  // namespace
+
+Result<ThickestChip> ThickestChip::of(const Section& section, const Tooth& tooth, const ForceLaw& law) {
+  const auto edge = edge_in(section, tooth, law);
+  if (!edge) return fail(edge.error());
+  ThickestChip out;
+  out.plunge_ = edge->plunge;
+  out.nothing_ = edge->nothing;
+  out.runout_mm_ = tooth.runout_mm;
+  out.teeth_ = tooth.teeth;
+  out.front_sin_ = edge->all.front_sin;
+  out.over_feed_ = over_feed(*edge);
+  return out;
+}
+
+double ThickestChip::at_mm(double fz_mm) const {
+  if (nothing_) return 0.0;
+  return plunge_ ? fz_mm : widened_feed(fz_mm, runout_mm_, teeth_, front_sin_) * over_feed_;
+}
+
+/// What of a section is the same at every feed.
+struct SectionAtFeeds::Shape {
+  Section section;
+  Tooth tooth;
+  ForceLaw law;
+  EdgeIn edge;
+  double more = 1.0, less = 1.0;
+  std::array<Integrals, kCornerPieces + 1> whole;  ///< of each piece over its own arc
+  Angles angles;
+  double mean_chip = 0.0;
+};
+
+Result<SectionAtFeeds> SectionAtFeeds::of(const Section& section, const Tooth& tooth, const ForceLaw& law) {
+  auto edge = edge_in(section, tooth, law);
+  if (!edge) return fail(edge.error());
+  auto made = std::make_shared<Shape>();
+  Shape& shape = *made;
+  shape.section = section;
+  shape.tooth = tooth;
+  shape.law = law;
+  shape.edge = *std::move(edge);
+  SectionAtFeeds out;
+  out.shape_ = made;
+  if (shape.edge.plunge || shape.edge.nothing) return out;
+  const Pieces& all = shape.edge.all;
+  shape.more = std::max(shape.edge.ratio, 1.0);
   const double mc = law.mechanistic ? 0.0 : law.kienzle.mc;
-  shape.less = shape.ratio < 1.0 ? std::pow(shape.ratio, 1.0 - mc) : shape.ratio;
+  shape.less = shape.edge.ratio < 1.0 ? std::pow(shape.edge.ratio, 1.0 - mc) : shape.edge.ratio;
   double from = all.item[0].from;
   double to = all.item[0].to;
   for (std::size_t i = 1; i < all.count; ++i) {
@@ -394,21 +434,13 @@ Result<SectionAtFeeds> SectionAtFeeds::of(const Section& section, const Tooth& t
   return out;
 }
 
-double SectionAtFeeds::thickest_chip_mm(double fz_mm) const {
-  const Shape& s = *shape_;
-  if (s.nothing) return 0.0;
-  if (s.plunge) return fz_mm;
-  const double widened = widened_feed(fz_mm, s.tooth, s.all.front_sin);
-  return widened * (s.ratio > 1.0 + kIrregular ? 1.0 : s.all.max_chip);
-}
-
 Result<SectionLoads> SectionAtFeeds::at(double fz_mm, double n_rpm) const {
   if (auto ok = check_feed(fz_mm, n_rpm); !ok) return fail(ok.error());
   const Shape& s = *shape_;
   SectionLoads out;
-  if (s.nothing) return out;
-  if (s.plunge) return plunge_loads(s.section, s.tooth, s.law, fz_mm, n_rpm);
-  Pieces all = s.all;
+  if (s.edge.nothing) return out;
+  if (s.edge.plunge) return plunge_loads(s.section, s.tooth, s.law, fz_mm, n_rpm);
+  Pieces all = s.edge.all;
   set_force(all, s.law, s.tooth.helix_rad, fz_mm);
   const double per_turn = s.tooth.teeth / (2.0 * kPi);
   Moment mean;
@@ -421,13 +453,13 @@ Result<SectionLoads> SectionAtFeeds::at(double fz_mm, double n_rpm) const {
   out.mean = scaled(mean.force, s.more);
   out.power_w = out.torque_nm * 2.0 * kPi * n_rpm / 60.0;
 
-  const double widened = widened_feed(fz_mm, s.tooth, all.front_sin);
+  const double widened = widened_feed(fz_mm, s.tooth.runout_mm, s.tooth.teeth, all.front_sin);
   if (widened != fz_mm) set_force(all, s.law, s.tooth.helix_rad, widened);
   const Peak peak = peak_of(all, s.angles);
   out.peak = scaled(peak.force, s.more);
   out.peak_force_n = s.more * std::sqrt(peak.plane_sq);
   out.peak_torque_nm = std::max(1e-3 * s.more * peak.torque_nmm, out.torque_nm);
-  out.h_max_mm = thickest_chip_mm(fz_mm);
+  out.h_max_mm = widened * over_feed(s.edge);
   out.h_mean_mm = fz_mm * s.mean_chip / all.edge_arc;
   return out;
 }

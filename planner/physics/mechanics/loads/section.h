@@ -110,12 +110,26 @@ class SectionAtFeeds {
   [[nodiscard]] static Result<SectionAtFeeds> of(const Section& section, const Tooth& tooth,
                                                  const ForceLaw& law);
   [[nodiscard]] Result<SectionLoads> at(double fz_mm, double n_rpm) const;
-  /// The h_max_mm of `at` alone.
-  [[nodiscard]] double thickest_chip_mm(double fz_mm) const;
 
  private:
   struct Shape;
   std::shared_ptr<const Shape> shape_;
+};
+
+/// The h_max_mm of SectionAtFeeds alone, without the integrals that loads need and that take longest.
+class ThickestChip {
+ public:
+  /// Refuses what SectionAtFeeds::of refuses.
+  [[nodiscard]] static Result<ThickestChip> of(const Section& section, const Tooth& tooth,
+                                               const ForceLaw& law);
+  [[nodiscard]] double at_mm(double fz_mm) const;
+
+ private:
+  bool plunge_ = false, nothing_ = true;
+  double runout_mm_ = 0.0;
+  int teeth_ = 0;
+  double front_sin_ = 0.0;  ///< largest sine of the rotation angle
+  double over_feed_ = 0.0;  ///< of an even cutter
 };
 
 /// What SectionAtFeeds::of refuses, and nothing else: for a caller who integrates along the edge himself.

@@ -108,6 +108,7 @@ void PlanarStock::place(std::uint32_t id, Vec2 lo, Vec2 hi) {
   int x0, x1, y0, y1;
   tiles_of(lo, hi, x0, x1, y0, y1);
   for (int y = y0; y <= y1; ++y) {
+    tick(1U + static_cast<unsigned>(std::max(0, x1 - x0)) / 4U);
     for (int x = x0; x <= x1; ++x) {
       Tile& tile = tiles_[number_of(x, y)];
       if (t.lowest_mm >= tile.highest_mm) continue;

@@ -95,14 +95,22 @@ std::vector<std::pair<double, SectionNumbers>> PathSections::inside(std::size_t 
                                                                     double length_mm) const {
   std::vector<std::pair<double, SectionNumbers>> out;
   auto it = order_.begin() + static_cast<std::ptrdiff_t>(begin_of(move));
+  const auto is_of = [&](auto k) { return k != order_.end() && s_->move[*k] == move; };
+  // Air before a cut is known up to where the cut begins.
+  const auto begins_after = [&](std::size_t i, double at_mm) {
+    const double end = s_->at_mm[i], begin = end - step_mm(i);
+    return begin > at_mm + (1e-6 * length_mm + kSameStep * (end - begin) + kSamePlace);
+  };
+  const auto ends_between = [&](std::size_t i, double at_mm) {
+    return s_->at_mm[i] > at_mm + kSamePlace && s_->at_mm[i] < length_mm - kSamePlace;
+  };
+  // Most moves have no section, or one from their start to their end.
+  if (!is_of(it)) return out;
+  if (!is_of(it + 1) && !begins_after(*it, 0.0) && !ends_between(*it, 0.0)) return out;
   std::vector<Knot> knots = {{0.0, at(move, 0.0)}};
-  for (; it != order_.end() && s_->move[*it] == move; ++it) {
-    const double end = s_->at_mm[*it], begin = end - step_mm(*it);
-    // Air before a cut is known up to where the cut begins.
-    const double unsure = 1e-6 * length_mm + kSameStep * (end - begin) + kSamePlace;
-    if (begin > knots.back().at_mm + unsure) knots.push_back({begin, {}});
-    if (end > knots.back().at_mm + kSamePlace && end < length_mm - kSamePlace)
-      knots.push_back({end, numbers(*it)});
+  for (; is_of(it); ++it) {
+    if (begins_after(*it, knots.back().at_mm)) knots.push_back({s_->at_mm[*it] - step_mm(*it), {}});
+    if (ends_between(*it, knots.back().at_mm)) knots.push_back({s_->at_mm[*it], numbers(*it)});
   }
   knots.push_back({length_mm, at(move, length_mm)});
   if (knots.size() < 3) return out;

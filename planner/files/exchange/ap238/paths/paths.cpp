@@ -2,22 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "planner/files/exchange/ap238/paths/path_sections.h"
+#include "planner/files/exchange/ap238/paths/points_of_numbers.h"
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/exchange/toolpaths/schedules.h"
 #include "planner/files/exchange/toolpaths/section_points.h"
 #include "planner/files/exchange/toolpaths/trajectories.h"
 #include "planner/files/exchange/toolpaths/via.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/placed_nouns.h"
@@ -47,26 +49,16 @@ struct Place {
 };
 
 template <class Point = model::CartesianPoint>
-model::Ref<model::CartesianPoint> add_point(model::Model& m, std::vector<double> coordinates) {
-  Point p;
-  p.name = "";
-  for (double& c : coordinates) c += 0.0;
-  p.coordinates = {std::move(coordinates), true};
-  return m.add(std::move(p));
+model::Ref<model::CartesianPoint> add_point(model::Model& m, std::span<const double> coordinates) {
+  const AnyRef at = m.add_object(Point::kType);
+  auto& p = *static_cast<Point*>(m.object(at));  // made in its place: there may be millions
+  p.name.emplace();
+  p.coordinates.items.resize(coordinates.size());
+  std::transform(coordinates.begin(), coordinates.end(), p.coordinates.items.begin(),
+                 [](double c) { return c + 0.0; });
+  p.coordinates.given = true;
+  return model::Ref<model::CartesianPoint>(at);
 }
-
-/// Numbers by their bits; 0 and -0 are equal.
-struct HashOfNumbers {
-  template <std::size_t N>
-  std::size_t operator()(const std::array<double, N>& v) const {
-    std::uint64_t h = 14695981039346656037U;
-    for (const double x : v) {
-      h = (h ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U;
-      h ^= h >> 29U;
-    }
-    return h;
-  }
-};
 
 /// Curves of one path in the frame's local coordinates.
 class Curves {
@@ -81,6 +73,7 @@ class Curves {
     std::vector<Place> out = {{end_of(first - 1), first, 0.0}};
     out.reserve(last - first + 2);
     for (std::size_t i = first; i <= last; ++i) {
+      tick();
       if (i > first && jumps(i)) out.push_back({end_of(i - 1), i, 0.0});
       if (is_arc(p_.kind[i])) {
         via(i, out);
@@ -98,7 +91,7 @@ class Curves {
     model::Polyline c;
     c.name = "";
     using Of = decltype(numbers(places.front()));
-    std::unordered_map<Of, model::Ref<model::CartesianPoint>, HashOfNumbers> known;
+    PointsOfNumbers<Of> known(places.size());
     model::Ref<model::CartesianPoint> last;
     Of before{};
     c.points.items.reserve(places.size());
@@ -106,7 +99,7 @@ class Curves {
       const Of v = numbers(at);
       if (!last || v != before) {
         auto& p = known[v];
-        if (!p) p = add_point(m_, {v.begin(), v.end()});
+        if (!p) p = add_point(m_, v);
         last = p;
         before = v;
       }
@@ -133,7 +126,7 @@ class Curves {
     if (!p) p = add_point(m_, numbers(p_.point(i)));
     return p;
   }
-  [[nodiscard]] std::vector<double> numbers(Vec3 p) const {
+  [[nodiscard]] std::array<double, 3> numbers(Vec3 p) const {
     const Vec3 q = f_.to_local(p);
     return {q.x, q.y, q.z};
   }
@@ -161,7 +154,7 @@ class Curves {
       }
       if (!reads_back(i, points, helix)) continue;
       for (std::size_t k = 0; k < n; ++k) {
-        const std::vector<double> c = {points[k].x, points[k].y, points[k].z};
+        const std::array c = {points[k].x, points[k].y, points[k].z};
         out.push_back({helix ? add_point<model::ViaHelixPoint>(m_, c) : add_point<model::ViaArcPoint>(m_, c),
                        i, at[k] * length});
       }

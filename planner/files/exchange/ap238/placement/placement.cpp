@@ -6,6 +6,7 @@
 #include "planner/files/exchange/ap238/placement/frames.h"
 #include "planner/files/exchange/ap238/placement/locations.h"
 #include "planner/model/features/resolve.h"
+#include "planner/model/nouns/arena/reached.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/nouns/placed_nouns.h"
 
@@ -387,7 +388,7 @@ void sides(Model& m, bool to_ap238) {
 std::map<AnyRef, std::vector<AnyRef>> by_workingstep(const model::Plan& plan) {
   std::vector<AnyRef> roots;
   if (plan.project) roots.push_back(plan.project);
-  std::vector<AnyRef> steps = model::reachable(plan.model, roots);
+  std::vector<AnyRef> steps = model::reached_of(plan.model, roots, TypeId::kMachiningWorkingstep);
   for (const AnyRef s : plan.model.all(TypeId::kMachiningWorkingstep)) steps.push_back(s);
   std::map<AnyRef, std::vector<AnyRef>> out;
   for (const AnyRef s : steps) {

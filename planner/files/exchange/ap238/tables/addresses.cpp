@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/reached.h"
 #include "planner/model/nouns/arena/walk.h"
 
 namespace capstan::exchange::ap238 {
@@ -80,9 +81,7 @@ Addresses::Addresses(const model::Plan& plan, const std::function<std::uint64_t(
   if (const auto* p = m_.get<model::Project>(plan.project)) main_ = p->main_workplan;
   if (!m_.holds<model::Executable>(main_)) main_ = {};
   const AnyRef roots[] = {main_};
-  for (const AnyRef at : model::reachable(m_, roots)) {
-    if (m_.holds<model::Executable>(at)) place_from(at);
-  }
+  for (const AnyRef at : model::reached_of(m_, roots, TypeId::kExecutable)) place_from(at);
   for (const auto& [name, objects] : named_) {
     for (const AnyRef at : objects) place_from(at);
   }

@@ -141,7 +141,8 @@ class Writer {
     bool plain = false;  ///< the kind is written so, and no row says otherwise
     EntityId entity;     ///< kNoEntity: AP238 has none
     bool refers = false;
-    bool of_points = false;  ///< texts, numbers and references only
+    bool of_points = false;   ///< texts, numbers and references only
+    bool of_numbers = false;  ///< a name and one more attribute, without references
     struct Slot {
       bool derived = false, name = false;
       const model::Attribute* attribute = nullptr;
@@ -165,7 +166,8 @@ class Writer {
   void print(const Made& made, std::string& out);
   void print_as_it_is(model::AnyRef noun, const std::string& name, std::string& out);
   void print_geometry(model::AnyRef at, const std::string& name, std::string& out);
-  void append_reference(model::AnyRef r, std::string& out);
+  [[nodiscard]] char* print_numbers(model::AnyRef noun, const Geometry& geometry, char* to) const;
+  void append_references(const std::vector<model::AnyRef>& items, std::string& out);
   void append_attribute(const model::Attribute& a, const void* data, std::string& out);
   void print_kept(const model::KeptInstance& kept, std::string& out);
   [[nodiscard]] std::string slot_text(const Made& made, const express::Slot& slot) const;

@@ -37,12 +37,26 @@ std::string nothing(const express::Type* t, bool optional) {
   }
 }
 
+/// Room that the number of an instance needs, in characters.
+constexpr std::size_t kIdRoom = 16;
+/// Numbers of an instance that is printed in one piece, at most: a cross section has seven.
+constexpr std::size_t kFewNumbers = 8;
+constexpr std::size_t kKeywordRoom = 64;
+/// Room that such an instance needs: its name and one list, and the marks between them.
+constexpr std::size_t kLineRoom = kIdRoom + kKeywordRoom + 2 * kFewNumbers * (kNumberRoom + 1) + 16;
+
+char* print_number_of(char* to, Id id) {
+  *to = '#';
+  return std::to_chars(to + 1, to + kIdRoom, id).ptr;
+}
+
 void append_number_of(Id id, std::string& out) {
-  std::array<char, 16> text;
-  text[0] = '#';
-  const char* const end = std::to_chars(text.data() + 1, text.data() + text.size(), id).ptr;
+  std::array<char, kIdRoom> text;
+  const char* const end = print_number_of(text.data(), id);
   out.append(text.data(), static_cast<std::size_t>(end - text.data()));
 }
+
+char* print_text(char* to, std::string_view text) { return std::copy(text.begin(), text.end(), to); }
 
 template <class List, class Show>
 std::string listed(const List& items, const Show& show) {
@@ -80,6 +94,7 @@ const Writer::Geometry& Writer::geometry_of(model::TypeId type) {
     g.slots.push_back({s.derived, s.attribute->name == "name", model::find_attribute(type, s.attribute->name),
                        nothing(s.type, s.optional)});
   }
+  g.of_numbers = g.of_points && !g.refers && noun.keyword.size() <= kKeywordRoom && g.slots.size() == 2;
   return g;
 }
 
@@ -102,26 +117,43 @@ std::size_t Writer::bytes() const {
 void Writer::print(std::string& out, Seals& sealed, std::string& unsealed) {
   constexpr std::size_t kAtOnce = 64;  // whose seals are taken together
   struct Printed {
-    Id id;
     std::string_view keyword;
-    std::size_t begin, end;  // the text moves as it grows
+    std::size_t line, number, begin, end;  // the text moves as it grows
   };
   std::vector<Printed> printed;
   std::vector<Seals::Text> texts;
   const auto seal = [&] {
     texts.clear();
-    for (const Printed& p : printed)
+    for (const Printed& p : printed) {
+      const std::string_view text = out;
       texts.push_back(
-          text_of_instance(p.id, p.keyword, std::string_view(out).substr(p.begin, p.end - p.begin)));
+          text_of_instance(text.substr(p.line, p.number), p.keyword, text.substr(p.begin, p.end - p.begin)));
+    }
     sealed.add(texts);
     printed.clear();
   };
+  std::array<char, kLineRoom> room;
   for (Id id = 1; id <= instances_.size(); ++id) {
     tick();
-    if (reserved_.contains(id)) continue;
+    if (!reserved_.empty() && reserved_.contains(id)) continue;
     const Instance& instance = instances_[id - 1];
     const std::size_t line = out.size();
+    const Geometry* const points = instance.made == kAsItIs ? &geometry_of(instance.noun.type) : nullptr;
+    if (points != nullptr && points->of_numbers) {
+      char* const number_end = print_number_of(room.data(), id);
+      *number_end = '=';
+      if (char* end = print_numbers(instance.noun, *points, number_end + 1); end != nullptr) {
+        const auto size = [&](const char* upto) { return static_cast<std::size_t>(upto - room.data()); };
+        printed.push_back({model::noun_type(instance.noun.type).keyword, line, size(number_end),
+                           line + size(number_end) + 1, line + size(end)});
+        end = print_text(end, ";\n");
+        out.append(room.data(), size(end));
+        if (printed.size() == kAtOnce) seal();
+        continue;
+      }
+    }
     append_number_of(id, out);
+    const std::size_t number = out.size() - line;
     out += '=';
     const std::size_t begin = out.size();
     if (instance.made != kAsItIs) {
@@ -131,8 +163,8 @@ void Writer::print(std::string& out, Seals& sealed, std::string& unsealed) {
     }
     const std::size_t end = out.size();
     out += ";\n";
-    if (instance.made == kAsItIs && geometry_of(instance.noun.type).of_points) {
-      printed.push_back({id, model::noun_type(instance.noun.type).keyword, begin, end});
+    if (points != nullptr && points->of_points) {
+      printed.push_back({model::noun_type(instance.noun.type).keyword, line, number, begin, end});
       if (printed.size() == kAtOnce) seal();
     } else {
       unsealed.append(out, line);
@@ -142,6 +174,37 @@ void Writer::print(std::string& out, Seals& sealed, std::string& unsealed) {
   for (const auto& [what, n] : lost_) {
     losses_.push_back(what + " has no place in AP238 (" + std::to_string(n) + " left out)");
   }
+}
+
+// An instance of a few numbers and no text, as most points are; nullptr: it is something else.
+char* Writer::print_numbers(AnyRef noun, const Geometry& geometry, char* to) const {
+  const void* const data = m_.object(noun);
+  to = print_text(to, model::noun_type(noun.type).keyword);
+  char before = '(';
+  for (const Geometry::Slot& s : geometry.slots) {
+    *to++ = before;
+    before = ',';
+    const Attribute* a = s.attribute;
+    if (a == nullptr || s.derived) return nullptr;
+    if (!model::has_value(*a, data)) {
+      to = print_text(to, s.nothing);
+    } else if (a->storage == Storage::kText && model::value_of<model::Text>(*a, data)->empty()) {
+      to = print_text(to, "''");
+    } else if (a->storage == Storage::kRealList) {
+      const auto& items = model::value_of<model::RealList>(*a, data).items;
+      if (items.size() > kFewNumbers) return nullptr;
+      *to++ = '(';
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        if (i != 0) *to++ = ',';
+        to = print_part21_real(to, items[i]);
+      }
+      *to++ = ')';
+    } else {
+      return nullptr;
+    }
+  }
+  *to++ = ')';
+  return to;
 }
 
 void Writer::print_as_it_is(AnyRef noun, const std::string& name, std::string& out) {
@@ -194,31 +257,40 @@ void Writer::print_kept(const model::KeptInstance& kept, std::string& out) {
   }
 }
 
-void Writer::append_reference(AnyRef r, std::string& out) {
-  if (r.type == model::TypeId::kKeptInstance) {
-    out += reference_text(r);
-  } else if (const Id id = r.set() ? ids_.find(r).value_or(kNoId) : kNoId; id != kNoId) {
-    append_number_of(id, out);
-  } else {
-    out += '$';
+void Writer::append_references(const std::vector<AnyRef>& items, std::string& out) {
+  std::array<char, 256 * kIdRoom> buffer;
+  char* to = buffer.data();
+  const auto append = [&] {
+    out.append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
+    to = buffer.data();
+  };
+  *to++ = '(';
+  bool first = true;
+  for (const AnyRef r : items) {
+    if (!first) *to++ = ',';
+    first = false;
+    if (r.type == model::TypeId::kKeptInstance) {
+      append();
+      out += reference_text(r);
+    } else if (const Id id = r.set() ? ids_.find(r).value_or(kNoId) : kNoId; id != kNoId) {
+      to = print_number_of(to, id);
+    } else {
+      *to++ = '$';
+    }
+    if (static_cast<std::size_t>(to - buffer.data()) > buffer.size() - 2 * kIdRoom) append();
   }
+  *to++ = ')';
+  append();
 }
 
 // What millions of points, and the lines through them, consist of; all else as `attribute_text`.
 void Writer::append_attribute(const Attribute& a, const void* data, std::string& out) {
-  const auto list = [&out](const auto& items, const auto& append) {
-    char before = '(';
-    for (const auto& item : items) {
-      out += before;
-      append(item);
-      before = ',';
-    }
-    out += items.empty() ? "()" : ")";
-  };
   if (a.storage == Storage::kRealList) {
-    list(model::value_of<model::RealList>(a, data).items, [&](double v) { append_part21_real(out, v); });
+    out += '(';
+    append_part21_reals(out, model::value_of<model::RealList>(a, data).items);
+    out += ')';
   } else if (a.storage == Storage::kRefList) {
-    list(model::value_of<model::AnyRefList>(a, data).items, [&](AnyRef r) { append_reference(r, out); });
+    append_references(model::value_of<model::AnyRefList>(a, data).items, out);
   } else if (a.storage == Storage::kText && model::value_of<model::Text>(a, data)->empty()) {
     out += "''";
   } else {
