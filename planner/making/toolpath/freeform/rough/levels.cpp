@@ -65,7 +65,7 @@ struct Wish {
 
 /// Of the grid points, and between each two of them close enough together.
 std::vector<Wish> wishes_of(const FreeformJob& task, const DropGrid& reach) {
-  constexpr double kPart = 0.05;        // of a terrace, between two wishes; so much less is asked
+  constexpr double kPart = 0.1;        // of a terrace, between two wishes; so much less is asked
   constexpr double kLeastShare = 0.3;  // of the terrace, beside cusps; default, unsourced
   const double corner = task.cutter.corner_radius_mm;
   const double terrace = std::max(kLeastShare * task.terrace_mm, task.terrace_mm - cusp_of(task));
