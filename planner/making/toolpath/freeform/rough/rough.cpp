@@ -222,7 +222,7 @@ class Rougher {
     }
     if (!from && (task_.left_mm || raised_)) from = air_near(p, z);
     if (!from) return false;
-    come_down({from->x, from->y, z}, stock::max_height(rest_.map, *from, radius_));
+    come_down({from->x, from->y, z}, stock::max_height(rest_.map, *from, radius_), task_.terrace_mm > 0.0);
     down_ = true;
     line({p.x, p.y, z}, MoveRole::kCut);
     return true;
@@ -406,8 +406,9 @@ class Rougher {
   }
 
   /// To p from above: low over what stands where that way is free, else over the security plane, fast to the
-  /// clearance above `material`; at feed through the air there, then as a plunge.
-  void come_down(Vec3 p, double material) {
+  /// clearance above `material`; at feed through the air there, then as a plunge. `was_there`: no deeper than
+  /// before.
+  void come_down(Vec3 p, double material, bool was_there = false) {
     const Vec3 high{p.x, p.y, task_.security_z_mm};
     if (out_.path.size() == 0) {
       out_.path.start(high);
@@ -421,7 +422,7 @@ class Rougher {
     // Beside the piece nothing is near; on what is cleared the tip comes to stand on material.
     constexpr double kNearMm = 0.1;
     if (in_air(xy(p), p.z - kNearMm)) return line(p, MoveRole::kApproach);
-    const double top = is_clear(xy(p), p.z) ? p.z : std::max(material, p.z);
+    const double top = was_there || is_clear(xy(p), p.z) ? p.z : std::max(material, p.z);
     const double near = top + (is_raw(material) ? kAboveRaw : kAirAbove);
     if (near < here().z) line({p.x, p.y, near}, MoveRole::kApproach);
     line(p, MoveRole::kPlunge);
