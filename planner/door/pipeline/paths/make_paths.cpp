@@ -17,6 +17,7 @@
 #include "planner/making/step/cut/deviation.h"
 #include "planner/making/step/cut/ranking.h"
 #include "planner/making/step/path/attempt.h"
+#include "planner/making/step/path/freeform.h"
 #include "planner/making/step/path/given_path.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/progress.h"
@@ -194,6 +195,9 @@ class PathMaker {
     step::rank_by_time(plan_, p_, steps_, step, used_, stocks_, progress_, cuts_);
     step::rank_by_path(plan_, steps_, step, used_,
                        [&](std::size_t i) { return cutter_.seconds_with(step, i); });
+    if (step.proposed && plan_.target_mesh && plan_.model.holds<model::FreeformRoughMilling>(step.operation))
+      step::rank_by_rest(plan_, steps_, step, used_,
+                         [&](std::size_t i) { return cutter_.roughed_with(step, i); });
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     step::GroupedReasons why_not;
     bool gone = step.proposed;                            // true: every cutter finds no material to cut
@@ -256,6 +260,7 @@ class PathMaker {
     step::record_cut(plan_, steps_, step, made.answer, made.depth_open, made.width_open, made.cases);
     tell_thicker(step, made);
     progress_.done(step);
+    tell_too_much(step);
     const auto& feeds = tried.feeds;
     model::StepResult& r = tried.result;
     if (tried.asked.adapt || step.open_technology) step::keep_excess(plan_.model, step, feeds, r, job_);
@@ -271,6 +276,20 @@ class PathMaker {
     step::keep(plan_, p_.recorded, step, std::move(r), tried.asked, job_);
     step::tell_cases(plan_, p_, step, made, tried.asked, cuts_, told_, job_);
     return {};
+  }
+
+  /// A surface of which a step leaves so much that the next bites deeper than twice what it was given.
+  void tell_too_much(const StepDraft& step) {
+    constexpr double kShare = 0.01;  // of the surface; the rest are creases, and cells at steep places
+    if (!plan_.target_mesh || !plan_.model.holds<model::FreeformOperation>(step.operation)) return;
+    const step::TooMuch much = step::too_much_for_next(p_, step, stocks_.of(step.setup));
+    if (!(much.most_mm > 0.0) || much.share <= kShare) return;
+    job_.warn("PIP-BITE", "step '" + draft::name_of(plan_.model, step) +
+                              "' leaves so much that the next over this surface bites up to " +
+                              trimmed(much.deepest_mm, 2) + " mm deep, square to it, and on " +
+                              trimmed(100.0 * much.share, 1) + " % of it more than " +
+                              trimmed(much.most_mm, 2) +
+                              " mm, twice what is left for it; a smaller mill before it would bite less");
   }
 
   /// Depths that exceeded a limit along the path: an alternative that was tried, and why not.

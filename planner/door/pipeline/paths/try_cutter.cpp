@@ -6,6 +6,7 @@
 #include "planner/ground/base/earlier_diagnostics.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/step/cut/ranking.h"
+#include "planner/making/step/path/freeform.h"
 #include "planner/making/step/record/results.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
@@ -57,17 +58,36 @@ std::string excess_text(const step::MeasuredCut& t) {
   return model::text_of(t.feeds.worst) + ", even at the least feed" + thinner;
 }
 
-std::optional<double> TryCutter::seconds_with(StepDraft& step, std::size_t i) {
+template <class F>
+void TryCutter::in_passing(StepDraft& step, std::size_t i, const F& look) {
   auto said = means_.job.take_diagnostics();
   const auto before = means_.stocks.before(step.setup);
   const model::Cutter cutter = step.cutter;
   const auto tried = with_cutter(step, i);
+  if (tried && !exceeds(step, *tried)) look(*tried);
   step.cutter = cutter;
   means_.stocks.put_back(step.setup, before);
   (void)means_.job.take_diagnostics();
   for (auto& d : said) means_.job.report(std::move(d));
-  if (!tried || exceeds(step, *tried)) return std::nullopt;
-  return step::seconds_of(plan_.machine, *tried->path, tried->feeds.schedule);
+}
+
+std::optional<double> TryCutter::seconds_with(StepDraft& step, std::size_t i) {
+  std::optional<double> out;
+  in_passing(step, i, [&](const step::MeasuredCut& t) {
+    out = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
+  });
+  return out;
+}
+
+std::optional<step::Roughed> TryCutter::roughed_with(StepDraft& step, std::size_t i) {
+  std::optional<step::Roughed> out;
+  in_passing(step, i, [&](const step::MeasuredCut& t) {
+    const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
+    if (!seconds || !t.removed_mm3) return;
+    const auto left = step::too_much_for_next(p_, step, means_.stocks.of(step.setup));
+    out = step::Roughed{*seconds, *t.removed_mm3, left.mm3};
+  });
+  return out;
 }
 
 Result<step::MeasuredCut> TryCutter::with_cutter(StepDraft& step, std::size_t i) {

@@ -6,6 +6,7 @@
 
 #include "planner/making/draft/bans.h"
 #include "planner/making/draft/draft.h"
+#include "planner/making/step/cut/ranking.h"
 #include "planner/making/step/path/attempt.h"
 #include "planner/making/step/plan_so_far.h"
 
@@ -28,12 +29,18 @@ class TryCutter {
 
   /// How long a candidate's path takes, if it keeps the limits, s; nothing is kept or said of it.
   [[nodiscard]] std::optional<double> seconds_with(draft::StepDraft& step, std::size_t i);
+  /// What a candidate's path over a surface takes and leaves, if it keeps the limits; nothing is kept or said
+  /// of it.
+  [[nodiscard]] std::optional<step::Roughed> roughed_with(draft::StepDraft& step, std::size_t i);
   /// Tries one of the candidates: rings outwards, and where the step may have them and they could be quicker
   /// rings inwards and constant engagement; takes the quickest of those that keep the limits. Only that one
   /// is removed from the stock.
   [[nodiscard]] Result<step::MeasuredCut> with_cutter(draft::StepDraft& step, std::size_t i);
 
  private:
+  /// A try of which nothing stays; `look` sees the cut while it is taken out of the stock.
+  template <class F>
+  void in_passing(draft::StepDraft& step, std::size_t i, const F& look);
   /// Rings, or constant engagement where that is worthwhile; of the others, it reports only what is recorded.
   Result<step::MeasuredCut> quickest_way(draft::StepDraft& step, std::size_t i, bool inwards,
                                          const std::optional<step::ConstantCut>& other);

@@ -142,7 +142,7 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
 }
 
 double freeform_ridges_mm(const model::ProposedStep& step) {
-  constexpr double kFine = 0.01, kShareOfLeft = 0.25;
+  constexpr double kFine = 0.01, kShareOfLeft = 0.4;
   const bool semi = model::is_a(step.operation, TypeId::kFreeformFinishMilling);
   return semi ? std::max(kFine, kShareOfLeft * step.allowance_side_mm) : kFine;
 }

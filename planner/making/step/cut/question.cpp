@@ -38,10 +38,14 @@ constexpr double kFinishDeflection = 0.02;  // mm, of a surface without a tolera
 /// What one wall may be off of a zone: a size in its middle has half of it on either side (derived).
 constexpr double kWallOfZone = 0.5;
 constexpr double kLeastDeflection = 0.004;  // mm; below, the model's own error rules
-/// Largest height of the terraces that roughing of a surface leaves, in diameters. Default, measured: of
-/// 0.07, 0.13, 0.2, 0.25 and 0.4 the one with which examples/surface.stl is roughed and evened out soonest,
-/// in 6061 and in C45.
+/// Largest height of the terraces that roughing of a leaning wall leaves, in diameters. Default, measured: of
+/// 0.07, 0.13, 0.2, 0.25 and 0.4 the one with which examples/surface.stl was roughed and evened out soonest
+/// when its levels were as far apart.
 constexpr double kTerraceShare = 0.25;
+/// Largest depth of a cut that roughs a surface, in diameters; levels between bound its terraces. Default,
+/// measured with a bull nose of 16 mm: of 0.25, 0.32, 0.4, 0.5 and no bound the one with which
+/// examples/surface.stl is roughed soonest in 6061.
+constexpr double kSurfaceShare = 0.5;
 /// A slot no wider than its cutter by this is cut at its full width. Default, unsourced.
 constexpr double kAsWide = 1.02;
 
@@ -377,9 +381,10 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
   const double d = step.cutter.cutting_diameter_mm;
   if (job.axial_depth_mm > 0.0) q.ap_mm = job.axial_depth_mm;
   // The finishing pass cuts the terraces that the levels leave on a slope.
-  const bool terraces = m.holds<model::FreeformOperation>(step.operation) ||
-                        (job.allowance_side_mm > 0.0 && leans_at_top(job.shape));
-  if (terraces && q.kind == CutKind::kRough) q.ap_most_mm = kTerraceShare * d;
+  const bool surface = m.holds<model::FreeformOperation>(step.operation);
+  const bool terraces = job.allowance_side_mm > 0.0 && leans_at_top(job.shape);
+  if ((surface || terraces) && q.kind == CutKind::kRough)
+    q.ap_most_mm = (surface ? kSurfaceShare : kTerraceShare) * d;
   // Across the floor a finishing pass steps as given; what it takes from the wall is what roughing left.
   const bool rough = q.kind != CutKind::kFinish;
   if (rough && job.radial_depth_mm > 0.0) {

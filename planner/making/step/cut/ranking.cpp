@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -148,6 +150,73 @@ void rank_by_path(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& s
     times.emplace_back(t ? *t + change : kNever * static_cast<double>(i + 1), i);
   }
   in_order(plan, steps, step, std::move(times));
+}
+
+namespace {
+
+/// Of each diameter the mill with the roundest corner up to a quarter of it, which leaves the lowest cusps
+/// between levels; from the first candidate's diameter down.
+std::vector<std::size_t> one_of_each_diameter(const draft::Candidates& all) {
+  constexpr double kSame = 1e-6;
+  constexpr double kRoundest =
+      0.25;  // of the diameter: the rest is level and clears floors; default, unsourced
+  std::map<double, std::size_t, std::greater<>> best;
+  const auto corner = [&](std::size_t i) {
+    const model::Cutter& c = all[i].cutter;
+    return c.corner_radius_mm > kRoundest * c.cutting_diameter_mm + kSame ? -1.0 : c.corner_radius_mm;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double d = all[i].cutter.cutting_diameter_mm;
+    if (d > all.front().cutter.cutting_diameter_mm + kSame) continue;
+    const auto [at, is_new] = best.emplace(d, i);
+    if (!is_new && corner(i) > corner(at->second) + kSame) at->second = i;
+  }
+  std::vector<std::size_t> out;
+  for (const auto& [d, i] : best) out.push_back(i);
+  if (out.size() > kCompared) out.resize(kCompared);
+  return out;
+}
+
+}  // namespace
+
+void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
+                  const std::vector<std::string>& used,
+                  const std::function<std::optional<Roughed>(std::size_t)>& roughed) {
+  // What a wider mill cannot reach a smaller one takes at this share of its rate, tool change included.
+  // Default, measured on waves of 4 mm: 12 mm after 20 mm.
+  constexpr double kRestRate = 0.25;
+  constexpr double kNothingLeft = 0.002;  // of what was taken; default, unsourced
+  if (step.candidates.size() < 2) return;
+  std::vector<std::pair<double, std::size_t>> times;
+  for (const std::size_t i : one_of_each_diameter(step.candidates)) {
+    const auto t = roughed(i);
+    if (!t || !(t->taken_mm3 > 0.0)) continue;
+    const bool even = t->too_much_mm3 <= kNothingLeft * t->taken_mm3;
+    double s = t->seconds + (is_used(used, step.candidates[i].cutter) ? 0.0 : plan.machine.tool_change_s);
+    if (!even) s += t->seconds * t->too_much_mm3 / (kRestRate * t->taken_mm3) + plan.machine.tool_change_s;
+    const bool slower = !times.empty() && s > times.back().first;
+    times.emplace_back(s, i);
+    if (even || slower) break;  // a smaller one takes longer still
+  }
+  if (times.empty()) return;
+  const std::string first = step.candidates.front().cutter.id;
+  std::vector<model::Rejected> lost;
+  std::stable_sort(times.begin(), times.end());
+  std::vector<std::size_t> order;
+  for (const auto& [t, i] : times) {
+    if (!order.empty())
+      lost.push_back({step.candidates[i].cutter.id, "fits, but takes " + trimmed(t, 1) +
+                                                        " s with what it leaves, against " +
+                                                        trimmed(times.front().first, 1) + " s"});
+    order.push_back(i);
+  }
+  step.candidates.prefer(order);
+  step.cutter = step.candidates.front().cutter;
+  for (model::Rejected& r : lost) {
+    std::erase_if(step.rejected_tools, [&](const auto& known) { return known.what == r.what; });
+    step.rejected_tools.push_back(std::move(r));
+  }
+  take_cutter(plan, steps, step, step.candidates.front());
 }
 
 }  // namespace capstan::step

@@ -28,6 +28,20 @@ void rank_by_path(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft
                   const std::vector<std::string>& used,
                   const std::function<std::optional<double>(std::size_t)>& seconds);
 
+/// What a mill makes of a surface that it roughs.
+struct Roughed {
+  double seconds = 0.0;       ///< of its path
+  double taken_mm3 = 0.0;     ///< what it removes
+  double too_much_mm3 = 0.0;  ///< what it leaves where the next step would bite too deep
+};
+/// Ranks the mills that rough a surface by the time of their paths and of what they leave too much. `roughed`
+/// tries a candidate; nothing if it has no path within the limits. Of the diameters down from that which
+/// comes first, one mill each is tried, with the roundest corner, until one leaves next to nothing or takes
+/// longer than the one before.
+void rank_by_rest(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft::StepDraft& step,
+                  const std::vector<std::string>& used,
+                  const std::function<std::optional<Roughed>(std::size_t)>& roughed);
+
 /// Drops the cutters of a step for which the magazine has no pocket beside the tools of the other steps. One
 /// pocket is the spindle itself, and tools are changed by hand.
 void keep_in_magazine(const model::Machine& machine, const std::vector<draft::StepDraft>& steps,

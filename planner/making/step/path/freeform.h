@@ -16,6 +16,18 @@ namespace capstan::step {
                                         const draft::StepDraft& step);
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
 void shape_from_mesh(const PlanSoFar& p, const draft::StepDraft& step, toolpath::PathJob& job);
+/// What stands on the plan's mesh where the next step over it would bite too deep: more than twice what
+/// `step` leaves, square to the surface, beside what that next step leaves itself. Places steeper than 60
+/// degrees are left out.
+struct TooMuch {
+  double mm3 = 0.0;         ///< of it, above that height
+  double share = 0.0;       ///< of the surface, seen from above
+  double deepest_mm = 0.0;  ///< the deepest bite
+  double most_mm = 0.0;     ///< what a bite may be
+};
+/// `map` is what stands after the step, set-up's frame. Needs a mesh.
+[[nodiscard]] TooMuch too_much_for_next(const PlanSoFar& p, const draft::StepDraft& step,
+                                        const stock::HeightMap& map);
 /// The path of a freeform operation over the plan's mesh; `map` is what stands.
 /// Fails  PIP-SURFACE without a mesh; as the paths over a surface do.
 [[nodiscard]] Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const draft::StepDraft& step,

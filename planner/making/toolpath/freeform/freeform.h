@@ -37,6 +37,8 @@ struct FreeformJob {
   double feed_angle_rad = 0.0;  ///< of the passes, against x
   double ramp_angle_rad = 0.0;  ///< rough: of ramps into the solid; 0: the steepest that the cutter may
   double axial_depth_mm = 0.0;  ///< rough: at most, per level
+  /// Rough: what levels may leave on a slope beside the allowance, square to it; 0: as much as they do.
+  double terrace_mm = 0.0;
   double stepover_mm = 0.0;     ///< between passes; finish: 0 takes it from scallop_mm
   double scallop_mm = 0.0;      ///< finish: height of the ridges between passes
   bool to_and_fro = true;       ///< finish: else all passes in one direction

@@ -49,6 +49,13 @@ const model::StepResult* step(const model::Plan& plan, const std::string& name) 
   return nullptr;
 }
 
+/// What the sections of a step took.
+double removed_mm3(const model::StepResult& s) {
+  double out = 0.0;
+  for (const double one : s.sections->removed_mm3) out += one;
+  return out;
+}
+
 TEST(Bind, PlansTheBracketWholeAndSafe) {
   const model::Plan plan = bound(part("bracket.p21"), shop());
   EXPECT_TRUE(plan.unplanned.empty());
@@ -265,8 +272,16 @@ TEST(Bind, ASurfaceThatIsRoughedOnlyIsFoundToStandTooHigh) {
 TEST(Bind, FinishesASurfaceThroughThinStock) {
   Inputs in = shop();
   in.material_name = "EN AW-6061";
-  const model::Plan plan = bound(part("surface.stl"), in);
+  Job job;
+  const auto made = bind(part("surface.stl"), in, {}, job);
+  ASSERT_TRUE(made) << (made ? "" : to_text(made.error()));
+  const model::Plan& plan = *made;
   ASSERT_EQ(plan.steps.size(), 3U);
+  EXPECT_LT(removed_mm3(plan.steps[1]), 0.1 * removed_mm3(plan.steps[0])) << "7.5 mm are roughed to 0.9";
+  const auto said = job.diagnostics();
+  EXPECT_TRUE(std::none_of(said.begin(), said.end(), [](const Diagnostic& d) {
+    return d.code == "PIP-BITE";
+  })) << "no step bites deeper than twice what it was left";
   const auto& s = *plan.steps.back().sections;
   ASSERT_FALSE(s.csa_mm2.empty());
   EXPECT_LT(*std::max_element(s.csa_mm2.begin(), s.csa_mm2.end()), 1.0);
@@ -305,6 +320,48 @@ TEST(Bind, FeedsASurfacesFinishByWhatItCutsThere) {
   const double at_rim = 3.14159 * ball->cutting_diameter_mm * std::abs(last.spindle_rpm) / 1000.0;
   EXPECT_GT(at_rim, 1.1 * 132.6);
   EXPECT_LT(at_rim, 2.0 * 132.6);
+}
+
+/// Hills and pits of 4 mm on 60 x 60 mm, as an ASCII STL sheet.
+std::string waves_stl() {
+  constexpr int kN = 40;
+  constexpr double kSize = 60.0;
+  const auto point = [](int i, int j) {
+    const double x = kSize * i / kN, y = kSize * j / kN;
+    const double z = -6.0 + 4.0 * std::sin(0.16 * x) * std::cos(0.13 * y);
+    return "vertex " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  };
+  std::string out = "solid waves\n";
+  const auto facet = [&](const std::string& a, const std::string& b, const std::string& c) {
+    out += "facet normal 0 0 1\nouter loop\n" + a + b + c + "endloop\nendfacet\n";
+  };
+  for (int j = 0; j < kN; ++j) {
+    for (int i = 0; i < kN; ++i) {
+      facet(point(i, j), point(i + 1, j), point(i + 1, j + 1));
+      facet(point(i, j), point(i + 1, j + 1), point(i, j + 1));
+    }
+  }
+  return out + "endsolid waves\n";
+}
+
+// The widest mill ranked first. On the waves its only level was the height of the lowest place that it could
+// be let down to: one plunge took 1 of 40 cm3, and the ball after it all the rest, 7.7 mm deep.
+TEST(Bind, RoughsMostOfASurfaceBeforeItIsEvenedOut) {
+  Inputs in = shop();
+  in.material_name = "EN AW-6061";
+  Job job;
+  auto waves = read_plan(waves_stl(), "waves.stl", job);
+  ASSERT_TRUE(waves);
+  const auto plan = bind(*std::move(waves), in, {}, job);
+  ASSERT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  ASSERT_EQ(plan->steps.size(), 3U);
+  // Of some 4 mm half a millimetre stays everywhere, half of 0.7 mm of terraces on the whole, and more in the
+  // pits, which a mill of that width does not reach.
+  EXPECT_LT(removed_mm3(plan->steps[1]), 0.4 * removed_mm3(plan->steps[0]));
+  const auto said = job.diagnostics();
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const Diagnostic& d) {
+    return d.code == "PIP-BITE" && d.message.find("freeform_rough") != std::string::npos;
+  })) << "how deep the next bites into those is told";
 }
 
 TEST(Bind, StopsWhenItIsAsked) {

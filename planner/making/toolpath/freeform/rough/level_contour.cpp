@@ -1,5 +1,6 @@
-#include "planner/making/toolpath/freeform/level_contour.h"
+#include "planner/making/toolpath/freeform/rough/level_contour.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -102,6 +103,21 @@ class Marcher {
 
 }  // namespace
 
+bool DropGrid::blocks(Vec2 from, Vec2 to, double level) const {
+  const int n = std::max(1, static_cast<int>(std::ceil(norm(to - from) / step_mm)));
+  for (int k = 1; k < n; ++k) {
+    const Vec2 p = from + (static_cast<double>(k) / n) * (to - from);
+    const int ix = static_cast<int>(std::lround((p.x - origin.x) / step_mm));
+    const int iy = static_cast<int>(std::lround((p.y - origin.y) / step_mm));
+    if (ix < 0 || iy < 0 || ix >= nx || iy >= ny || !(at(ix, iy) > level)) continue;
+    // A border between the way and the point is nearer to the level at one of its neighbours.
+    const bool beside = (ix > 0 && at(ix - 1, iy) <= level) || (ix + 1 < nx && at(ix + 1, iy) <= level) ||
+                        (iy > 0 && at(ix, iy - 1) <= level) || (iy + 1 < ny && at(ix, iy + 1) <= level);
+    if (!beside) return true;
+  }
+  return false;
+}
+
 std::vector<std::vector<Vec2>> level_contour(const DropGrid& grid, double level,
                                              const std::function<Vec2(Vec2, Vec2)>& border) {
   Marcher marcher(grid, level);
@@ -117,6 +133,29 @@ std::vector<std::vector<Vec2>> level_contour(const DropGrid& grid, double level,
       line.push_back(border(free, blocked));
     }
     out.push_back(std::move(line));
+  }
+  return out;
+}
+
+Lines::iterator nearest(Lines& lines, Vec2 here) {
+  auto out = lines.begin();
+  std::size_t at = 0;
+  double least = 1e300;
+  for (auto line = lines.begin(); line != lines.end(); ++line) {
+    const std::size_t n = line->front() == line->back() ? line->size() : 1;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double d = norm((*line)[i] - here);
+      if (d < least) {
+        out = line;
+        at = i;
+        least = d;
+      }
+    }
+  }
+  if (at > 0) {
+    out->pop_back();
+    std::rotate(out->begin(), out->begin() + static_cast<std::ptrdiff_t>(at), out->end());
+    out->push_back(out->front());
   }
   return out;
 }

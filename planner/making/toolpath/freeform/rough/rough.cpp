@@ -8,8 +8,10 @@
 #include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/freeform/hatch.h"
-#include "planner/making/toolpath/freeform/level_contour.h"
-#include "planner/making/toolpath/freeform/levels.h"
+#include "planner/making/toolpath/freeform/rough/level_contour.h"
+#include "planner/making/toolpath/freeform/rough/levels.h"
+#include "planner/making/toolpath/freeform/rough/material.h"
+#include "planner/making/toolpath/freeform/rough/reach.h"
 #include "planner/making/toolpath/freeform/surface_line.h"
 #include "planner/making/toolpath/freeform/task.h"
 #include "planner/physics/stock/sweep.h"
@@ -21,57 +23,48 @@ using geometry::Vec2;
 using geometry::Vec3;
 using model::MoveRole;
 
-constexpr double kBlocked = 1e300;
 /// More turns of a ramp than this and a place counts as not to be entered; default, unsourced.
 constexpr int kMostRampTurns = 100;
-constexpr double kMostGridPoints = 2e6;
-
-/// Lowest tip heights along one stripe, evenly spaced.
-struct Probes {
-  double step = 0.0;
-  std::vector<double> z;
-};
-
-/// A piece of a stripe that one level cuts, u from lo to hi.
-struct Pass {
-  std::size_t stripe = 0;
-  double lo = 0.0, hi = 0.0;
-};
 
 class Rougher {
  public:
   Rougher(const FreeformJob& task, const DropCutter& drop, const MillEnd& cutter, Hatch hatch,
           geometry::Region kept_out, Job& job)
       : task_(task),
-        drop_(drop),
-        cutter_(cutter),
         hatch_(std::move(hatch)),
-        kept_out_(std::move(kept_out)),
         job_(job),
-        profile_(model::profile_of(task.cutter)),
-        rest_(task.stock ? *task.stock : block(task, hatch_)) {
-    margin_ = std::max(task.tolerance_mm, 0.1 * task.allowance_mm);
-    spacing_ = std::min(probe_spacing(cutter.ball_mm() + task.allowance_mm, margin_),
-                        kProbedShare * cutter.radius());
-    floor_ = std::max(task.bottom_z_mm, rest_.origin.z);
-    ends_alike_ = stock_ends_with(drop.bounds());
+        radius_(cutter.radius()),
+        rest_(task.stock ? *task.stock : block_under(task, hatch_), task.cutter),
+        reach_{.task = task, .drop = drop, .cutter = cutter, .kept_out = std::move(kept_out)} {
+    reach_.margin_mm = std::max(task.tolerance_mm, 0.1 * task.allowance_mm);
+    reach_.spacing_mm = std::min(probe_spacing(cutter.ball_mm() + task.allowance_mm, reach_.margin_mm),
+                                 kProbedShare * cutter.radius());
+    reach_.floor_mm = std::max(task.bottom_z_mm, rest_.map.origin.z);
+    reach_.beside = task.beside_is_free || ends_with(rest_.map, drop.bounds());
   }
 
   Result<FreeformPath> run(const geometry::Region& area) {
-    probe_all();
-    probe_grid(area);
+    probes_ = reach_.along(hatch_, job_);
+    grid_ = reach_.grid(area, job_);
     if (job_.stop_requested()) return stopped();
     double lowest = kBlocked;
     for (const Probes& p : probes_) {
       for (const double z : p.z) lowest = std::min(lowest, z);
     }
+    if (task_.terrace_mm > 0.0) {
+      for (const double z : grid_.z) lowest = std::isnan(z) ? lowest : std::min(lowest, z);
+    }
     if (lowest >= task_.top_z_mm) return fail("FRF-EMPTY", "nothing above the surface is left to rough");
-    const auto [levels, floors] = levels_of(task_, lowest, margin_);
+    const auto [levels, floors] = levels_of(task_, grid_, lowest, reach_.margin_mm);
     floors_ = floors;
+    bool before = true;  // something was cut on the level before
     for (std::size_t k = 0; k < levels.size(); ++k) {
       job_.progress("freeform rough", static_cast<double>(k) / static_cast<double>(levels.size()));
       if (job_.stop_requested()) return stopped();
-      level(levels[k]);
+      const bool any = level(levels[k], k > 0 && levels[k] > levels[k - 1]);
+      if (any && k > 0 && !before)
+        level(levels[k - 1], false);  // the bottom of a pit, too small to go down into
+      before = any;
     }
     if (skipped_ > 0) {
       job_.warn("FRF-REST", std::to_string(skipped_) + " passes, " + trimmed(skipped_mm_, 1) +
@@ -87,69 +80,6 @@ class Rougher {
  private:
   static tl::unexpected<Diagnostic> stopped() {
     return fail("FRF-STOPPED", "the rough path was stopped before it was whole");
-  }
-
-  /// Solid material under the area, for a job without a stock.
-  static stock::HeightMap block(const FreeformJob& task, const Hatch& hatch) {
-    geometry::Box3 box;
-    for (const Stripe& s : hatch.stripes) {
-      for (const double u : {s.lo, s.hi}) {
-        const Vec2 p = hatch.place(u, s.v);
-        box.add({p.x, p.y, task.top_z_mm});
-      }
-    }
-    const double low = std::max(task.bottom_z_mm, geometry::bounds(*task.surface).lo.z);
-    box.add({box.lo.x, box.lo.y, std::min(low, task.top_z_mm)});
-    return stock::from_box(box, stock::cell_for(task.cutter.cutting_diameter_mm, box, 40.0));
-  }
-
-  /// Whether the material ends where the surface does: then beside both is nothing that must stay.
-  [[nodiscard]] bool stock_ends_with(const geometry::Box3& surface) const {
-    const double within = 1.5 * rest_.cell_mm;  // the map's last cells are cut through
-    return rest_.origin.x > surface.lo.x - within && rest_.origin.y > surface.lo.y - within &&
-           rest_.origin.x + rest_.nx * rest_.cell_mm < surface.hi.x + within &&
-           rest_.origin.y + rest_.ny * rest_.cell_mm < surface.hi.y + within;
-  }
-
-  [[nodiscard]] double reach_down(Vec2 p, std::uint32_t& hint, double share = 1.0) const {
-    if (!kept_out_.empty() && geometry::contains(kept_out_, p)) return kBlocked;
-    const double z = drop_.drop(cutter_, p.x, p.y, task_.allowance_mm + share * margin_, hint);
-    if (z == DropCutter::kNoContact) return task_.beside_is_free || ends_alike_ ? floor_ : kBlocked;
-    return std::max(z, floor_);
-  }
-
-  /// The grid that the borders of levels are read from; how fine it is decides only which borders are seen.
-  void probe_grid(const geometry::Region& area) {
-    const geometry::Box2 box = geometry::bounds(area);
-    const Vec2 size = box.hi - box.lo;
-    grid_.step_mm = std::max(0.125 * cutter_.radius(), std::sqrt(size.x * size.y / kMostGridPoints));
-    grid_.origin = box.lo;
-    grid_.nx = static_cast<int>(size.x / grid_.step_mm) + 1;
-    grid_.ny = static_cast<int>(size.y / grid_.step_mm) + 1;
-    grid_.z.resize(static_cast<std::size_t>(grid_.nx) * static_cast<std::size_t>(grid_.ny));
-    parallel_for(job_, static_cast<std::size_t>(grid_.ny), [&](std::size_t row) {
-      if (job_.stop_requested()) return;
-      std::uint32_t hint = 0;
-      for (int ix = 0; ix < grid_.nx; ++ix) {
-        const Vec2 p = grid_.place(ix, static_cast<int>(row));
-        grid_.z[row * static_cast<std::size_t>(grid_.nx) + static_cast<std::size_t>(ix)] =
-            geometry::contains(area, p) ? reach_down(p, hint) : std::nan("");
-      }
-    });
-  }
-
-  void probe_all() {
-    probes_.resize(hatch_.stripes.size());
-    parallel_for(job_, probes_.size(), [&](std::size_t i) {
-      if (job_.stop_requested()) return;
-      const Stripe& s = hatch_.stripes[i];
-      const int n = std::max(1, static_cast<int>(std::ceil((s.hi - s.lo) / spacing_)));
-      probes_[i].step = (s.hi - s.lo) / n;
-      std::uint32_t hint = 0;
-      for (int k = 0; k <= n; ++k) {
-        probes_[i].z.push_back(reach_down(hatch_.place(s.lo + k * probes_[i].step, s.v), hint));
-      }
-    });
   }
 
   /// Where the cutter may pass at this level, as far as it meets material.
@@ -173,34 +103,24 @@ class Rougher {
     return out;
   }
 
-  /// Last free place from `free` towards `blocked`, to a micrometre.
-  [[nodiscard]] Vec2 border(Vec2 free, Vec2 blocked, double z) const {
-    std::uint32_t hint = 0;
-    while (norm(blocked - free) > 1e-3) {
-      const Vec2 middle = 0.5 * (free + blocked);
-      (reach_down(middle, hint) <= z ? free : blocked) = middle;
-    }
-    return free;
-  }
   [[nodiscard]] double border(const Stripe& s, double free, double blocked, double z) const {
-    return dot(border(hatch_.place(free, s.v), hatch_.place(blocked, s.v), z), hatch_.u_axis);
+    return dot(reach_.border(hatch_.place(free, s.v), hatch_.place(blocked, s.v), z), hatch_.u_axis);
   }
 
   /// Cuts off, and splits at, long stretches without material; keeps a run-in in air where there is one.
   void trim(const Pass& whole, const Stripe& s, double z, std::vector<Pass>& out) const {
-    const double radius = cutter_.radius();
-    const double step = 0.25 * radius;
+    const double step = 0.25 * radius_;
     const int n = std::max(1, static_cast<int>(std::ceil((whole.hi - whole.lo) / step)));
     const double du = (whole.hi - whole.lo) / n;
     std::optional<Pass> open;
     int idle = 0;
     for (int k = 0; k <= n; ++k) {
       const double u = whole.lo + k * du;
-      if (stock::max_height(rest_, hatch_.place(u, s.v), radius) > z + kNothing) {
+      if (rest_.meets(hatch_.place(u, s.v), z)) {
         if (!open) open = Pass{whole.stripe, std::max(whole.lo, u - du), u};
         open->hi = std::min(whole.hi, u + du);
         idle = 0;
-      } else if (open && ++idle * du > 2.0 * radius) {
+      } else if (open && ++idle * du > 2.0 * radius_) {
         out.push_back(*open);
         open.reset();
       }
@@ -208,26 +128,38 @@ class Rougher {
     if (open) out.push_back(*open);
   }
 
-  void level(double z) {
+  /// `raised`: what stands above the level before is cut from below, in strips.
+  bool level(double z, bool raised) {
     const bool on_floor = std::find(floors_.begin(), floors_.end(), z) != floors_.end();
-    const bool walls_first = task_.left_mm && !on_floor;
+    const bool walls_first = raised || (task_.left_mm && !on_floor);
+    raised_ = raised;
+    if (!raised) {
+      ends_.clear();
+      above_ = first_ ? 1e300 : base_;
+      base_ = z;
+      first_ = false;
+    }
     bool any = walls_first && along_borders(z);
     any |= within(z);
     if (!walls_first) any |= along_borders(z);
-    ends_.clear();
     if (any) out_.levels_z_mm.push_back(z);
+    return any;
   }
 
   bool along_borders(double z) {
     bool any = false;
-    const auto to_border = [&](Vec2 f, Vec2 b) { return border(f, b, z); };
-    for (auto line : level_contour(grid_, z, to_border)) {
+    const auto to_border = [&](Vec2 f, Vec2 b) { return reach_.border(f, b, z); };
+    auto lines = level_contour(grid_, z, to_border);
+    while (!lines.empty()) {
+      auto line = lines.begin();
+      if (task_.terrace_mm > 0.0 && out_.path.size() > 0) line = nearest(lines, xy(here()));
       if (!task_.floors_z_mm.empty()) {  // walls: what is left out round their corners meets deeper levels
         std::uint32_t hint = 0;
-        line = refined(
-            line, 0.25 * margin_, [&](Vec2 p) { return reach_down(p, hint) <= z; }, to_border);
+        *line = refined(
+            *line, 0.25 * reach_.margin_mm, [&](Vec2 p) { return reach_.at(p, hint) <= z; }, to_border);
       }
-      any |= go_along(line, z);
+      any |= go_along(*line, z);
+      lines.erase(line);
     }
     return any;
   }
@@ -258,13 +190,15 @@ class Rougher {
     bool any = false;
     bool on = false;
     for (std::size_t i = 1; i < line.size(); ++i) {
-      const bool material = stock::max_height(rest_, line[i - 1], line[i], cutter_.radius()) > z + kNothing;
+      const bool material = task_.floors_z_mm.empty()
+                                ? rest_.meets(line[i - 1], z) || rest_.meets(line[i], z)
+                                : stock::max_height(rest_.map, line[i - 1], line[i], radius_) > z + kNothing;
       // Two points on a border: the chord may cut the border's corner by what the margin allows.
-      if (!is_free(line[i - 1], line[i], z, 0.5) || (!material && !on)) {
+      if (!reach_.is_free(line[i - 1], line[i], z, 0.5) || (!material && !on)) {
         on = false;
         continue;
       }
-      if (!on) on = approach(line[i - 1], z);
+      if (!on) on = approach(line[i - 1], z) || (i == 1 && ramp_along(line, z));
       if (!on) continue;
       this->line({line[i].x, line[i].y, z}, MoveRole::kCut);
       any = true;
@@ -275,22 +209,57 @@ class Rougher {
 
   /// To a point on a border: from here, or from the nearest pass's end with a free way to it.
   bool approach(Vec2 p, double z) {
-    if (down_ && here().z == z && norm(xy(here()) - p) <= 2.0 * cutter_.radius() &&
-        is_free(xy(here()), p, z, 0.5)) {
+    if (down_ && here().z <= z && norm(xy(here()) - p) <= 2.0 * radius_ &&
+        reach_.is_free(xy(here()), p, z, 0.5)) {
+      line({here().x, here().y, z}, MoveRole::kRetract);
       line({p.x, p.y, z}, MoveRole::kCut);
       return true;
     }
     std::optional<Vec2> from;
     for (const Vec2 e : ends_) {
-      if (norm(e - p) > 2.0 * cutter_.radius() || (from && norm(e - p) >= norm(*from - p))) continue;
-      if (is_free(e, p, z, 0.5)) from = e;  // the cutter was there at this level
+      if (norm(e - p) > 2.0 * radius_ || (from && norm(e - p) >= norm(*from - p))) continue;
+      if (reach_.is_free(e, p, z, 0.5)) from = e;  // the cutter was there at this level
     }
-    if (!from && task_.left_mm) from = air_near(p, z);
+    if (!from && (task_.left_mm || raised_)) from = air_near(p, z);
     if (!from) return false;
-    come_down({from->x, from->y, z}, stock::max_height(rest_, *from, cutter_.radius()));
+    come_down({from->x, from->y, z}, stock::max_height(rest_.map, *from, radius_), task_.terrace_mm > 0.0);
     down_ = true;
     line({p.x, p.y, z}, MoveRole::kCut);
     return true;
+  }
+
+  /// Down into the solid along a closed border, within the ramp angle; false where it is too short for that.
+  bool ramp_along(const std::vector<Vec2>& line, double z) {
+    const double angle = ramp_angle();
+    if (!(task_.terrace_mm > 0.0) || line.front() != line.back() || !(angle > 0.0)) return false;
+    double length = 0.0, material = z;
+    bool clear = true;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      length += norm(line[i] - line[i - 1]);
+      material = std::max(material, stock::max_height(rest_.map, line[i], radius_));
+      clear = clear && is_clear(line[i], above_);
+      if (!reach_.is_free(line[i - 1], line[i], z, 0.5)) return false;
+    }
+    const double top = clear ? std::clamp(above_, z, material) : material;
+    const double turns = std::ceil((top - z) / (length * std::tan(angle)) - 1e-9);
+    if (length < radius_ || turns > kMostRampTurns) return false;
+    come_down({line.front().x, line.front().y, top}, top);
+    down_ = true;
+    double way = 0.0;
+    for (int turn = 0; turn < static_cast<int>(turns); ++turn) {
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        way += norm(line[i] - line[i - 1]);
+        const double deep = std::min(1.0, way / (turns * length));
+        this->line({line[i].x, line[i].y, top - deep * (top - z)}, MoveRole::kRamp);
+      }
+    }
+    this->line({line.front().x, line.front().y, z}, MoveRole::kRamp);
+    return true;
+  }
+
+  [[nodiscard]] double ramp_angle() const {
+    const double most = task_.cutter.maximum_ramp_angle_rad;
+    return task_.ramp_angle_rad > 0.0 ? std::min(most, task_.ramp_angle_rad) : most;
   }
 
   /// The nearest place within a diameter where the cutter is in air and has a free way to p.
@@ -298,28 +267,35 @@ class Rougher {
     constexpr int kRings = 16, kAround = 24;
     std::uint32_t hint = 0;
     for (int k = 1; k <= kRings; ++k) {
-      const double r = 2.0 * cutter_.radius() * k / kRings;
+      const double r = 2.0 * radius_ * k / kRings;
       for (int i = 0; i < kAround; ++i) {
         const double a = 2.0 * std::numbers::pi * i / kAround;
         const Vec2 q = p + Vec2{r * std::cos(a), r * std::sin(a)};
-        if (reach_down(q, hint) <= z && in_air(q, z) && is_free(q, p, z, 0.5)) return q;
+        if (!is_clear(q, z) || grid_.blocks(q, p, z)) continue;
+        if (reach_.at(q, hint) <= z && reach_.is_free(q, p, z, 0.5)) return q;
       }
     }
     return std::nullopt;
   }
 
   /// A pass on the next line that can be reached from here without lifting.
-  [[nodiscard]] std::optional<std::size_t> neighbour(const std::vector<Pass>& todo,
-                                                     const std::vector<bool>& done, std::size_t i,
-                                                     double z) const {
+  std::optional<std::size_t> neighbour(const std::vector<Pass>& todo, const std::vector<bool>& done,
+                                       std::size_t i, double z) {
     if (!down_) return std::nullopt;
     const int line = hatch_.stripes[todo[i].stripe].line + 1;
     for (std::size_t k = i + 1; k < todo.size(); ++k) {
       const Stripe& s = hatch_.stripes[todo[k].stripe];
       if (s.line > line) break;
       if (s.line < line || done[k]) continue;
-      const Vec2 to = hatch_.place(near_end(todo[k]), s.v);
-      if (norm(to - xy(here())) <= 2.0 * cutter_.radius() + hatch_.spacing_mm && is_free(xy(here()), to, z)) {
+      // Where a border stands in the way to its end, a little farther on and back.
+      const double end = near_end(todo[k]), far = end == todo[k].lo ? todo[k].hi : todo[k].lo;
+      const double most = task_.terrace_mm > 0.0 ? std::min(1.5 * radius_, std::abs(far - end)) : 0.0;
+      for (double on = 0.0; on <= most; on += kProbedShare * radius_) {
+        const double u = end + (far > end ? on : -on);
+        const Vec2 to = hatch_.place(u, s.v);
+        if (norm(to - xy(here())) > 2.0 * radius_ + hatch_.spacing_mm) break;
+        if (grid_.blocks(xy(here()), to, z) || !reach_.is_free(xy(here()), to, z)) continue;
+        enter_at_ = u;
         return k;
       }
     }
@@ -332,29 +308,23 @@ class Rougher {
     return std::abs(u - p.lo) <= std::abs(u - p.hi) ? p.lo : p.hi;
   }
 
-  /// Whether a straight way at this level is clear with `share` of the margin, between the probes too.
-  [[nodiscard]] bool is_free(Vec2 a, Vec2 b, double z, double share = 1.0) const {
-    const double spacing =
-        std::min(spacing_, probe_spacing(cutter_.ball_mm() + task_.allowance_mm, share * margin_));
-    const int n = std::max(1, static_cast<int>(std::ceil(norm(b - a) / spacing)));
-    std::uint32_t hint = 0;
-    for (int k = 0; k <= n; ++k) {
-      if (reach_down(a + (static_cast<double>(k) / n) * (b - a), hint, share) > z) return false;
-    }
-    return true;
-  }
-
   bool cut_pass(const Pass& pass, double z, bool linked) {
     const double v = hatch_.stripes[pass.stripe].v;
     double from = pass.lo;
     double to = pass.hi;
-    if (out_.path.size() > 0 && near_end(pass) == pass.hi) std::swap(from, to);
+    if (linked ? std::abs(enter_at_ - pass.hi) < std::abs(enter_at_ - pass.lo)
+               : out_.path.size() > 0 && near_end(pass) == pass.hi)
+      std::swap(from, to);
     if (linked) {
+      line(at(enter_at_, v, z), MoveRole::kCut);
       line(at(from, v, z), MoveRole::kCut);
     } else {
-      const auto open = [&](double u, double far) { return in_air(u, v, z) || air_before(u, far, v, z); };
+      const auto open = [&](double u, double far) {
+        return is_clear(hatch_.place(u, v), z) || air_before(u, far, v, z);
+      };
       if (open(to, from) && !open(from, to)) std::swap(from, to);
       if (!enter(from, to, v, z)) {
+        if (task_.terrace_mm > 0.0 && std::abs(to - from) < 0.5 * radius_) return false;  // a pit's bottom
         ++skipped_;
         skipped_mm_ += std::abs(to - from);
         return false;
@@ -370,15 +340,15 @@ class Rougher {
     const Vec2 p = hatch_.place(u, v);
     return {p.x, p.y, z};
   }
-  [[nodiscard]] bool in_air(Vec2 p, double z) const {
-    return stock::max_height(rest_, p, cutter_.radius()) <= z + kNothing;
+  [[nodiscard]] bool in_air(Vec2 p, double z) const { return rest_.is_below(p, z); }
+  /// In air, or where this cutter takes nothing, its corner or ball beside what stands higher.
+  [[nodiscard]] bool is_clear(Vec2 p, double z) const {
+    return task_.terrace_mm > 0.0 ? rest_.is_clear(p, z) : in_air(p, z);
   }
-  [[nodiscard]] bool in_air(double u, double v, double z) const { return in_air(hatch_.place(u, v), z); }
 
   /// From the security plane to the beginning of a pass, on its way from `u` to `far`.
   bool enter(double u, double far, double v, double z) {
-    const double radius = cutter_.radius();
-    if (in_air(u, v, z)) {
+    if (is_clear(hatch_.place(u, v), z)) {
       come_down(at(u, v, z), z);
       return true;
     }
@@ -387,17 +357,29 @@ class Rougher {
       line(at(u, v, z), MoveRole::kCut);
       return true;
     }
-    const double leg = std::min(std::abs(far - u), 4.0 * radius);
+    if (task_.terrace_mm > 0.0) {
+      if (const auto q = air_near(hatch_.place(u, v), z)) {  // from what a pass beside it has cleared
+        come_down({q->x, q->y, z}, z);
+        line(at(u, v, z), MoveRole::kCut);
+        return true;
+      }
+    }
+    const double leg = std::min(std::abs(far - u), 4.0 * radius_);
     const double end = u + (far > u ? leg : -leg);
-    const double top = stock::max_height(rest_, hatch_.place(u, v), hatch_.place(end, v), radius);
-    const double most = task_.cutter.maximum_ramp_angle_rad;
-    const double angle = task_.ramp_angle_rad > 0.0 ? std::min(most, task_.ramp_angle_rad) : most;
-    if (angle > 0.0 && leg >= 0.5 * radius) {
+    double top = stock::max_height(rest_.map, hatch_.place(u, v), hatch_.place(end, v), radius_);
+    const auto probe = [&](double w) { return is_clear(hatch_.place(u + w * (end - u), v), above_); };
+    if (above_ < top && probe(0.0) && probe(0.25) && probe(0.5) && probe(0.75) && probe(1.0))
+      top = std::max(z, above_);
+    const double angle = ramp_angle();
+    if (angle > 0.0 && leg >= 0.5 * radius_) {
       const double turns = std::ceil((top - z) / (2.0 * leg * std::tan(angle)) - 1e-9);
       if (turns <= kMostRampTurns) return ramp(u, end, v, top, z, std::max(1, static_cast<int>(turns)));
     }
+    // Too short for a ramp: straight down through a terrace at most, where the cutter ramps elsewhere.
+    const bool deep = rest_.meets(hatch_.place(u, v), z + 2.0 * task_.terrace_mm);
+    if (task_.terrace_mm > 0.0 && angle > 0.0 && deep) return false;
     if (!task_.cutter.centre_cutting) return false;
-    come_down(at(u, v, z), stock::max_height(rest_, hatch_.place(u, v), radius));
+    come_down(at(u, v, z), stock::max_height(rest_.map, hatch_.place(u, v), radius_));
     return true;
   }
 
@@ -405,11 +387,11 @@ class Rougher {
   /// way to its beginning: beside the piece, or where this level is cleared.
   [[nodiscard]] std::optional<double> air_before(double u, double far, double v, double z) const {
     constexpr int kPlaces = 24;
-    const double step = 3.0 * cutter_.radius() / kPlaces * (far > u ? -1.0 : 1.0);
+    const double step = 3.0 * radius_ / kPlaces * (far > u ? -1.0 : 1.0);
     const Vec2 begin = hatch_.place(u, v);
     for (int k = 1; k <= kPlaces; ++k) {
       const Vec2 p = hatch_.place(u + k * step, v);
-      if (in_air(p, z)) return is_free(p, begin, z) ? std::optional(u + k * step) : std::nullopt;
+      if (is_clear(p, z)) return reach_.is_free(p, begin, z) ? std::optional(u + k * step) : std::nullopt;
     }
     return std::nullopt;
   }
@@ -423,25 +405,43 @@ class Rougher {
     return true;
   }
 
-  /// Over the place at the security plane, fast to the clearance above `material`, at feed through the air
-  /// there, then as a plunge.
-  void come_down(Vec3 p, double material) {
+  /// To p from above: low over what stands where that way is free, else over the security plane, fast to the
+  /// clearance above `material`; at feed through the air there, then as a plunge. `was_there`: no deeper than
+  /// before.
+  void come_down(Vec3 p, double material, bool was_there = false) {
     const Vec3 high{p.x, p.y, task_.security_z_mm};
     if (out_.path.size() == 0) {
       out_.path.start(high);
-    } else {
+    } else if (!link_low(p)) {
       lift();
       out_.path.rapid(high);
     }
-    const double z = std::min(task_.security_z_mm, std::max(material, p.z) + task_.clearance_mm);
-    if (z < task_.security_z_mm) out_.path.rapid({p.x, p.y, z}, MoveRole::kApproach);
-    // Beside the piece nothing is near; on what this level has cleared the tip comes to stand on material.
+    const double z = std::min(here().z, std::max(material, p.z) + task_.clearance_mm);
+    if (z < task_.security_z_mm && here().z == task_.security_z_mm)
+      out_.path.rapid({p.x, p.y, z}, MoveRole::kApproach);
+    // Beside the piece nothing is near; on what is cleared the tip comes to stand on material.
     constexpr double kNearMm = 0.1;
     if (in_air(xy(p), p.z - kNearMm)) return line(p, MoveRole::kApproach);
-    const bool raw = material >= task_.top_z_mm - kNothing;
-    const double near = std::max(material, p.z) + (raw ? kAboveRaw : kAirAbove);
-    if (near < z) line({p.x, p.y, near}, MoveRole::kApproach);
+    const double top = was_there || is_clear(xy(p), p.z) ? p.z : std::max(material, p.z);
+    const double near = top + (is_raw(material) ? kAboveRaw : kAirAbove);
+    if (near < here().z) line({p.x, p.y, near}, MoveRole::kApproach);
     line(p, MoveRole::kPlunge);
+  }
+
+  [[nodiscard]] bool is_raw(double material) const { return material >= task_.top_z_mm - kNothing; }
+
+  /// Up, and at feed through the air above what stands on the way to p; false where that is longer than over
+  /// the security plane, or something is to be avoided there.
+  bool link_low(Vec3 p) {
+    if (!down_) return false;
+    const double material = stock::max_height(rest_.map, xy(here()), xy(p), radius_);
+    const double z = std::max({material + (is_raw(material) ? kAboveRaw : kAirAbove), here().z, p.z});
+    // At the feed of air, no farther than up to the plane and down again, both of them fast.
+    if (norm(xy(p) - xy(here())) > 2.0 * (task_.security_z_mm - z)) return false;
+    if (!reach_.is_free(xy(here()), xy(p), z, 0.5)) return false;
+    line({here().x, here().y, z}, MoveRole::kRetract);
+    line({p.x, p.y, z}, MoveRole::kLink);
+    return true;
   }
 
   void lift() {
@@ -451,25 +451,27 @@ class Rougher {
   }
 
   void line(Vec3 to, MoveRole why) {
-    if (out_.path.size() > 0 && here() == to) return;
+    constexpr double kNoWay = 1e-6;  // mm, shorter than a program's digits say
+    if (out_.path.size() > 0 && norm(here() - to) < kNoWay) return;
     out_.path.line(to, why);
-    stock::cut(rest_, profile_, out_.path, out_.path.size() - 1);
+    stock::cut(rest_.map, rest_.profile, out_.path, out_.path.size() - 1);
   }
 
   const FreeformJob& task_;
-  const DropCutter& drop_;
-  MillEnd cutter_;
   Hatch hatch_;
-  geometry::Region kept_out_;
   Job& job_;
-  geometry::CutterProfile profile_;
-  stock::HeightMap rest_;
+  double radius_ = 0.0;
+  Material rest_;
+  Reach reach_;
   std::vector<double> floors_;  ///< levels that end on a floor
-  double margin_ = 0.0, spacing_ = 0.0, floor_ = 0.0;
-  bool ends_alike_ = false;  ///< stock and surface
   std::vector<Probes> probes_;
   DropGrid grid_;
-  std::vector<Vec2> ends_;  ///< of the passes of this level
+  std::vector<Vec2> ends_;  ///< of the passes of this level, and of those below it that it stands on
+  bool raised_ = false;     ///< this level stands on the one before
+  double enter_at_ = 0.0;   ///< where the next pass is begun, along its line
+  bool first_ = true;       ///< no level was cut
+  double base_ = 0.0;       ///< the lowest level of this group
+  double above_ = 1e300;    ///< that of the group before
   FreeformPath out_;
   bool down_ = false;
   int skipped_ = 0;

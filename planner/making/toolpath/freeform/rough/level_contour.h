@@ -20,6 +20,9 @@ struct DropGrid {
   [[nodiscard]] double at(int ix, int iy) const {
     return z[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix)];
   }
+  /// Whether a grid point near the straight way stands higher than the level; where none does, the way may
+  /// still be blocked between them.
+  [[nodiscard]] bool blocks(geometry::Vec2 from, geometry::Vec2 to, double level) const;
 };
 
 /// The border of what is free at a level (z <= level), free ground on the left, by marching squares. Each
@@ -28,6 +31,11 @@ struct DropGrid {
 [[nodiscard]] std::vector<std::vector<geometry::Vec2>> level_contour(
     const DropGrid& grid, double level,
     const std::function<geometry::Vec2(geometry::Vec2 free, geometry::Vec2 blocked)>& border);
+
+using Lines = std::vector<std::vector<geometry::Vec2>>;
+/// The line that is begun soonest from here; a closed one is turned to begin there.
+/// Needs  a line, none of them empty.
+[[nodiscard]] Lines::iterator nearest(Lines& lines, geometry::Vec2 here);
 
 /// Refines a border with free ground on its left: adds points where the border leaves the chord between two
 /// by more than `within_mm`, and removes points that lie within a tenth of that of the chord over them.

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/making/toolpath/freeform/freeform.h"
+#include "planner/making/toolpath/freeform/hatch.h"
+#include "planner/physics/stock/height_map.h"
+
+namespace capstan::toolpath::freeform {
+
+/// Solid material under the lines, for a job without a stock.
+[[nodiscard]] stock::HeightMap block_under(const FreeformJob& task, const Hatch& hatch);
+
+/// Whether the material ends where the surface does: then beside both is nothing that must stay.
+[[nodiscard]] bool ends_with(const stock::HeightMap& material, const geometry::Box3& surface);
+
+/// What stands in the way of a cutter.
+class Material {
+ public:
+  Material(stock::HeightMap map, const model::Cutter& cutter);
+
+  stock::HeightMap map;
+  geometry::CutterProfile profile;
+
+  /// Whether the cutter, its tip at p and z, takes more than `kWorthMm` anywhere. What its corner or its
+  /// ball passes by is no material.
+  [[nodiscard]] bool meets(geometry::Vec2 p, double z) const;
+  /// Whether the cutter, its tip at p and z, takes nothing at all: no cell that it touches is higher than its
+  /// outline over that cell's nearest point.
+  [[nodiscard]] bool is_clear(geometry::Vec2 p, double z) const;
+  /// Whether nothing under the cutter's disc is higher than z.
+  [[nodiscard]] bool is_below(geometry::Vec2 p, double z) const;
+
+ private:
+  /// Whether `f(column, distance of its cell's middle)` holds for a cell whose middle lies within
+  /// `radius_mm`.
+  template <class F>
+  [[nodiscard]] bool any(geometry::Vec2 p, double radius_mm, const F& f) const;
+  [[nodiscard]] double outline(double r_mm) const;
+
+  double flat_mm_ = 0.0;        ///< radius of the plane at the tip
+  std::vector<float> outline_;  ///< heights above the tip, `kPerCell` of them for each cell from the axis
+};
+
+}  // namespace capstan::toolpath::freeform

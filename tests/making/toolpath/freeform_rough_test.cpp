@@ -1,0 +1,170 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/making/toolpath/freeform/freeform.h"
+#include "planner/making/toolpath/freeform/rough/levels.h"
+#include "planner/physics/stock/sweep.h"
+
+namespace capstan::toolpath::freeform {
+namespace {
+
+using geometry::Mesh;
+using model::MoveRole;
+
+constexpr double kSize = 48.0;
+
+template <class F>
+Mesh surface(const F& f) {
+  constexpr int kN = 48;
+  Mesh m;
+  for (int j = 0; j <= kN; ++j) {
+    for (int i = 0; i <= kN; ++i)
+      m.vertices.push_back({kSize * i / kN, kSize * j / kN, f(kSize * i / kN, kSize * j / kN)});
+  }
+  const auto at = [](int i, int j) { return static_cast<std::uint32_t>(j * (kN + 1) + i); };
+  for (int j = 0; j < kN; ++j) {
+    for (int i = 0; i < kN; ++i) {
+      m.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      m.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return m;
+}
+
+/// A bump: round on top, up to 38 degrees steep, level around; no place where a cutter does not reach.
+double bump(double x, double y) {
+  return -10.0 + 9.0 * std::exp(-((x - 24.0) * (x - 24.0) + (y - 24.0) * (y - 24.0)) / 100.0);
+}
+/// Hills and pits of 4 mm, 39 mm apart.
+double waves(double x, double y) { return -6.0 + 4.0 * std::sin(0.16 * x) * std::cos(0.16 * y); }
+
+model::Cutter bull(double diameter, double corner) {
+  model::Cutter c;
+  c.id = "t";
+  c.cutter_class = model::CutterClass::kBullnoseEndmill;
+  c.cutting_diameter_mm = diameter;
+  c.corner_radius_mm = corner;
+  c.maximum_depth_of_cut_mm = 40.0;
+  c.maximum_ramp_angle_rad = 3.0 * std::numbers::pi / 180.0;
+  return c;
+}
+
+FreeformJob job_on(const Mesh& mesh, const model::Cutter& c, double top) {
+  FreeformJob task;
+  task.surface = &mesh;
+  task.cutter = c;
+  task.top_z_mm = top;
+  task.security_z_mm = 10.0;
+  task.bottom_z_mm = -20.0;
+  task.allowance_mm = 0.5;
+  task.axial_depth_mm = 4.0;
+  task.stepover_mm = 0.65 * c.cutting_diameter_mm;
+  return task;
+}
+
+stock::HeightMap block(double top) { return stock::from_box({{0, 0, -20}, {kSize, kSize, top}}, 0.1); }
+
+/// What stands over a surface after a path, square to it, at all places off the rim, from the least.
+template <class F>
+std::vector<double> standing(const F& f, const FreeformJob& task, const model::CutterPath& path) {
+  auto map = block(task.top_z_mm);
+  stock::cut(map, model::profile_of(task.cutter), path);
+  std::vector<double> out;
+  constexpr double kStep = 1e-4;
+  for (double x = 1.03; x < kSize - 1.0; x += 0.5) {
+    for (double y = 1.03; y < kSize - 1.0; y += 0.5) {
+      const double dx = (f(x + kStep, y) - f(x, y)) / kStep, dy = (f(x, y + kStep) - f(x, y)) / kStep;
+      out.push_back((stock::height_at(map, {x, y}) - f(x, y)) / std::sqrt(1.0 + dx * dx + dy * dy));
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+TEST(Rough, LeavesTerracesNoHigherThanItIsAsked) {
+  const Mesh mesh = surface(bump);
+  for (const auto& [d, corner] : {std::pair{10.0, 1.0}, {10.0, 3.0}}) {
+    FreeformJob task = job_on(mesh, bull(d, corner), 0.0);
+    Job job;
+    const auto coarse = rough(task, job);
+    task.terrace_mm = 0.5;
+    const auto even = rough(task, job);
+    ASSERT_TRUE(coarse && even);
+    const auto before = standing(bump, task, coarse->path), after = standing(bump, task, even->path);
+    // The margin is a tenth of the allowance; a cell's middle stands for all of it: half a cell, 0.05 mm, on
+    // 38 degrees; facets of a millimetre lie (1/8) 0.2/mm 1 mm2 = 0.02 mm off the bump.
+    const double most = task.allowance_mm + task.terrace_mm + 0.05 + 0.05 + 0.02;
+    EXPECT_GT(before.back(), 2.0 * most) << "what levels of 4 mm leave";
+    EXPECT_LE(after.back(), most) << corner;
+    EXPECT_GE(after.front(), task.allowance_mm - 0.05 - 0.02) << corner;
+    EXPECT_GT(even->levels_z_mm.size(), coarse->levels_z_mm.size());
+  }
+}
+
+TEST(Rough, GoesDownIntoEveryPit) {
+  // The only level of 8 mm was the height of the lowest place that the mill can be let down to.
+  const Mesh mesh = surface(waves);
+  FreeformJob task = job_on(mesh, bull(12.0, 3.0), -2.0);
+  task.axial_depth_mm = 8.0;
+  task.terrace_mm = 0.5;
+  auto map = block(-2.0);
+  task.stock = &map;
+  Job job;
+  const auto out = rough(task, job);
+  ASSERT_TRUE(out) << out.error().message;
+  const auto target = stock::from_mesh(mesh, -20.0, 0.1);
+  const double whole = stock::volume(map) - stock::volume(target);
+  auto cut = map;
+  double plunged = 0.0;
+  const auto profile = model::profile_of(task.cutter);
+  for (std::size_t i = 1; i < out->path.size(); ++i) {
+    const double removed = stock::cut(cut, profile, out->path, i);
+    EXPECT_TRUE(out->path.kind[i] != model::MoveKind::kRapid || removed == 0.0) << i;
+    if (out->path.role[i] == MoveRole::kPlunge || out->path.role[i] == MoveRole::kApproach)
+      plunged += removed;
+    EXPECT_TRUE(out->path.role[i] != MoveRole::kLink || removed < 0.01) << i;
+  }
+  const double left = stock::volume(cut) - stock::volume(target);
+  std::printf("[ figures  ] pits: %.1f %% of %.0f mm3 taken, %.2f mm3 straight down\n",
+              100.0 * (1.0 - left / whole), whole, plunged);
+  // The allowance is 0.5 of some 4 mm, terraces and the margin as much at most, half of it on the whole.
+  EXPECT_GT(1.0 - left / whole, 1.0 - (0.5 + 0.05 + 0.25) / 4.0 - 0.03);
+  EXPECT_LT(plunged, 0.001 * whole) << "it comes in from the side, or on a ramp";
+}
+
+TEST(Levels, AreAsFewAsTerracesNeedAndEndOnFlats) {
+  // A slope of 3 in 4 from 0 down to -9, then level ground.
+  DropGrid reach;
+  reach.step_mm = 0.5;
+  reach.nx = 80;
+  reach.ny = 3;
+  for (int iy = 0; iy < reach.ny; ++iy) {
+    for (int ix = 0; ix < reach.nx; ++ix) reach.z.push_back(std::max(-9.0, -0.75 * 0.5 * ix));
+  }
+  FreeformJob task;
+  task.axial_depth_mm = 100.0;
+  task.terrace_mm = 0.4;
+  const auto levels = levels_of(task, reach, -9.0, 0.05).z_mm;
+  // Square to it a terrace of height b stands 4/5 b: 0.5 mm each, and a tenth less is taken.
+  EXPECT_GE(levels.size(), 18U);
+  EXPECT_LE(levels.size(), 21U);
+  for (std::size_t k = 1; k < levels.size(); ++k) EXPECT_LE(levels[k] - levels[k - 1], 0.5);
+  EXPECT_NEAR(*std::min_element(levels.begin(), levels.end()), -9.0, 1e-9);
+  EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end())) << "of one group, cut from below";
+  // A corner of 3 mm leaves cusps of 0.4 mm where it steps 2 sqrt(0.4 (6 - 0.4)) 3/5 = 1.8 mm down.
+  task.cutter = bull(10.0, 3.0);
+  EXPECT_LE(levels_of(task, reach, -9.0, 0.05).z_mm.size(), 7U);
+  // No level is deeper than the cut may be.
+  task.axial_depth_mm = 2.0;
+  double at = 0.0;
+  for (const double z : levels_of(task, reach, -9.0, 0.05).z_mm) {
+    EXPECT_GE(z, at - 2.0 - 1e-9);
+    at = std::min(at, z);
+  }
+}
+
+}  // namespace
+}  // namespace capstan::toolpath::freeform
