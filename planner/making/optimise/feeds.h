@@ -123,6 +123,9 @@ void enter_as_a_slot(FeedQuestion& question, double ae_mm, const model::CutterPa
 /// in its own speed.
 void slow_in_deep_slots(FeedQuestion& question);
 
+/// No piece of a move that has a feed of its own is shorter than this part of the diameter. Default, unsourced.
+inline constexpr double kLeastPiece = 0.2;
+
 /// Where a piece of a move ends, as a share of the move's length; 1: at its end.
 struct PieceEnd {
   std::uint32_t move = 0;
@@ -132,7 +135,7 @@ struct PieceEnd {
 
 /// Splits feed moves (lines and arcs) where the allowed feed of their sections changes. A move has one feed,
 /// so that without this a heavy corner at its end would slow all of it. The path itself does not change.
-/// Pieces are at least a fifth of the diameter long, and made only where they save time. A heavy place that
+/// Pieces are at least kLeastPiece of the diameter long, and made only where they save time. A heavy place that
 /// is shorter takes what it lacks from the faster way beside it.
 ///
 /// Needs   samples and sections of this very path, `at_mm` from the start of each move, steps of samples that

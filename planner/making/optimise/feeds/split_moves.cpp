@@ -16,8 +16,6 @@ using namespace feed;
 using model::CutterPath;
 using model::MoveKind;
 
-/// No piece is shorter than this part of the diameter. Default, unsourced.
-constexpr double kLeastPiece = 0.2;
 /// A cut has to save this much, s: it costs a block of program. Default, unsourced.
 constexpr double kWorthS = 0.005;
 

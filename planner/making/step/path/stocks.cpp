@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/making/optimise/feeds.h"
 #include "planner/making/step/path/remembered/cells.h"
 #include "planner/making/step/path/remembered/planar.h"
 #include "planner/model/plan/resources/setup_position.h"
@@ -17,6 +18,7 @@ constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smalles
 constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
 constexpr int kMostOtherCells = 2;      // times that cutters may change with the cells; default, unsourced
 constexpr double kContradiction = 0.1;  // of a step's volume, between map and geometry; default, unsourced
+constexpr double kFairCells = 10.0;     // per diameter, from which a map tells so much; default, unsourced
 constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 
 SameSetup same_setup(const draft::SetupDraft& s) {
@@ -153,16 +155,20 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     }
     return cells;
   }
-  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, 2.0 * map.cell_mm)};
+  // On a large piece the cells are coarse; the sections stay as close as the shortest piece that has a feed.
+  const double step_mm = std::min(2.0 * map.cell_mm, optimise::kLeastPiece * cutter.cutting_diameter_mm);
+  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, step_mm)};
   auto measured = measure_again(*exact, path, cutter, options, memo_);
   if (!measured) {
     if (exact->lost().empty()) exact->lose(measured.error().message);
     return measure_again(map, path, cutter, memo_);
   }
-  // Two accounts of one cut: where they contradict each other the map's is kept.
+  // Two accounts of one cut: where they contradict each other the map's is kept. A map whose cells are coarse
+  // for the cutter, as that of a large piece is, is off by itself in proportion.
   const double cells_mm3 = stock::cut(map, profile, path);
   const double exact_mm3 = measured->removed_mm3 + measured->rapid_removed_mm3;
-  if (std::abs(cells_mm3 - exact_mm3) > kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
+  const double fair = std::max(1.0, kFairCells * map.cell_mm / cutter.cutting_diameter_mm);
+  if (std::abs(cells_mm3 - exact_mm3) > fair * kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {
     exact->lose("it contradicts the height map");
     stock::put_back(map, patches_[setup].back());
     return measure_again(map, path, cutter, memo_);
