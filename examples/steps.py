@@ -9,7 +9,9 @@ import os
 import subprocess
 import sys
 
-# What a step takes of the plan's time, s. Of all steps it adds up to summary["total_s"].
+# What a step takes of the plan's time, s. Of all steps it adds up to summary["total_s"]. The cutting and the
+# rapids stand in every plan, the others only where the plan's time is known: steps that are not bound have no
+# paths.
 TIMES = ("cutting_s", "rapid_s", "link_s", "tool_change_s", "spindle_s")
 
 
@@ -24,13 +26,18 @@ def planned(part, arguments):
 
 def main():
     plan = planned(sys.argv[1], sys.argv[2:])
+    whole = plan["summary"].get("total_s")
     total = 0.0
     for step in plan["steps"]:
-        seconds = sum(step[name] for name in TIMES)
-        total += seconds
+        time = "time unknown"
+        if whole is not None:
+            seconds = sum(step.get(name, 0.0) for name in TIMES)
+            total += seconds
+            time = f"{seconds:6.1f} s, {step.get('tool_change_s', 0.0):.1f} s of it tool change"
         print(f"{step['id']:32} {step.get('operation', ''):30} T{step['tool_number']:<2} {step['spindle_rpm']:6.0f} 1/min "
-              f"{step['feed_mm_min']:5.0f} mm/min {seconds:6.1f} s, {step['tool_change_s']:.1f} s of it tool change")
-    print(f"{len(plan['steps'])} steps: {total:.1f} s, of {plan['summary']['total_s']:.1f} s of the whole")
+              f"{step['feed_mm_min']:5.0f} mm/min {time}")
+    print(f"{len(plan['steps'])} steps: " +
+          ("time unknown" if whole is None else f"{total:.1f} s, of {whole:.1f} s of the whole"))
 
 
 if __name__ == "__main__":

@@ -25,7 +25,8 @@
 // together with those that rest on it. Where material is left, no mill as wide, or wider, is tried again: it
 // reaches no more. A broken order does not depend on the cutter: the chain is banned at once. A feature
 // outside the raw piece is left out at once. A step around a boss that cuts nothing is left out if other
-// features' steps cut around the boss: the boss is then made, and not missing. Of all tries the one with the
+// features' steps cut around the boss: the boss is then made, and not missing. Roughing that cuts nothing,
+// for others took the material, is left out before the finish of its feature. Of all tries the one with the
 // fewest errors is kept, then the one with the fewest features left out, then the first. Steps from the file
 // are never changed. Nothing is tried against features that lie farther apart than an axis travels.
 

@@ -15,7 +15,6 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/stopping.h"
-#include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/making/given/edits/operator_edits.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/plan/edit/deciding.h"
@@ -114,10 +113,7 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     auto bytes = part.bytes ? Result<std::string>(*std::move(part.bytes)) : read_file(name);
     if (!bytes) return failed(bytes.error(), code_of(bytes.error(), Code::kUnreadable));
     const from_cad::RawPiece raw{request.stock, request.stock_allowance_mm.value_or(0.0)};
-    std::optional<exchange::MeshUnit> unit;
-    if (request.mesh_unit)
-      unit = {*request.mesh_unit == "inch" ? kMmPerInch : 1.0, *request.mesh_unit,
-              request.sign + "mesh-unit"};
+    const auto unit = mesh_unit(request.mesh_unit, request.sign + "mesh-unit");
     auto read_part = service::read_part(*std::move(bytes), name, raw, job, request.strict, unit);
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
     auto inputs = gather(request, read_part->plan, job);

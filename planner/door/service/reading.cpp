@@ -12,6 +12,7 @@
 #include "planner/files/json/json.h"
 #include "planner/files/recognise/recognise.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::service {
 namespace {
@@ -65,6 +66,12 @@ namespace {
 
 Result<model::Plan> read_with(std::string bytes, const std::string& path, Job& job, bool strict,
                               const std::optional<exchange::MeshUnit>& unit) {
+  if (unit && !exchange::looks_like_stl(bytes))
+    return fail({.code = "READ-UNIT",
+                 .message = "a mesh's unit is stated (" + unit->name + "), but the file is no STL mesh",
+                 .file = path,
+                 .expected = "an STL mesh, or no " + unit->source,
+                 .hint = "other files state their unit themselves"});
   if (content_of(bytes) == Content::kPlanJson) {
     if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
     return json::read_json(std::move(bytes), path, job);
@@ -106,13 +113,7 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& j
 
 Result<PartRead> read_part(std::string bytes, const std::string& name, const from_cad::RawPiece& raw,
                            Job& job, bool strict, const std::optional<exchange::MeshUnit>& unit) {
-  if (unit && !exchange::looks_like_stl(bytes))
-    return fail({.code = "READ-UNIT",
-                 .message = "a mesh's unit is stated (" + unit->name + "), but the file is no STL mesh",
-                 .file = name,
-                 .expected = "an STL mesh, or no " + unit->source,
-                 .hint = "other files state their unit themselves"});
-  if (!is_cad_model(bytes)) {
+  if (unit || !is_cad_model(bytes)) {
     auto plan = read_with(std::move(bytes), name, job, strict, unit);
     if (!plan) return tl::unexpected(plan.error());
     return PartRead{*std::move(plan), nullptr};
@@ -124,10 +125,17 @@ Result<PartRead> read_part(std::string bytes, const std::string& name, const fro
   return PartRead{*std::move(plan), asked_shape(from_cad::straightened(*std::move(shape)), name)};
 }
 
-Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict) {
+Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict,
+                              const std::optional<exchange::MeshUnit>& unit) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  return read_plan(*std::move(bytes), path, job, strict);
+  return read_with(*std::move(bytes), path, job, strict, unit);
+}
+
+std::optional<exchange::MeshUnit> mesh_unit(const std::optional<std::string>& stated,
+                                            const std::string& source) {
+  if (!stated) return std::nullopt;
+  return exchange::MeshUnit{*stated == "inch" ? kMmPerInch : 1.0, *stated, source};
 }
 
 }  // namespace capstan::service

@@ -26,8 +26,13 @@ enum class Content : std::uint8_t { kPlanJson, kPart, kProgram, kToolTable };
 /// out. Fails   as json::read_json and exchange::read; faults went to the job before.
 [[nodiscard]] Result<model::Plan> read_plan(std::string bytes, const std::string& name, Job& job,
                                             bool strict = false);
-/// The same from a file. Fails  FILE-READ, and as above.
-[[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict = false);
+/// The same from a file. `unit` is that of a mesh, where the caller states it. Fails  FILE-READ, and as
+/// above; READ-UNIT for the unit of a file that is no mesh.
+[[nodiscard]] Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict = false,
+                                            const std::optional<exchange::MeshUnit>& unit = {});
+/// The unit that a request states, as text ("mm", "inch"); `source` says who states it.
+[[nodiscard]] std::optional<exchange::MeshUnit> mesh_unit(const std::optional<std::string>& stated,
+                                                          const std::string& source);
 
 /// A part to be planned, and the shape that a CAD model says it is to have.
 struct PartRead {

@@ -22,7 +22,8 @@ struct Way {
 };
 
 /// The ways along which a tool reaches all of a feature's faces, past the rest of the part: the recognised
-/// direction first, those along which they are walls and no deeper last. Where there is none, `why` says what stands in the way.
+/// direction first, those along which they are walls and no deeper last. Where there is none, `why` says what
+/// stands in the way.
 ///
 /// Source  derived: a place is reached along a direction when nothing of the part lies above it.
 [[nodiscard]] std::vector<Way> ways_of(const Part& part, const recognise::Feature& feature, std::string& why);

@@ -24,10 +24,16 @@ namespace capstan::json {
 template <class T, class U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
-/// A type with a table of fields is visited by it.
+/// A type with a table of fields is visited by it; a visitor that asks for more than names has `row`.
 template <class V>
 void fields(V& v, model::HasFields auto& x) {
-  model::for_each_field(x, [&v](const auto& row, auto& value) { v(row.name, value); });
+  model::for_each_field(x, [&v](const auto& row, auto& value) {
+    if constexpr (requires { v.row(row, value); }) {
+      v.row(row, value);
+    } else {
+      v(row.name, value);
+    }
+  });
 }
 template <class V>
 void fields(V& v, Is<std::pair<std::string, std::string>> auto& x) {

@@ -67,11 +67,19 @@ class SchemaWriter {
     SchemaWriter& writer;
     template <class T>
     void operator()(const char* name, const T& x) {
+      field(name, meaning_of(name), x);
+    }
+    template <class Row, class T>
+    void row(const Row& of, const T& x) {
+      field(of.name, meaning_of(of), x);
+    }
+    template <class T>
+    void field(const char* name, std::string_view own, const T& x) {
       writer.out_.key(name);
       if (std::string_view(name) == kHashField)
         return writer.pattern("^[0-9a-f]{16}$", "hash of the value spoken of");
       // Of a point its coordinates are in the unit that its own name says.
-      const std::string_view before = writer.unit_, own = meaning_of(name);
+      const std::string_view before = writer.unit_;
       if (!own.empty()) writer.unit_ = own;
       writer.of(x);
       writer.unit_ = before;
@@ -327,18 +335,19 @@ class SchemaWriter {
     out_.close();
   }
 
-  void number(const Attribute& a, std::string_view kind) {
-    const bool real = kind == "number";
-    described(kind, a.unit != model::Unit::kNone ? model::symbol(a.unit) : real ? meaning_of(a.name) : "");
+  /// Most whole numbers are counts: only those with a unit are described.
+  void number(TypeId owner, const Attribute& a, std::string_view type) {
+    const bool is_told = type == "number" || a.unit != model::Unit::kNone;
+    described(type, is_told ? meaning_of(owner, a) : "");
   }
 
-  void attribute(const Attribute& a) {
+  void attribute(TypeId owner, const Attribute& a) {
     const auto ref = [&] { reference(reference_to(kinds_for(a))); };
     switch (a.storage) {
       case Storage::kReal:
-        return number(a, "number");
+        return number(owner, a, "number");
       case Storage::kInteger:
-        return number(a, "integer");
+        return number(owner, a, "integer");
       case Storage::kBoolean:
         return type("boolean");
       case Storage::kText:
@@ -356,13 +365,13 @@ class SchemaWriter {
       case Storage::kSelectList:
         return array([&] { select(a); });
       case Storage::kRealList:
-        return array([&] { number(a, "number"); });
+        return array([&] { number(owner, a, "number"); });
       case Storage::kIntegerList:
-        return array([&] { number(a, "integer"); });
+        return array([&] { number(owner, a, "integer"); });
       case Storage::kTextList:
         return array([&] { type("string"); });
       case Storage::kRealTable:
-        return array([&] { array([&] { number(a, "number"); }); });
+        return array([&] { array([&] { number(owner, a, "number"); }); });
       case Storage::kPath:
         return shared("path");
     }
@@ -424,7 +433,7 @@ class SchemaWriter {
     }
     for (const Attribute& a : model::noun_type(kind).attributes) {
       out_.key(a.name);
-      attribute(a);
+      attribute(kind, a);
     }
     out_.close();
     required(needed);

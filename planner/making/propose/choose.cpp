@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/making/propose/coaxial_steps.h"
 #include "planner/making/propose/operation_nouns.h"
@@ -154,24 +156,12 @@ struct Equipped {
   Chosen chosen;
   std::string why_not;
   double cutting_s = 0.0;  ///< of all shapes that are alike, about
+  double of_one_s = 0.0;   ///< of it that of one shape
   double changes_s = 0.0;  ///< to what is not in use
+  std::string not_turned;  ///< tools that it would have had first, and why they cannot be turned
   [[nodiscard]] double seconds() const { return cutting_s + changes_s; }
   [[nodiscard]] std::size_t further() const { return chosen.further.size(); }
 };
-
-/// Shapes of the part that ask for the same chain as this one, itself counted: they share its tools. What the
-/// file's steps make asks for none.
-int alike_of(const piece::Piece& piece, const FeatureShape& shape, const std::vector<StepDraft>& steps) {
-  const auto& all = piece.shapes.all;
-  const auto n = std::count_if(all.begin(), all.end(), [&](const FeatureShape& other) {
-    return piece::alike(other, shape) && std::none_of(steps.begin(), steps.end(), [&](const StepDraft& step) {
-             return !step.proposed &&
-                    std::any_of(step.shapes.begin(), step.shapes.end(),
-                                [&](const auto& made) { return made.feature == other.feature; });
-           });
-  });
-  return std::max(1, static_cast<int>(n));
-}
 
 /// Finds cutters for all steps of a chain. `able`: also that drills, reamers and taps can be turned. `alike`:
 /// shapes that are made so.
@@ -235,6 +225,7 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
       out.chosen.further.push_back(id);
     }
     out.cutting_s += alike * s.ranked.front().estimated_s;
+    out.of_one_s += s.ranked.front().estimated_s;
     tools.push_back(std::move(s));
   }
   return out;
@@ -245,6 +236,21 @@ bool failed_before(const model::Proposal& p, const Equipped& e) {
 }
 
 std::string about(const Equipped& e) { return "about " + trimmed(e.seconds(), 1) + " s"; }
+
+/// Tools that a chain has first and, equipped with such as can be turned, no more: each with the reason.
+std::string not_turned(const Equipped& first, const Equipped& able) {
+  std::string out;
+  for (std::size_t i = 0; i < first.chosen.tools.size(); ++i) {
+    const auto& was = first.chosen.tools[i].ranked;
+    const model::Selection& now = able.chosen.tools[i];
+    if (was.empty() || now.ranked.empty() || now.ranked.front().cutter.id == was.front().cutter.id) continue;
+    const std::string& id = was.front().cutter.id;
+    const auto no = std::find_if(now.rejected.begin(), now.rejected.end(),
+                                 [&](const model::Rejected& r) { return r.what == id; });
+    if (no != now.rejected.end()) out += (out.empty() ? "" : "; ") + id + ": " + no->why;
+  }
+  return out;
+}
 
 bool is_milled(const Equipped& e) {
   return std::none_of(e.chosen.chain->begin(), e.chosen.chain->end(), [](const model::ProposedStep& step) {
@@ -265,11 +271,58 @@ bool surely_quicker(const FeatureShape& shape, const Equipped& e, const Equipped
 
 }  // namespace
 
+AlikeShapes::Sizes AlikeShapes::sizes_of(const FeatureShape& s) {
+  const auto& loops = s.area.loops;
+  const geometry::Vec2 corner = loops.empty() || loops.front().empty() ? geometry::Vec2{} : loops.front()[0];
+  return {
+      static_cast<double>(s.kind), s.depth_mm, s.diameter.nominal_mm, s.frame.origin.z, corner.x, corner.y};
+}
+
+AlikeShapes::Forms AlikeShapes::counted(const piece::Piece& piece, const std::vector<StepDraft>& steps,
+                                        std::size_t of_file) {
+  std::set<model::AnyRef> made;
+  for (std::size_t i = 0; i < of_file; ++i) {
+    tick();
+    for (const FeatureShape& s : steps[i].shapes) made.insert(s.feature);
+  }
+  Forms out;
+  for (const FeatureShape& s : piece.shapes.all) {
+    tick();
+    if (made.contains(s.feature)) continue;
+    std::vector<Form>& forms = out[sizes_of(s)];
+    const auto known = std::find_if(forms.begin(), forms.end(), [&](const Form& f) {
+      tick();
+      return piece::alike(s, *f.first);
+    });
+    if (known != forms.end())
+      ++known->shapes;
+    else
+      forms.push_back({&s, 1});
+  }
+  return out;
+}
+
+int AlikeShapes::of(const piece::Piece& piece, const FeatureShape& shape,
+                    const std::vector<StepDraft>& steps) {
+  const auto proposed =
+      std::partition_point(steps.begin(), steps.end(), [](const StepDraft& s) { return !s.proposed; });
+  const auto of_file = static_cast<std::size_t>(proposed - steps.begin());
+  auto at = known_.find(of_file);
+  if (at == known_.end()) at = known_.emplace(of_file, counted(piece, steps, of_file)).first;
+  const auto forms = at->second.find(sizes_of(shape));
+  if (forms == at->second.end()) return 1;
+  for (const Form& f : forms->second) {
+    tick();
+    if (piece::alike(shape, *f.first)) return f.shapes;
+  }
+  return 1;
+}
+
 Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape& shape, const Member& member,
               const std::vector<StepDraft>& steps, const std::vector<std::string>& in_use,
               std::vector<model::Rejected>& rejected, Job& job) {
   const bool fewest = choice.thrift == Thrift::kChains;
-  const int alike = alike_of(choice.piece, shape, steps);
+  const int alike = choice.alike->of(choice.piece, shape, steps);
   const auto equipped = [&](const std::vector<model::ProposedStep>& chain, bool able) {
     return equip(choice, chain, shape, member, steps, in_use, able, alike, job);
   };
@@ -291,9 +344,8 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
         fit.begin());
   }
   // The quickest that is surely quicker and whose drills, reamers and taps can be turned, which is asked only
-  // now. A chain that failed before is no quicker way.
-  for (bool again = !fewest; again;) {
-    again = false;
+  // now; it may then be no longer surely quicker. A chain that failed before is no quicker way.
+  while (!fewest && taken == 0) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < fit.size(); ++i) {
       if (failed_before(p, fit[i]) || !surely_quicker(shape, fit[i], fit.front())) continue;
@@ -301,14 +353,14 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
     }
     if (best == 0) break;
     Equipped e = equipped(*fit[best].chosen.chain, true);
-    if (e.why_not.empty()) {
-      fit[best] = std::move(e);
-      taken = surely_quicker(shape, fit[best], fit.front()) ? best : 0;
-    } else {
+    if (!e.why_not.empty()) {
       after.push_back({chain_text(*fit[best].chosen.chain, shape), e.why_not});
       fit.erase(fit.begin() + static_cast<std::ptrdiff_t>(best));
-      again = true;
+      continue;
     }
+    e.not_turned = not_turned(fit[best], e);
+    fit[best] = std::move(e);
+    if (surely_quicker(shape, fit[best], fit.front())) taken = best;
   }
   const Equipped& chosen = fit[taken];
   const bool fewer = fewest && chosen.further() < fit.front().further();
@@ -323,11 +375,15 @@ Chosen choose(const Choice& choice, const model::Proposal& p, const FeatureShape
                                 ? "; it failed before"
                                 : "; the rules prefer the chain taken, and these estimates are "
                                   "not sure enough to take another";
+    const std::string unable =
+        fit[i].not_turned.empty()
+            ? ""
+            : "; its first tools, with which it is shorter, cannot be turned: " + fit[i].not_turned;
     rejected.push_back({chain_text(*fit[i].chosen.chain, shape),
-                        about(fit[i]) + of_what + ", the chain taken " + about(chosen) + why});
+                        about(fit[i]) + of_what + ", the chain taken " + about(chosen) + why + unable});
   }
   rejected.insert(rejected.end(), after.begin(), after.end());
-  fit[taken].chosen.seconds = chosen.seconds();
+  fit[taken].chosen.seconds = chosen.of_one_s + chosen.changes_s;
   return std::move(fit[taken].chosen);
 }
 

@@ -11,8 +11,8 @@
 // Rest material in inside corners. The radii that may stay in place of the stated one are half the diameters
 // of the mills that there are, for between two of them no other mill enters. They are tried from the least
 // up, until a chain of the rules has all its cutters for one; those of mills that would be too slender for
-// the depth come last, the stiffest first. Where that chain takes long, a wider radius is taken if it is
-// decisively quicker, up to the one that may stay where none is stated.
+// the depth come last, the stiffest first. Where that chain takes long of this one feature, a wider radius is
+// taken if it is decisively quicker, up to widest_for_time_mm.
 
 namespace capstan::propose {
 namespace {
@@ -85,6 +85,11 @@ bool tried(const Choice& choice, const model::Proposal& p, const draft::Member& 
 
 }  // namespace
 
+double widest_for_time_mm(const FeatureShape& s, bool square) {
+  return square || s.corner_radius_mm > 0.0 ? model::unstated_corner_mm(s.depth_mm)
+                                            : model::unstated_corner_mm(s);
+}
+
 InCorners choose_in_corners(const Choice& choice, const rules::RuleBase& rules, const rules::Context& context,
                             model::Proposal p, const FeatureShape& shape, const draft::Member& member,
                             const std::vector<draft::StepDraft>& steps, const std::vector<std::string>& used,
@@ -101,7 +106,7 @@ InCorners choose_in_corners(const Choice& choice, const rules::RuleBase& rules, 
   const auto stated = may_stay(context, shape, square);
   if (!stated) return out;
   const std::vector<model::Rejected> before = out.rejected;
-  const double widest = model::unstated_corner_mm(shape);
+  const double widest = widest_for_time_mm(shape, square);
   int n = 0, in_vain = 0;
   for (const double radius : mill_radii_above(choice.usable, *stated, shape.depth_mm)) {
     const bool taken = out.rest.has_value();

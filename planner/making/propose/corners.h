@@ -20,6 +20,11 @@ struct InCorners {
   std::optional<model::CornerRest> rest;
 };
 
+/// The widest radius that may stay in corners because a narrower mill takes long, mm. A radius that is stated
+/// is asked for, 0 (`square`) as well: the depth alone says how far one may leave it, and not how wide an
+/// open pocket is.
+[[nodiscard]] double widest_for_time_mm(const model::FeatureShape& shape, bool square);
+
 /// Chooses a chain for a shape as it is stated. Where none has its cutters, and the shape has inside corners,
 /// or where these are drawn square: for the least radius that a chain makes, which is then rest material.
 /// `p`: proposed for the shape as it is stated, `context` for its feature; else as `choose`.

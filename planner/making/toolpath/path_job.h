@@ -147,7 +147,7 @@ struct GeneratedPath {
   std::vector<double> feed_factor;   ///< times the step's feed
   std::vector<double> speed_factor;  ///< times the step's speed; 0: stopped, -1: reversed (tapping out)
   std::vector<double> dwell_s;       ///< of kDwell moves, 0 elsewhere
-  std::vector<double> levels_z_mm;   ///< heights of the tip that were cut, from above
+  std::vector<double> levels_z_mm;   ///< heights of the tip, in the order in which they were cut
 };
 
 /// What a message about the path begins with: "step 'POCKET rough': ", or the feature's name.

@@ -67,8 +67,8 @@ struct SharpCorner {
 
 /// The largest radius that may stay in the inside corners of what can state none (steps, outsides, faces),
 /// and of a pocket that states none, mm: 3 mm, and where that is deeper than a mill reaches in one hand, a
-/// sixth of the depth, which is a mill three diameters deep. Of an open pocket, which is drawn with the corners
-/// that it has, 0.35 of the narrower side of its box. Default, unsourced.
+/// sixth of the depth, which is a mill three diameters deep. Of an open pocket, which is drawn with the
+/// corners that it has, 0.35 of the narrower side of its box. Default, unsourced.
 [[nodiscard]] double unstated_corner_mm(const FeatureShape& s);
 /// The same for walls that are this high.
 [[nodiscard]] double unstated_corner_mm(double depth_mm);

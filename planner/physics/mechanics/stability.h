@@ -67,8 +67,7 @@ class StabilityLobes {
 
 /// Factor on the lobes' depth where fewer than kSafeTeeth are in the cut on average.
 /// Source    1 / 1.64, the largest excess found in our own simulations in time; kSafeTeeth: there, six teeth
-/// at half
-///           immersion (1.5) agree.
+///           at half immersion (1.5) agree.
 inline constexpr double kSingleToothMargin = 0.6;
 inline constexpr double kSafeTeeth = 1.5;
 
@@ -79,8 +78,7 @@ inline constexpr double kSafeTeeth = 1.5;
 /// Ratio of stick-out to diameter from which chatter is likely; up to it a slot may be as deep as
 /// model::kDeepestSlotRatio says.
 /// Source    "a stickout-to-diameter ratio above about 4:1 is where deflection and chatter risk start
-/// climbing
-///           quickly": formulafactory.tools, tool deflection calculator.
+///           climbing quickly": formulafactory.tools, tool deflection calculator.
 inline constexpr double kSlenderRatio = 4.0;
 
 /// Deflection of the tip above which end mills are likely to chatter, leave a poor surface and wear early.

@@ -109,6 +109,20 @@ TEST_F(PlanSchema, SaysTheUnitOfEveryNumber) {
   EXPECT_EQ(said["depth_of_step"], Words{"mm"});
 }
 
+TEST_F(PlanSchema, SaysTheUnitOfANameThatSeveralThingsHaveByWhoseItIs) {
+  const auto description = [&](const char* place) {
+    return document_.at(nlohmann::json::json_pointer(place)).value("description", "");
+  };
+  const std::string word =
+      description("/properties/cutters/items/properties/table_line/properties/words/items/properties/value");
+  EXPECT_EQ(word, "mm of lengths; other numbers as the tool table writes them");
+  EXPECT_EQ(description("/properties/steps/items/properties/active/items/properties/value"),
+            "in the unit that stands beside it (unit)");
+  EXPECT_EQ(description("/definitions/nc_constant/properties/its_value"), "as the program uses it");
+  EXPECT_EQ(description("/definitions/surface_texture_parameter/properties/its_value"),
+            "in the unit of its parameter (parameter_name)");
+}
+
 // Run with CAPSTAN_UPDATE=1 in the environment after the model has changed.
 TEST(PlanSchemaFile, IsCurrent) {
   const std::string path = capstan::testing::source_dir() + "/docs/plan.schema.json";

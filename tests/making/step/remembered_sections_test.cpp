@@ -154,7 +154,7 @@ TEST(RememberedSections, OfAnEqualPathThroughOtherMaterialAreOthers) {
   EXPECT_LT(holed->removed_mm3, whole->removed_mm3);
 }
 
-// A rounding of 4.7e-10 mm moves an area by as much times its outline; floors that slope are read in strips,
+// A rounding of 1.3e-9 mm moves an area by as much times its outline; floors that slope are read in strips,
 // to 1e-3 of diameter times depth (planar.h), and their strips begin where the rounding says.
 TEST(RememberedSections, AreThoseOfTheWholeStockToTheRoundingOfTheOwnFrame) {
   const model::Cutter mill = cutter(6.0);

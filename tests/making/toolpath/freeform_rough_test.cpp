@@ -166,5 +166,33 @@ TEST(Levels, AreAsFewAsTerracesNeedAndEndOnFlats) {
   }
 }
 
+// Steps that exceed the axial depth by less than a share of it, but by more than rounding, were of no group:
+// all levels became one, cut from below.
+TEST(Levels, AreNoDeeperThanTheCutByMoreThanRounding) {
+  constexpr double kDepth = 8.0, kMore = 5e-9, kMargin = 0.05, kAboveFloor = 1e-6;
+  // Level ground at two heights, apart.
+  DropGrid reach;
+  reach.step_mm = 0.5;
+  reach.nx = 9;
+  reach.ny = 3;
+  const double high = -(kDepth + kMore), low = 2.0 * high;
+  for (int iy = 0; iy < reach.ny; ++iy) {
+    for (int ix = 0; ix < reach.nx; ++ix)
+      reach.z.push_back(ix < 4 ? high - kAboveFloor : ix > 4 ? low : std::nan(""));
+  }
+  FreeformJob task;
+  task.axial_depth_mm = kDepth;
+  task.terrace_mm = 0.5;
+  task.floors_z_mm = {high - kMargin - kAboveFloor};
+  const auto levels = levels_of(task, reach, low, kMargin).z_mm;
+  ASSERT_FALSE(levels.empty());
+  double at = 0.0;
+  for (const double z : levels) {
+    EXPECT_GE(z, at - kDepth - 0.5 * kMore);
+    at = std::min(at, z);
+  }
+  EXPECT_EQ(at, low);
+}
+
 }  // namespace
 }  // namespace capstan::toolpath::freeform

@@ -38,13 +38,19 @@ TEST(OwnFrame, GivesEqualPathsTheSameBytesWhereverTheyLie) {
   }
 }
 
-TEST(OwnFrame, MovesNoPointByMoreThanHalfItsGrid) {
+TEST(OwnFrame, MovesEndsOfLinesByHalfItsGridAtMostAndThoseOfArcsByOne) {
   const Vec2 at{23.1, 7.7};
-  const CutterPath p = pocket(at, 0.4), q = own(p);
+  CutterPath p = pocket(at, 0.4);
+  for (int k = 1; k <= 20; ++k) p.line({at.x + 0.37 * k, at.y - 1.3 * k, 0.1 * k}, MoveRole::kCut);
+  const CutterPath q = own(p);
   const Vec2 origin = own_origin(p);
+  const auto arc_at = [&](std::size_t i) { return i > 0 && i < p.size() && is_arc(p.kind[i]); };
+  bool of_arc = false;
   for (std::size_t i = 0; i < p.size(); ++i) {
+    const bool stays = i > 0 && p.x[i] == p.x[i - 1] && p.y[i] == p.y[i - 1];
+    if (!stays) of_arc = arc_at(i) || arc_at(i + 1);
     // An end of an arc is rounded about a centre that is rounded, too.
-    const double most = 2.0 * 0.5 * kOwnGrid + 1e-14;
+    const double most = (of_arc ? 1.0 : 0.5) * kOwnGrid + 1e-14;
     EXPECT_NEAR(q.x[i], p.x[i] - origin.x, most);
     EXPECT_NEAR(q.y[i], p.y[i] - origin.y, most);
     EXPECT_NEAR(q.z[i], p.z[i], 0.5 * kOwnGrid);

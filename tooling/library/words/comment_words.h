@@ -28,7 +28,8 @@ struct CommentSizes {
                                           double mm_per_unit = 1.0);
 
 /// The nominal diameter of the one thread that the words name, mm: "M6" where ISO 261 has the size, "M8x1",
-/// "1/4-20"; 0: none, or sizes that differ. A number behind the name of a steel is its grade ("HSS M35").
+/// "1/4-20"; 0: none, or sizes that differ. A number without a pitch that may be the grade of the steel named
+/// beside it is none ("HSS M2", "M4 high speed steel").
 [[nodiscard]] double thread_size_of_words(std::string_view words);
 
 /// Where what a comment says is from, behind "derived: " in Cutter::sources.

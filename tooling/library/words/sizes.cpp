@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -44,6 +45,7 @@ class Scan {
   }
   [[nodiscard]] char before() const { return at_ > 0 ? text_[at_ - 1] : '\0'; }
   [[nodiscard]] bool end() const { return at_ >= text_.size(); }
+  [[nodiscard]] std::size_t at() const { return at_; }
   void step(std::size_t n = 1) { at_ += n; }
   void spaces() {
     while (peek() == ' ' || peek() == '_' || peek() == ':' || peek() == '=') step();
@@ -182,32 +184,78 @@ double inch_pitch(const std::string& text, CutterClass c, double diameter_mm) {
   return 0.0;
 }
 
-/// Whether the word before a place is a steel's: what follows it is its grade.
-bool behind_steel(const std::string& text, std::size_t at) {
-  while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '-' || text[at - 1] == '_')) --at;
-  std::size_t from = at;
-  while (from > 0 && letter(text[from - 1])) --from;
-  const std::string_view word = std::string_view(text).substr(from, at - from);
-  return word.starts_with("hss") || word == "e" || word == "pm" || word == "co" || word == "steel" ||
-         word == "stahl";
+/// High speed steels that are called as a thread is, M and a number.
+/// Source  ASTM A600-92a(2016), scope; M35 is what the trade calls HS6-5-2-5 (ISO 4957).
+constexpr std::array kSteelGrades = {1.0,  2.0,  3.0,  4.0,  6.0,  7.0,  10.0, 30.0, 33.0, 34.0, 35.0,
+                                     36.0, 41.0, 42.0, 43.0, 44.0, 46.0, 47.0, 48.0, 50.0, 52.0, 62.0};
+
+bool of_word(char c) { return letter(c) || digit(c); }
+bool all_digits(std::string_view word) { return std::ranges::all_of(word, digit); }
+
+/// The word that ends before a place, past marks and one number ("cobalt 8 % M42").
+std::string_view word_before(std::string_view text, std::size_t at) {
+  std::string_view word;
+  for (int k = 0; k < 2 && all_digits(word); ++k) {
+    while (at > 0 && !of_word(text[at - 1])) --at;
+    const std::size_t end = at;
+    while (at > 0 && of_word(text[at - 1])) --at;
+    word = text.substr(at, end - at);
+  }
+  return word;
 }
 
-/// The sizes of "M6", "M8x1": where no pitch follows, those of the coarse series only.
+/// The word that begins behind a place, past marks and one number ("M42 8 % cobalt").
+std::string_view word_behind(std::string_view text, std::size_t at) {
+  std::string_view word;
+  for (int k = 0; k < 2 && all_digits(word); ++k) {
+    while (at < text.size() && !of_word(text[at])) ++at;
+    const std::size_t from = at;
+    while (at < text.size() && of_word(text[at])) ++at;
+    word = text.substr(from, at - from);
+    if (word == "high" && word_behind(text, at) == "speed") return "highspeed";
+  }
+  return word;
+}
+
+/// Whether a word is of a steel's name: "hss", "hsse", "hsco", "pm", "co8", "kobalt", "werkzeugstahl".
+bool names_steel(std::string_view word) {
+  if (word.starts_with("hss") || word.starts_with("hsco") || word.starts_with("highspeed")) return true;
+  if (word.starts_with("co") && all_digits(word.substr(2))) return true;
+  if (word.find("cobalt") != std::string_view::npos || word.find("kobalt") != std::string_view::npos)
+    return true;
+  return word == "pm" || word.ends_with("steel") || word.ends_with("stahl");
+}
+
+/// Whether the "M2" in these bounds may be a steel's grade: it is one, and a word beside it is a steel's
+/// ("HSS M2", "M2 high speed steel", "HSS-E M4"). It may be the size all the same: which it is, is not
+/// guessed.
+bool may_be_grade(const std::string& text, std::size_t at, std::size_t end, double number) {
+  if (std::ranges::find(kSteelGrades, number) == kSteelGrades.end()) return false;
+  const std::string_view before = word_before(text, at);
+  return before == "e" || before == "speed" || before == "grade" || names_steel(before) ||
+         names_steel(word_behind(text, end));
+}
+
+/// The sizes of "M6", "M8x1": where no pitch follows, those of the coarse series only, and none that may be a
+/// grade of steel.
 void metric_sizes(const std::string& text, std::vector<double>& out) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char previous = i > 0 ? text[i - 1] : ' ';
     if (letter(previous) || digit(previous) || previous == '.' || previous == '/') continue;
     Scan s(text, i);
     if (!s.word("mf") && !s.word("m")) continue;
-    if (!digit(s.peek()) || behind_steel(text, i)) continue;
+    if (!digit(s.peek())) continue;
     const auto nominal = s.number();
     if (!nominal || *nominal <= 0.0 || (letter(s.peek()) && s.peek() != 'x')) continue;
+    const std::size_t end = s.at();
+    const bool toleranced = s.peek() == '-' && digit(s.peek(1)) && letter(s.peek(2));  // M6-6H
+    const bool is_thread = toleranced || text[i + 1] == 'f';
     s.spaces();
     if (s.word("x") || s.word("*") || s.word("\xC3\x97")) {
       s.spaces();
       const auto p = s.number();
       if (p && *p > 0.05 && *p <= kCoarsestOfSize * *nominal) out.push_back(*nominal);
-    } else if (coarse_pitch(*nominal) > 0.0) {
+    } else if (coarse_pitch(*nominal) > 0.0 && (is_thread || !may_be_grade(text, i, end, *nominal))) {
       out.push_back(*nominal);
     }
   }

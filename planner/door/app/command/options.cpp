@@ -257,6 +257,7 @@ class CommandLine {
     auto* convert = command(app_, "convert", "write a part or plan in another format", Command::kConvert);
     file(convert, "file", "part or plan");
     option(convert, "without", "sections: a plan without the cross sections along its paths");
+    option(convert, "mesh-unit", "what the numbers of an STL mesh are, which does not say: mm or inch");
     outputs(convert, true);
   }
   void shop() {

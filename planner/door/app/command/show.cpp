@@ -91,7 +91,8 @@ int run_convert(Session& s) {
                     .hint = "capstan plan PART -o " + o.path},
                    kUsage);
   }
-  const auto plan = service::load_plan(s.options.files[0], s.job);
+  const auto plan = service::load_plan(s.options.files[0], s.job, false,
+                                       service::mesh_unit(s.options.inputs.mesh_unit, "--mesh-unit"));
   if (!plan) return s.end(plan.error(), plan.error().code == "EXC-UNSUPPORTED" ? kUsage : kUnreadable);
   if (auto ok = service::make(*plan, *outputs, s.job, nullptr, service::Reports::kUnjudged,
                               {.sections = s.options.inputs.sections});

@@ -195,7 +195,8 @@ class PathMaker {
     step::rank_by_time(plan_, p_, steps_, step, used_, stocks_, progress_, cuts_);
     step::rank_by_path(plan_, steps_, step, used_,
                        [&](std::size_t i) { return cutter_.seconds_with(step, i); });
-    if (step.proposed && plan_.target_mesh && plan_.model.holds<model::FreeformRoughMilling>(step.operation))
+    if (step.proposed && plan_.target_mesh &&
+        plan_.model.holds<model::FreeformRoughMilling>(step.operation) && step::left_by_next_mm(p_, step))
       step::rank_by_rest(plan_, steps_, step, used_,
                          [&](std::size_t i) { return cutter_.roughed_with(step, i); });
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
@@ -280,15 +281,15 @@ class PathMaker {
 
   /// A surface of which a step leaves so much that the next bites deeper than twice what it was given.
   void tell_too_much(const StepDraft& step) {
-    constexpr double kShare = 0.01;  // of the surface; the rest are creases, and cells at steep places
+    constexpr double kShare = 0.01;  // of the surface; the rest are creases; default, unsourced
     if (!plan_.target_mesh || !plan_.model.holds<model::FreeformOperation>(step.operation)) return;
-    const step::TooMuch much = step::too_much_for_next(p_, step, stocks_.of(step.setup));
-    if (!(much.most_mm > 0.0) || much.share <= kShare) return;
+    const auto much = step::too_much_for_next(p_, step, stocks_.of(step.setup));
+    if (!much || !(much->most_mm > 0.0) || much->share <= kShare) return;
     job_.warn("PIP-BITE", "step '" + draft::name_of(plan_.model, step) +
                               "' leaves so much that the next over this surface bites up to " +
-                              trimmed(much.deepest_mm, 2) + " mm deep, square to it, and on " +
-                              trimmed(100.0 * much.share, 1) + " % of it more than " +
-                              trimmed(much.most_mm, 2) +
+                              trimmed(much->deepest_mm, 2) + " mm deep, square to it, and on " +
+                              trimmed(100.0 * much->share, 1) + " % of it more than " +
+                              trimmed(much->most_mm, 2) +
                               " mm, twice what is left for it; a smaller mill before it would bite less");
   }
 

@@ -85,7 +85,7 @@ std::optional<step::Roughed> TryCutter::roughed_with(StepDraft& step, std::size_
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
     if (!seconds || !t.removed_mm3) return;
     const auto left = step::too_much_for_next(p_, step, means_.stocks.of(step.setup));
-    out = step::Roughed{*seconds, *t.removed_mm3, left.mm3};
+    if (left) out = step::Roughed{*seconds, *t.removed_mm3, left->mm3};
   });
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/mesh/mesh_form.h"
 #include "planner/ground/geometry/mesh/turned_alike.h"
 #include "planner/model/nouns/all.h"
@@ -52,6 +53,7 @@ std::size_t leave_out_doubles(std::vector<std::array<std::uint32_t, 3>>& triangl
   std::vector<Named> all;
   all.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    tick();
     auto c = triangles[i];
     std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
     const bool other = c[2] < c[1];
@@ -95,12 +97,13 @@ class Builder {
   void normal(Vec3 n) { normal_ = n; }
   /// Gives what is wrong with the corner, as "a coordinate is 1e300; ...", or nothing.
   [[nodiscard]] std::string corner(Vec3 p) {
-    p = mm_per_unit_ * p;
     for (const double v : {p.x, p.y, p.z}) {
-      if (!model::range::kPositionMm.holds(v))
-        return "a coordinate is " + model::value_text(v) + "; it can be " +
-               to_text(model::range::kPositionMm) + " mm";
+      if (!model::range::kPositionMm.holds(mm_per_unit_ * v))
+        return "a coordinate is " + model::value_text(v) +
+               (mm_per_unit_ == 1.0 ? std::string() : " x " + trimmed(mm_per_unit_, 3) + " mm") +
+               "; it can be " + to_text(model::range::kPositionMm) + " mm";
     }
+    p = mm_per_unit_ * p;
     const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
     // + 0.0 makes one corner of 0 and -0.
     const auto [it, fresh] = index_.emplace(std::tuple(p.x + 0.0, p.y + 0.0, p.z + 0.0), next);
@@ -302,6 +305,7 @@ Hidden hidden_of(const Mesh& mesh, bool inside_out) {
   Hidden out;
   double all = 0.0;
   for (const auto& t : mesh.triangles) {
+    tick();
     const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
     const Vec3 n = (inside_out ? -0.5 : 0.5) * cross(b - a, c - a);
     const bool down = n.z < -kUpright * norm(n);
@@ -373,7 +377,7 @@ Result<Mesh> judged_mesh(Mesh mesh, const std::string& name, Job& job, bool unit
     warn("STL-INCH",
          "the mesh is " + trimmed(size.x, 3) + " x " + trimmed(size.y, 3) + " x " + trimmed(size.z, 3) +
              " mm if its unit is mm, which STL does not state: it may be in inches",
-         "say what its unit is, by the option mesh-unit: inch or mm");
+         "say what its unit is where it is planned or converted (mesh-unit: inch or mm)");
   return mesh;
 }
 

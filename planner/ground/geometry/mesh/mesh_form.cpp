@@ -117,7 +117,9 @@ MeshForm form_of(const Mesh& mesh) {
   const std::vector<std::uint32_t> same = welded(mesh);
   Uses edges(3 * mesh.triangles.size());
   double volume = 0.0, above = 0.0, below = 0.0;  // of triangles seen from above, and from below
-  bool upright = false;
+  constexpr double kSteep =
+      0.1736;  // of a unit normal: walls within 10 degrees of upright; default, unsourced
+  bool steep = false;
   const Box3 box = bounds(mesh);
   for (const Triangle& t : mesh.triangles) {
     const Triangle w{same[t[0]], same[t[1]], same[t[2]]};
@@ -128,7 +130,7 @@ MeshForm form_of(const Mesh& mesh) {
     volume += dot(a, cross(b, c)) / 6.0;
     const Vec3 n = cross(b - a, c - a);
     const double shadow = 0.5 * n.z;
-    upright = upright || std::abs(n.z) <= 1e-9 * norm(n);
+    steep = steep || std::abs(n.z) <= kSteep * norm(n);
     (shadow > 0.0 ? above : below) += std::abs(shadow);
   }
   edges.each([&](std::uint32_t, std::uint32_t, std::size_t forth, std::size_t back) {
@@ -157,8 +159,8 @@ MeshForm form_of(const Mesh& mesh) {
     if (sign < 0.0) std::reverse(xy_loop.begin(), xy_loop.end());
     outer.push_back(std::move(xy_loop));
   }
-  // A floor with walls round it, seen from beneath, is a solid without its top, and no sheet.
-  const bool lies = sign > 0.0 || !upright;
+  // What faces down between walls is a solid without its top, drafted walls included, and no sheet.
+  const bool lies = sign > 0.0 || !steep;
   if (one_side && lies && hole == nullptr && out.turned_edges == 0) {
     out.outline = clean(outer);
     const double covered = std::max(above, below);
@@ -176,6 +178,7 @@ MeshForm form_of(const Mesh& mesh) {
               std::to_string(loops.size()) + (loops.size() == 1 ? " opening" : " openings") +
               "; the first is " + trimmed(size.x, 3) + " x " + trimmed(size.y, 3) + " x " +
               trimmed(size.z, 3) + " mm, from " + words(around.lo);
+  if (!lies) out.fault += "; it faces down and has walls, as a solid without its top does";
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/mesh/welded.h"
 
 // Two triangles face the same way if they run along their edge in opposite directions. From one triangle of a
@@ -34,9 +35,13 @@ std::vector<std::vector<Neighbour>> neighbours_of(const Mesh& mesh) {
   std::vector<Use> uses;
   uses.reserve(3 * mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    tick();
+    const auto& t = mesh.triangles[i];
+    const std::array<std::uint64_t, 3> w{same[t[0]], same[t[1]], same[t[2]]};
+    if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) continue;  // none, its corners welded
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = same[mesh.triangles[i][k]], b = same[mesh.triangles[i][(k + 1) % 3]];
-      if (a != b) uses.push_back({std::min(a, b) << 32U | std::max(a, b), i, a < b});
+      const std::uint64_t a = w[k], b = w[(k + 1) % 3];
+      uses.push_back({std::min(a, b) << 32U | std::max(a, b), i, a < b});
     }
   }
   std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
@@ -71,6 +76,7 @@ TurnedAlike turned_alike(Mesh mesh) {
     bool two_sides = true;
     std::array<double, 2> area{};
     for (std::size_t i = 0; i < piece.size(); ++i) {  // grows
+      tick();
       const auto& t = mesh.triangles[piece[i]];
       const Vec3 a = mesh.vertices[t[0]];
       area[side[piece[i]] == kFirst ? 0 : 1] += norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/ground/base/stopping.h"
+
 // Vertices that stand for themselves lie in the cells of a grid, which are found by a hash of their place and
 // chained. A cell is kCells welds wide, so that many vertices lie farther than a weld from its sides and ask
 // one cell alone; the others ask the cells on the near sides, too.
@@ -35,6 +37,7 @@ std::vector<std::uint32_t> welded(const Mesh& mesh) {
   while (slots < 2 * n) slots *= 2;
   std::vector<std::uint32_t> first(slots, kNone), next(n, kNone), out(n);
   for (std::uint32_t i = 0; i < n; ++i) {
+    tick();
     const Vec3 v = mesh.vertices[i];
     std::array<std::array<std::int64_t, 2>, 3> near{};  // of each axis, the cells within a weld
     const std::array<double, 3> at{v.x, v.y, v.z};

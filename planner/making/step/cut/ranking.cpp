@@ -68,23 +68,38 @@ double face_s(const toolpath::PathJob& job, const optimise::CutQuestion& q, cons
   return 60.0 * a.levels * passes * (length + q.cutter.cutting_diameter_mm) / a.feed_mm_min;
 }
 
-/// The candidates that were compared by their times, then the others.
+/// Takes the candidates in this order, then the others. Records who `lost`, and of the one that was first
+/// until now `why_not`, where it is neither first nor among those.
+void in_order(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
+              const std::vector<std::size_t>& order, std::vector<model::Rejected> lost,
+              const std::string& why_not) {
+  const std::string first = step.candidates.front().cutter.id;
+  step.candidates.prefer(order);
+  const bool known = step.candidates.front().cutter.id == first ||
+                     std::any_of(lost.begin(), lost.end(), [&](const auto& r) { return r.what == first; });
+  if (!known) lost.push_back({first, why_not});
+  if (lost.empty()) return;
+  step.cutter = step.candidates.front().cutter;
+  for (model::Rejected& r : lost) {
+    std::erase_if(step.rejected_tools, [&](const auto& other) { return other.what == r.what; });
+    step.rejected_tools.push_back(std::move(r));
+  }
+  take_cutter(plan, steps, step, step.candidates.front());
+}
+
+/// The candidates that were compared by their times, the first of them first, then the others.
 void in_order(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
               std::vector<std::pair<double, std::size_t>> times) {
-  const std::string first = step.candidates.front().cutter.id;
   const double of_first = times.front().first;
   std::stable_sort(times.begin(), times.end());
-  std::vector<std::size_t> first_ones;
-  for (const auto& [t, i] : times) first_ones.push_back(i);
-  step.candidates.prefer(first_ones);
-  if (step.candidates.front().cutter.id == first) return;
-  step.cutter = step.candidates.front().cutter;
-  step.rejected_tools.push_back(
-      {first,
-       "fits, but takes " +
-           (of_first < kNever ? trimmed(of_first, 1) + " s" : std::string("too long, or breaks a limit,")) +
-           " against " + trimmed(times.front().first, 1) + " s of " + step.cutter.id});
-  take_cutter(plan, steps, step, step.candidates.front());
+  std::vector<std::size_t> order;
+  for (const auto& [t, i] : times) order.push_back(i);
+  in_order(
+      plan, steps, step, order, {},
+      "fits, but takes " +
+          (of_first < kNever ? trimmed(of_first, 1) + " s" : std::string("too long, or breaks a limit,")) +
+          " against " + trimmed(times.front().first, 1) + " s of " +
+          step.candidates[order.front()].cutter.id);
 }
 
 }  // namespace
@@ -182,13 +197,13 @@ std::vector<std::size_t> one_of_each_diameter(const draft::Candidates& all) {
 void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
                   const std::vector<std::string>& used,
                   const std::function<std::optional<Roughed>(std::size_t)>& roughed) {
-  // What a wider mill cannot reach a smaller one takes at this share of its rate, tool change included.
-  // Default, measured on waves of 4 mm: 12 mm after 20 mm.
+  // What a wider mill cannot reach a smaller one takes at this share of its rate. Default, unsourced.
   constexpr double kRestRate = 0.25;
   constexpr double kNothingLeft = 0.002;  // of what was taken; default, unsourced
   if (step.candidates.size() < 2) return;
   std::vector<std::pair<double, std::size_t>> times;
-  for (const std::size_t i : one_of_each_diameter(step.candidates)) {
+  const std::vector<std::size_t> compared = one_of_each_diameter(step.candidates);
+  for (const std::size_t i : compared) {
     const auto t = roughed(i);
     if (!t || !(t->taken_mm3 > 0.0)) continue;
     const bool even = t->too_much_mm3 <= kNothingLeft * t->taken_mm3;
@@ -199,7 +214,6 @@ void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& s
     if (even || slower) break;  // a smaller one takes longer still
   }
   if (times.empty()) return;
-  const std::string first = step.candidates.front().cutter.id;
   std::vector<model::Rejected> lost;
   std::stable_sort(times.begin(), times.end());
   std::vector<std::size_t> order;
@@ -210,13 +224,12 @@ void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& s
                                                         trimmed(times.front().first, 1) + " s"});
     order.push_back(i);
   }
-  step.candidates.prefer(order);
-  step.cutter = step.candidates.front().cutter;
-  for (model::Rejected& r : lost) {
-    std::erase_if(step.rejected_tools, [&](const auto& known) { return known.what == r.what; });
-    step.rejected_tools.push_back(std::move(r));
-  }
-  take_cutter(plan, steps, step, step.candidates.front());
+  // The first candidate's diameter is the widest that is compared.
+  in_order(plan, steps, step, order, std::move(lost),
+           compared.front() == 0
+               ? std::string("fits, but has no path within the limits that takes anything")
+               : "fits, but of its diameter " + step.candidates[compared.front()].cutter.id +
+                     " was compared, whose corner suits levels better");
 }
 
 }  // namespace capstan::step

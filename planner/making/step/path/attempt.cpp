@@ -14,6 +14,7 @@
 #include "planner/making/step/path/freeform.h"
 #include "planner/making/step/path/given_path.h"
 #include "planner/making/step/path/job_of.h"
+#include "planner/making/step/path/remembered/pieces.h"
 #include "planner/making/step/path/surface.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
@@ -111,16 +112,15 @@ bool sound(const Scheduled& s, const model::CutterPath& path, bool split) {
   const std::size_t moves = split ? s.pieces.size() : path.size();
   return f.feed_mm_min.size() == moves && f.spindle_rpm.size() == moves && f.dwell_s.size() == moves &&
          model::columns_agree(s.sections) &&
-         std::all_of(s.pieces.begin(), s.pieces.end(),
-                     [&](const optimise::PieceEnd& e) {
-                       return e.move < path.size() && (e.move > 0 || e.share == 1.0);
-                     }) &&
+         (split ? are_pieces_of(s.pieces, path.size()) : s.pieces.empty()) &&
          std::all_of(s.samples.begin(), s.samples.end(),
                      [&](const optimise::CutSample& one) { return one.move < moves; });
 }
 
-/// Decimals of a place that was found in a path's own frame, whose grid is coarser.
-constexpr double kPlaces = 1e9;
+/// A place that was found in a path's own frame is told to 1e-9 mm: that frame's grid is hardly finer, and
+/// adding its origin leaves the noise of a sum in the digits below.
+constexpr double kPlaceStepsPerMm = 1e9;
+double told(double mm) { return std::round(mm * kPlaceStepsPerMm) / kPlaceStepsPerMm; }
 
 /// A path in its own frame. What feeds are asked of is taken from it, so that equal paths at other places ask
 /// the same and have one answer.
@@ -156,9 +156,9 @@ void schedule(MeasuredCut& cut, model::SectionSeries* sections, OwnPath own, con
   Scheduled known = *std::move(answer);
   cut.feeds = std::move(known.feeds);
   if (auto& at = cut.feeds.worst.at_mm) {
-    at->x = std::round((at->x + own.origin.x) * kPlaces) / kPlaces;
-    at->y = std::round((at->y + own.origin.y) * kPlaces) / kPlaces;
-    at->z = std::round(at->z * kPlaces) / kPlaces;
+    at->x = told(at->x + own.origin.x);
+    at->y = told(at->y + own.origin.y);
+    at->z = told(at->z);
   }
   if (sections != nullptr) {
     *cut.path = optimise::in_pieces(*cut.path, known.pieces);

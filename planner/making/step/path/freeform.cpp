@@ -19,8 +19,8 @@ constexpr double kChordMm = 0.01;          // where the file states no chordal t
 constexpr double kRoughAllowanceMm = 0.5;  // left by roughing when no rule says otherwise; default, unsourced
 constexpr double kSemiAllowanceMm = 0.2;   // left by a semi-finish, likewise; default, unsourced
 
-/// How much deeper than what was left for it a step that finishes a surface may bite. Source  the aim of
-/// this planner: twice, so that a last ball of 0.2 mm meets 0.4 mm at most.
+/// How much deeper than what was left for it a step that finishes a surface may bite: a last ball that is
+/// left 0.2 mm then meets 0.4 mm at most. Default, unsourced.
 constexpr double kMostBite = 2.0;
 constexpr double kLevelStep = 0.5;  // of the diameter, over a level floor; default, unsourced
 
@@ -74,22 +74,23 @@ double freeform_allowance(const model::Model& m, const std::vector<StepDraft>& s
   return 0.0;
 }
 
-/// What the finish of the same feature after a step leaves; 0: there is none.
-double left_by_next_mm(const PlanSoFar& p, const StepDraft& step) {
+std::optional<double> left_by_next_mm(const PlanSoFar& p, const StepDraft& step) {
   bool after = false;
   for (const StepDraft& s : p.steps) {
     if (after && s.feature == step.feature && p.plan.model.holds<model::FreeformFinishMilling>(s.operation))
       return freeform_allowance(p.plan.model, p.steps, s);
     after = after || s.step == step.step;
   }
-  return 0.0;
+  return std::nullopt;
 }
 
-TooMuch too_much_for_next(const PlanSoFar& p, const StepDraft& step, const stock::HeightMap& map) {
+std::optional<TooMuch> too_much_for_next(const PlanSoFar& p, const StepDraft& step,
+                                         const stock::HeightMap& map) {
   constexpr double kSteepest = 1.7320508;  // tangent of 60 degrees
+  const std::optional<double> next = left_by_next_mm(p, step);
+  if (!next) return std::nullopt;
   TooMuch out;
   const double own = freeform_allowance(p.plan.model, p.steps, step);
-  const double next = left_by_next_mm(p, step);
   out.most_mm = kMostBite * own;
   const geometry::Mesh mesh = mesh_in_setup(p, step.setup);
   const stock::HeightMap part = stock::from_mesh(mesh, geometry::bounds(mesh).lo.z - 1.0, map.cell_mm);
@@ -102,7 +103,9 @@ TooMuch too_much_for_next(const PlanSoFar& p, const StepDraft& step, const stock
       if (slope > kSteepest) continue;
       places += 1.0;
       const double stands = stock::height_at(map, {part.x_of(ix), part.y_of(iy)}) - part.origin.z - z(0, 0);
-      const double bite = stands / std::sqrt(1.0 + slope * slope) - next;
+      // One height stands for all of a cell, over which the surface rises.
+      const double by_cell = 0.5 * part.cell_mm * slope;
+      const double bite = (stands - by_cell) / std::sqrt(1.0 + slope * slope) - *next;
       out.deepest_mm = std::max(out.deepest_mm, bite);
       if (bite <= out.most_mm) continue;
       beyond += 1.0;
@@ -155,7 +158,7 @@ Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const StepDraf
   if (rough) {
     f.axial_depth_mm = cut.ap_mm;
     f.stepover_mm = std::min(cut.ae_mm, step.cutter.cutting_diameter_mm);
-    f.terrace_mm = (kMostBite - 1.0) * f.allowance_mm + left_by_next_mm(p, step);
+    if (const auto next = left_by_next_mm(p, step)) f.terrace_mm = (kMostBite - 1.0) * f.allowance_mm + *next;
   }
   const geometry::Box3& raw = p.setups[step.setup].stock;
   const bool levels = draft::cuts_levels(p.plan.model, step);

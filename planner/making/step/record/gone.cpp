@@ -118,7 +118,7 @@ bool roughs(const StepDraft& step) {
 
 bool may_cut_nothing(const PlanSoFar& p, const StepDraft& step) {
   const bool finished = std::any_of(p.steps.begin(), p.steps.end(), [&](const StepDraft& s) {
-    return s.member == step.member && s.chain == step.chain && s.in_chain > step.in_chain;
+    return s.member == step.member && s.chain == step.chain && s.in_chain > step.in_chain && !roughs(s);
   });
   return (finished && roughs(step)) || cut_around(p, step);
 }

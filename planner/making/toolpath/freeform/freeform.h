@@ -39,9 +39,9 @@ struct FreeformJob {
   double axial_depth_mm = 0.0;  ///< rough: at most, per level
   /// Rough: what levels may leave on a slope beside the allowance, square to it; 0: as much as they do.
   double terrace_mm = 0.0;
-  double stepover_mm = 0.0;     ///< between passes; finish: 0 takes it from scallop_mm
-  double scallop_mm = 0.0;      ///< finish: height of the ridges between passes
-  bool to_and_fro = true;       ///< finish: else all passes in one direction
+  double stepover_mm = 0.0;  ///< between passes; finish: 0 takes it from scallop_mm
+  double scallop_mm = 0.0;   ///< finish: height of the ridges between passes
+  bool to_and_fro = true;    ///< finish: else all passes in one direction
   /// Rough: heights of the level floors of a surface with walls; the cut goes down to each of them, too, and
   /// follows the borders of levels to a quarter of the margin.
   std::vector<double> floors_z_mm;
@@ -52,8 +52,9 @@ struct FreeformJob {
 
 struct FreeformPath {
   model::CutterPath path;
-  std::vector<double> levels_z_mm;  ///< rough: heights of the tip that were cut, from above
-  double stepover_mm = 0.0;         ///< as used
+  /// Rough: heights of the tip, each once, in the order in which they were cut.
+  std::vector<double> levels_z_mm;
+  double stepover_mm = 0.0;  ///< as used
 };
 
 /// Distance between two passes of a ball of radius R that leaves ridges of height h on a plane:
@@ -62,9 +63,10 @@ struct FreeformPath {
 [[nodiscard]] double scallop_stepover(double ball_radius_mm, double scallop_mm);
 
 /// freeform_rough_milling: levels, axial_depth apart, from above; in each, straight passes over what is free
-/// of surface + allowance and still holds material. Between material and the cutter's way in: from the side
-/// in air, else a ramp along the first pass within the cutter's ramp angle, else straight down where the
-/// cutter cuts to its centre.
+/// of surface + allowance and still holds material. With terraces, the levels between two of those are cut
+/// from below. The cutter's way in: from the side in air, else a ramp along the first pass within the
+/// cutter's ramp angle, else straight down where the cutter cuts to its centre (with terraces and a cutter
+/// that ramps: `kStraightTerraces` deep at most).
 ///
 /// No gouge   every point of a cut is covered by places where the cutter, grown by the allowance and a
 /// margin,
@@ -74,7 +76,7 @@ struct FreeformPath {
 ///            FRF-VALUE    a number that cannot be
 ///            FRF-EMPTY    nothing to cut in the area
 ///            FRF-STOPPED  the job was stopped
-/// Warns      FRF-REST     places that the cutter can reach but not enter
+/// Warns      FRF-REST     passes that the cutter can reach but not enter, on each level
 /// After the passes of a level the cutter goes once along the border of what is free there (climbing, for a
 /// clockwise spindle), so that walls keep the allowance and not half a stepover more.
 [[nodiscard]] Result<FreeformPath> rough(const FreeformJob& task, Job& job);

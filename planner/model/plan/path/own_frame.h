@@ -10,10 +10,11 @@
 
 namespace capstan::model {
 
-/// The grid of an own frame, mm: a power of two, so that its points and their differences are exact. A point
-/// moves by half of it at most, 4.7e-10 mm, which is less than what counts as touching (stock::kTouch) and a
-/// thousandth of what sections keep. A coordinate of a metre carries some 1e-13 mm of rounding: of 10,000 of
-/// them two fall on another point of the grid than in an equal path elsewhere, which costs time and no more.
+/// The grid of an own frame, mm: a power of two, so that its points and their differences are exact. Each
+/// coordinate moves by half of it at most, 4.7e-10 mm; across the axis the ends of an arc by all of it, for
+/// their centre is rounded, too: 1.3e-9 mm in all. A coordinate of a metre carries some 1e-13 mm of rounding:
+/// of 10,000 of them two fall on another point of the grid than in an equal path elsewhere, which costs time
+/// and no more.
 inline constexpr double kOwnGrid = 0x1p-30;
 
 /// The point of the grid nearest to it; symmetric about 0.
@@ -30,7 +31,9 @@ inline constexpr double kOwnGrid = 0x1p-30;
 [[nodiscard]] geometry::Vec2 own_origin(const CutterPath& path);
 
 /// The path less `origin` across the axis, on the grid, heights too. The ends of an arc are rounded as seen
-/// from its centre. Points at one place stay at one place, and an arc that ends where it began a whole turn.
+/// from its centre. Points at one place stay at one place, and an arc that ends where it began a whole turn:
+/// so does one of more than a half turn whose ends are up to 16 grids apart, 1.5e-8 mm, and its end moves by
+/// as much.
 [[nodiscard]] CutterPath in_own_frame(const CutterPath& path, geometry::Vec2 origin);
 
 }  // namespace capstan::model

@@ -12,6 +12,25 @@ using geometry::Box3;
 using geometry::Vec2;
 using model::on_own_grid;
 
+namespace {
+
+/// False only if nothing of the trail lies between lo and hi, seen along x, y and, of a straight one, its
+/// track: by the trail and the two places alone, wherever tiles lie. All for which it is true is noted there:
+/// stretches hold what lies within a trail's rectangle and no farther from the line of its track than its
+/// radius.
+bool may_reach(const Trail& t, Vec2 lo, Vec2 hi) {
+  if (!(lo.x < hi.x && lo.y < hi.y)) return false;
+  Vec2 from, to;
+  bounds_of(t, from, to);
+  if (from.x >= hi.x || to.x <= lo.x || from.y >= hi.y || to.y <= lo.y) return false;
+  if (t.arc) return true;
+  const Vec2 half = 0.5 * (hi - lo);
+  const double beside = std::abs(cross(t.along, 0.5 * (lo + hi) - t.a));
+  return beside < t.radius_mm + std::abs(t.along.y) * half.x + std::abs(t.along.x) * half.y;
+}
+
+}  // namespace
+
 Trail in_own_frame(Trail t, Vec2 origin) {
   t.za = on_own_grid(t.za);
   t.zb = on_own_grid(t.zb);
@@ -49,13 +68,14 @@ PlanarPart PlanarStock::part(Vec2 lo, Vec2 hi, Vec2 origin) const {
                         std::max(std::abs(lo.y - middle.y), std::abs(hi.y - middle.y))};
     if (norm(farthest) < bar_radius_mm_) out.bar_radius_mm = 0.0;  // a block to those within
   }
-  out.box.lo = {box_lo.x, box_lo.y, on_own_grid(box_.lo.z)};
-  out.box.hi = {box_hi.x, box_hi.y, on_own_grid(box_.hi.z)};
-  if (out.bar_radius_mm == 0.0) {
-    const auto within = [](double v, double from, double to) { return std::min(std::max(v, from), to); };
-    out.box.lo = {within(lo.x, box_lo.x, box_hi.x), within(lo.y, box_lo.y, box_hi.y), out.box.lo.z};
-    out.box.hi = {within(hi.x, box_lo.x, box_hi.x), within(hi.y, box_lo.y, box_hi.y), out.box.hi.z};
-  }
+  const auto within_box = [&](Vec2 p) {
+    return Vec2{std::min(std::max(p.x, box_lo.x), box_hi.x), std::min(std::max(p.y, box_lo.y), box_hi.y)};
+  };
+  const Vec2 part_lo = within_box(lo), part_hi = within_box(hi);
+  const bool bar = out.bar_radius_mm > 0.0;
+  const Vec2 from = bar ? box_lo : part_lo, to = bar ? box_hi : part_hi;
+  out.box.lo = {from.x, from.y, on_own_grid(box_.lo.z)};
+  out.box.hi = {to.x, to.y, on_own_grid(box_.hi.z)};
   // Tiles of this stock lie otherwise about equal places: they only find what may be near.
   const Vec2 spare{model::kOwnGrid, model::kOwnGrid};
   int x0, x1, y0, y1;
@@ -70,10 +90,8 @@ PlanarPart PlanarStock::part(Vec2 lo, Vec2 hi, Vec2 origin) const {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   for (const std::uint32_t id : ids) {
-    Trail t = in_own_frame(trails_[id], origin);
-    Vec2 from, to;
-    bounds_of(t, from, to);
-    if (from.x < hi.x && to.x > lo.x && from.y < hi.y && to.y > lo.y) out.trails.push_back(t);
+    const Trail t = in_own_frame(trails_[id], origin);
+    if (may_reach(t, part_lo, part_hi)) out.trails.push_back(t);
   }
   return out;
 }

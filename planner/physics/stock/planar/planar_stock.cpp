@@ -53,6 +53,21 @@ double reach_of(const CutterProfile& outline, double radius_mm, double height_mm
   return outside;
 }
 
+/// Shows `look` rectangles (lo, hi) that hold all of the trail, whose own is lo to hi. A long skew track
+/// crosses few of the tiles in that: it is shown in stretches.
+template <class Look>
+void in_stretches(const Trail& trail, Vec2 lo, Vec2 hi, double tile_mm, Look&& look) {
+  const double stretch = std::max(16.0 * tile_mm, 2.0 * trail.radius_mm);
+  if (trail.arc || trail.length_mm <= 2.0 * stretch) return look(lo, hi);
+  const int n = static_cast<int>(std::ceil(std::min(trail.length_mm / stretch, 1e4)));
+  const Vec2 r{trail.radius_mm, trail.radius_mm};
+  for (int k = 0; k < n; ++k) {
+    const Vec2 p = trail.a + (trail.length_mm * k / n) * trail.along;
+    const Vec2 q = trail.a + (trail.length_mm * (k + 1) / n) * trail.along;
+    look(Vec2{std::min(p.x, q.x), std::min(p.y, q.y)} - r, Vec2{std::max(p.x, q.x), std::max(p.y, q.y)} + r);
+  }
+}
+
 }  // namespace
 
 PlanarStock PlanarStock::from_box(const Box3& box, double tile_mm) {
@@ -192,27 +207,20 @@ void PlanarStock::take(Trail trail) {
     return;
   const auto id = static_cast<std::uint32_t>(trails_.size());
   trails_.push_back(trail);
-  note(id, lo, hi);
+  in_stretches(trail, lo, hi, tile_mm_, [&](Vec2 from, Vec2 to) { note(id, from, to); });
   if (highest(lo, hi) <= trail.lowest_mm) return;
-  // A long skew track crosses few of the tiles in its rectangle: looked through in stretches.
-  const double stretch = std::max(16.0 * tile_mm_, 2.0 * trail.radius_mm);
-  if (trail.arc || trail.length_mm <= 2.0 * stretch) return place(id, lo, hi);
-  const int n = static_cast<int>(std::ceil(std::min(trail.length_mm / stretch, 1e4)));
-  const Vec2 r{trail.radius_mm, trail.radius_mm};
-  for (int k = 0; k < n; ++k) {
-    const Vec2 p = trail.a + (trail.length_mm * k / n) * trail.along;
-    const Vec2 q = trail.a + (trail.length_mm * (k + 1) / n) * trail.along;
-    place(id, Vec2{std::min(p.x, q.x), std::min(p.y, q.y)} - r,
-          Vec2{std::max(p.x, q.x), std::max(p.y, q.y)} + r);
-  }
+  in_stretches(trail, lo, hi, tile_mm_, [&](Vec2 from, Vec2 to) { place(id, from, to); });
 }
 
 void PlanarStock::note(std::uint32_t id, Vec2 lo, Vec2 hi) {
   int x0, x1, y0, y1;
   tiles_of(lo, hi, x0, x1, y0, y1);
   for (int y = y0; y <= y1; ++y) {
+    tick(1U + static_cast<unsigned>(std::max(0, x1 - x0)) / 4U);
     for (int x = x0; x <= x1; ++x) {
-      reaching_[number_of(x, y)].push_back(id);
+      auto& there = reaching_[number_of(x, y)];
+      if (!there.empty() && there.back() == id) continue;  // by the stretch before
+      there.push_back(id);
       reached_.push_back(number_of(x, y));
     }
   }

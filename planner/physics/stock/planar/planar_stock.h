@@ -139,7 +139,7 @@ class PlanarStock {
   std::vector<std::shared_ptr<const geometry::CutterProfile>> outlines_;
   std::string lost_;
   std::vector<std::pair<std::size_t, Tile>> changes_;  ///< tiles before they were changed, oldest first
-  std::vector<std::vector<std::uint32_t>> reaching_;   ///< by tile: all trails whose rectangles reach into it
+  std::vector<std::vector<std::uint32_t>> reaching_;   ///< by tile: all trails that may reach into it
   std::vector<std::size_t> reached_;                   ///< tiles that were added to, since the last `forget`
   std::uint32_t marks_ = 0;                            ///< how many were made
 };

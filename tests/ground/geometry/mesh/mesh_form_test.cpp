@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
 namespace capstan::geometry {
 namespace {
 
@@ -52,6 +57,28 @@ TEST(MeshForm, ABoxWithoutItsTopIsNoSheetAndWithoutItsBottomIsOne) {
   Mesh open_below = box();
   open_below.triangles.erase(open_below.triangles.begin(), open_below.triangles.begin() + 2);
   EXPECT_EQ(form_of(open_below).kind, Kind::kSheet);
+}
+
+// A tray of 40 x 30 mm, 10 deep, its floor and walls of 1 degree of draft, without its top: all of it faces
+// down.
+TEST(MeshForm, ADraftedTrayWithoutItsTopIsNoSheet) {
+  const double in = 10.0 * std::tan(std::numbers::pi / 180.0);
+  Mesh m;
+  for (const double z : {0.0, -10.0}) {
+    const double d = z < 0.0 ? in : 0.0;
+    m.vertices.insert(m.vertices.end(), {{d, d, z}, {40 - d, d, z}, {40 - d, 30 - d, z}, {d, 30 - d, z}});
+  }
+  m.triangles = {{4, 6, 5}, {4, 7, 6}};  // the floor, seen from beneath
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t k = (i + 1) % 4;
+    m.triangles.push_back({i, 4 + i, 4 + k});
+    m.triangles.push_back({i, 4 + k, k});
+  }
+  const MeshForm f = form_of(m);
+  EXPECT_EQ(f.kind, Kind::kBroken);
+  EXPECT_NE(f.fault.find("it faces down and has walls"), std::string::npos) << f.fault;
+  for (auto& t : m.triangles) std::swap(t[1], t[2]);
+  EXPECT_EQ(form_of(m).kind, Kind::kSheet) << "seen from above it is a cavity";
 }
 
 TEST(MeshForm, CornersWithinTheWeldAreOneAndThoseBeyondAreNot) {

@@ -47,6 +47,17 @@ TEST(TurnedAlike, FindsEveryTriangleThatWasTurnedWhileTheyAreTheSmallerPart) {
   }
 }
 
+TEST(TurnedAlike, LooksOverTrianglesWhoseCornersAreOne) {
+  Mesh m = loose_sheet(4);
+  std::swap(m.triangles[9][1], m.triangles[9][2]);
+  // Beside its first edge a sliver whose corners weld to the edge's ends.
+  const Vec3 a = m.vertices[m.triangles[9][0]], b = m.vertices[m.triangles[9][1]];
+  const auto i = static_cast<std::uint32_t>(m.vertices.size());
+  m.vertices.insert(m.vertices.end(), {a, b, b + Vec3{0.0, 0.0, 0.5 * kWeldMm}});
+  m.triangles.push_back({i, i + 1, i + 2});
+  EXPECT_EQ(turned_alike(std::move(m)).turned, 1U);
+}
+
 TEST(TurnedAlike, TellsTheMiddleOfTheFirst) {
   Mesh m = loose_sheet(3);
   std::swap(m.triangles[2][1], m.triangles[2][2]);  // (1, 0), (2, 0), (2, 1)

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planner/ground/memo/packed.h"
@@ -86,6 +88,64 @@ TEST(PlanarPart, StandsAsHighAsTheWholeThere) {
     }
     EXPECT_GT(cut, 1000);
   }
+}
+
+/// Passes of some 110 mm askew about a place, each deeper than the one before.
+CutterPath skew_passes(Vec2 at) {
+  CutterPath p;
+  p.start({at.x - 40, at.y - 35, 2.0});
+  for (int k = 0; k < 6; ++k) {
+    const double side = k % 2 == 0 ? 1.0 : -1.0;
+    const double z = -1.0 - 0.7 * k;
+    p.line({at.x - side * 40, at.y - 35 + 5.3 * k, z}, MoveRole::kCut);
+    p.line({at.x + side * (40 + 7 * k), at.y + 35 - 9.1 * k, z}, MoveRole::kCut);
+  }
+  return p;
+}
+
+/// With tiles of a millimetre, so that such passes are noted in stretches.
+PlanarStock skewly_cut(Vec2 at) {
+  auto stock = PlanarStock::from_box(kBlock, 1.0);
+  EXPECT_TRUE(stock.cut(geometry::flat_profile(6.0, 30.0), skew_passes(at)));
+  return stock;
+}
+
+TEST(PlanarPart, HoldsTheLongSkewPassesThatReachIntoItAndIsTheSameWhereverTheyLie) {
+  const Vec2 here{30.0, 20.0}, there{101.3, 47.9};
+  const auto stock = skewly_cut(here), moved = skewly_cut(there);
+  std::size_t most = 0;
+  for (double x = -45.0; x < 70.0; x += 6.7) {
+    for (double y = -40.0; y < 40.0; y += 5.9) {
+      const Vec2 lo{x, y}, hi{x + 8.0, y + 7.0};
+      const PlanarPart part = stock.part(lo, hi, here);
+      EXPECT_EQ(bytes_of(part), bytes_of(moved.part(lo, hi, there))) << x << ", " << y;
+      const auto alone = PlanarStock::from_part(part);
+      for (double u = x + 0.23; u < hi.x; u += 0.71) {
+        for (double v = y + 0.31; v < hi.y; v += 0.67)
+          EXPECT_NEAR(alone.height_at({u, v}), stock.height_at({u + here.x, v + here.y}), 1e-6)
+              << u << ", " << v;
+      }
+      most = std::max(most, part.trails.size());
+    }
+  }
+  EXPECT_GT(most, 2U);
+  EXPECT_TRUE(stock.part({-36, 28}, {-28, 35}, here).trails.empty()) << "within rectangles of passes only";
+}
+
+TEST(PlanarPart, FollowsLongPassesThatAreUndone) {
+  const Vec2 here{30.0, 20.0};
+  auto stock = skewly_cut(here);
+  const auto before = bytes_of(part_at(stock, here));
+  const auto mark = stock.mark();
+  ASSERT_TRUE(stock.cut(geometry::flat_profile(8.0, 30.0), skew_passes({33.0, 26.0})));
+  const auto after = bytes_of(part_at(stock, here));
+  EXPECT_NE(after, before);
+  auto undone = stock.take_out(mark);
+  EXPECT_EQ(bytes_of(part_at(stock, here)), before);
+  stock.put_in(std::move(undone));
+  EXPECT_EQ(bytes_of(part_at(stock, here)), after);
+  stock.put_back(mark);
+  EXPECT_EQ(bytes_of(part_at(stock, here)), before);
 }
 
 TEST(PlanarPart, FollowsWhatIsUndoneAndDoneAgain) {

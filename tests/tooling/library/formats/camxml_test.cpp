@@ -244,6 +244,19 @@ TEST(HyperMill, ATaperedToolIsNoCylinder) {
     EXPECT_EQ(cone.cutter_class, std::nullopt) << type;
     EXPECT_THAT(report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr("tapered"))));
   }
+  // Its angle alone says so, too, whatever stands beside it.
+  for (const char* tapered : {"", "0"}) {
+    for (const char* angle : {"3", "-0.5", "3 deg"}) {
+      LossReport report;
+      const CatalogueItem cone =
+          hyper_of("endMill", param("tapered", tapered) + param("taperAngle", angle), &report);
+      EXPECT_EQ(cone.cutter_class, std::nullopt) << angle;
+      EXPECT_THAT(report.dropped,
+                  Contains(Field(&LossReport::Line::what, HasSubstr("taperAngle is " + std::string(angle)))));
+    }
+  }
+  for (const char* angle : {"", "0", "0.0"})
+    EXPECT_EQ(hyper_of("endMill", param("taperAngle", angle)).cutter_class, CutterClass::kEndmill) << angle;
 }
 
 TEST(HyperMill, ATypeThatNoSourceConfirmsIsReadAndNotPlannedWith) {

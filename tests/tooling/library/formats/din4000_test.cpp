@@ -16,6 +16,7 @@ using model::CutterClass;
 using ::testing::Contains;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -178,6 +179,18 @@ TEST(Din4000, ATapHasItsPitchAndNominalDiameter) {
   r = read(xml(tool(property("A21", "8"), "DIN4000-80", "2")));
   ASSERT_TRUE(r) << to_text(r.error());
   EXPECT_EQ(r->library.items.front().cutter_class, std::nullopt);
+  EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr("no pitch (A3)"))));
+}
+
+TEST(Din4000, OfATapWithoutASizeTheSizeIsMissed) {
+  for (const std::string& stated : {property("A1", "M"), property("A3", "1"),
+                                    property("J22", "M2 HSS hand tap"), property("J22", "tap")}) {
+    const auto r = read(xml(tool(stated, "DIN4000-80", "2")));
+    ASSERT_TRUE(r) << to_text(r.error());
+    EXPECT_EQ(r->library.items.front().cutter_class, std::nullopt);
+    EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::what, HasSubstr("A21")))) << stated;
+    for (const auto& line : r->report.dropped) EXPECT_THAT(line.what, Not(HasSubstr("no pitch"))) << stated;
+  }
 }
 
 TEST(Din4000, ATapTakesSizeAndPitchFromItsNamesWhereTheNumbersAreMissing) {
@@ -229,12 +242,24 @@ TEST(Din4000, TheDiameterOfAThreadMillIsInA5OrA2) {
               Contains(Field(&LossReport::Line::what, HasSubstr("A1 is 6 and A5 is 4,5"))));
 }
 
-TEST(Din4000, AMillWithoutA1HasItsDiameterInA2AndItsNeckInA5) {
+TEST(Din4000, AnEndMillWithoutA1HasItsDiameterInA2AndItsNeckInA5) {
   auto r = read(xml(tool(property("A2", "10") + property("A5", "9,2") + property("B2", "20"))));
   ASSERT_TRUE(r) << to_text(r.error());
   EXPECT_EQ(number_of(r->library.items.front(), "DC"), 10.0);
   EXPECT_EQ(number_of(r->library.items.front(), "DN"), 9.2);
   for (const auto& line : r->report.dropped) EXPECT_NE(line.field, "A2") << line.what;
+  EXPECT_EQ(number_of(read(xml(tool(property("A2", "10"), "DIN4000-82", "2")))->library.items.front(), "DC"),
+            10.0);
+  // Of other figures no source says so: their diameter is missing.
+  for (const char* figure : {"5", "6"})
+    EXPECT_FALSE(read(xml(tool(property("A2", "10"), "DIN4000-82", figure))));
+  for (const char* figure : {"3", "7", "0"}) {
+    r = read(xml(tool(property("A2", "10"), "DIN4000-82", figure)));
+    ASSERT_TRUE(r) << to_text(r.error());
+    EXPECT_EQ(number_of(r->library.items.front(), "DC"), std::nullopt) << figure;
+    EXPECT_EQ(r->library.items.front().cutter_class, std::nullopt) << figure;
+    EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::field, "A2"))) << figure;
+  }
   // A neck alone is no diameter.
   EXPECT_FALSE(read(xml(tool(property("A5", "9,2") + property("B2", "20")))));
   // Beside A1 nobody knows what A2 is.

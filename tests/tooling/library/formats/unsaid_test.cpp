@@ -81,10 +81,31 @@ TEST(Unsaid, TheSizeOfATapIsThatOfTheOneThreadInItsNames) {
   EXPECT_EQ(thread_size_of_words("10-32"), 0.0);  // 10 in or number 10
 }
 
+TEST(Unsaid, ANumberThatMayBeTheGradeOfTheSteelBesideItIsNoSize) {
+  for (const char* words :
+       {"M2 HSS hand tap", "Cobalt M4 tap", "M2 high speed steel", "M2 high-speed steel tap", "HSS-E M6 tap",
+        "HSSE (M3)", "tap, M2/HSS", "M10 HSSE", "M4 PM tap", "PM M4", "M2 steel tap", "HSS grade M2",
+        "M3 cobalt", "Gewindebohrer Kobalt M6", "M4 Schnellarbeitsstahl", "HSS-Co5 M6", "M4 5% Co",
+        "High Speed M2 tap"})
+    EXPECT_EQ(thread_size_of_words(words), 0.0) << words;
+  // A pitch or a tolerance makes it a thread; so does a number that is no grade, or one beside no steel.
+  EXPECT_EQ(thread_size_of_words("M4x0.7 HSS tap"), 4.0);
+  EXPECT_EQ(thread_size_of_words("HSS M6 x 1"), 6.0);
+  EXPECT_EQ(thread_size_of_words("M6-6H HSS"), 6.0);
+  EXPECT_EQ(thread_size_of_words("HSS-E M8"), 8.0);
+  EXPECT_EQ(thread_size_of_words("M5 HSS hand tap"), 5.0);
+  EXPECT_EQ(thread_size_of_words("M2,5 HSS"), 2.5);
+  EXPECT_EQ(thread_size_of_words("M42 cobalt tap M6"), 6.0);
+  EXPECT_EQ(thread_size_of_words("M4 high helix tap"), 4.0);
+  EXPECT_EQ(thread_size_of_words("M6 core"), 6.0);
+}
+
 TEST(Unsaid, ATapOfATableWithoutADiameterIsAsWideAsItsNameSays) {
   Job job;
   const auto lib = import_bytes(
-      "id,class,description,diameter (mm)\na,tap,tap M6,\nb,tap,tap,\nc,endmill,M6,\n", "t.csv", {}, job);
+      "id,class,description,diameter (mm)\na,tap,tap M6,\nb,tap,tap,\nc,endmill,M6,\nd,tap,M2 HSS hand "
+      "tap,\n",
+      "t.csv", {}, job);
   ASSERT_TRUE(lib) << to_text(lib.error());
   LossReport report;
   const auto cutters = cutters_of(lib->library, report, job);

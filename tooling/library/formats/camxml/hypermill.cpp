@@ -130,8 +130,14 @@ class Reader {
       return;
     }
     if (at == kTypes.end()) return;
-    if (const std::string* tapered = find_kept(item.kept, "tapered"); tapered != nullptr && yes(*tapered)) {
+    const std::string* tapered = find_kept(item.kept, "tapered");
+    const std::string* taper = find_kept(item.kept, "taperAngle");
+    if (tapered != nullptr && yes(*tapered)) {
       leave_out(item, "it is tapered, and which angle taperAngle is no source says", out_.report);
+    } else if (taper != nullptr && parse_double(*taper) != 0.0) {
+      leave_out(item,
+                "its taperAngle is " + *taper + ": it is tapered, and which angle that is no source says",
+                out_.report);
     } else if (type == "ballmill") {
       ball(item, *dc);
     } else if (type == "radiusmill" && !number_of(item, "RE")) {

@@ -85,9 +85,17 @@ class RecordReader {
     return table_ == "82" && class_of(table_, r_.figure) == CutterClass::kThreadMill;
   }
 
+  [[nodiscard]] bool is_end_mill() const {
+    return table_ == "82" && class_of(table_, r_.figure) == CutterClass::kEndmill;
+  }
+
   /// The cutting diameter of table 82 where A1 is not alone: of a thread mill A1 may name the thread ("M")
-  /// and A5, else A2, is the diameter; of other mills A2 is it where A1 is missing. So a public importer of
-  /// makers' files reads them (it takes D32 for the pitch of a thread mill). Two diameters say nothing.
+  /// and A5, else A2, is the diameter; of figures 1 and 2 A2 is it where A1 is missing, of others nobody
+  /// knows. Two diameters say nothing.
+  ///
+  /// Source  a public importer of makers' files, github.com/danxdz/editool_python,
+  ///         wx_gui/importTools/import_xml_wx.py: A2 for tools of its type 0, which figures 1 and 2 are, and
+  ///         A5, else A2, with the pitch in D32, for thread mills.
   void diameter_elsewhere() {
     if (table_ != "82") return;
     const std::string* first = kept("A1");
@@ -98,7 +106,11 @@ class RecordReader {
     const std::string* other = fifth != nullptr ? fifth : kept("A2");
     if (other == nullptr) return;
     const std::string code = fifth != nullptr ? "A5" : "A2";
-    if (!known) {
+    if (!known && !mills_thread() && !is_end_mill()) {
+      report_.dropped.push_back({item_.id, code,
+                                 "no meaning known in figure '" + r_.figure + "' of " + r_.table +
+                                     " without A1; kept word for word: " + *other});
+    } else if (!known) {
       add("DC", code, *other);
       report_.derived.push_back({item_.id, "DC", code + ", as the file states no diameter in A1"});
     } else if (mills_thread()) {
@@ -196,8 +208,11 @@ class RecordReader {
     const auto pitch = [&](const std::string& words) {
       return sizes_of_words(words, CutterClass::kTap, size).pitch_mm > 0.0;
     };
-    if (!number_of(item_, "TP") && !pitch(item_.description) && !pitch(item_.id))
+    if (!(size > 0.0)) {
+      leave_out(item_, "the tap has no size: neither A21 nor a thread such as 'M6' in its name", report_);
+    } else if (!number_of(item_, "TP") && !pitch(item_.description) && !pitch(item_.id)) {
       leave_out(item_, "the tap has no pitch (A3)", report_);
+    }
   }
 
   void contradict(const std::string& field, const std::string& what) {

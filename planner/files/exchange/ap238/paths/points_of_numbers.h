@@ -25,12 +25,13 @@ struct HashOfNumbers {
   }
 };
 
-/// Points by their numbers, for `most` points at most: without an allocation for each.
+/// Points by their numbers, for `most` places at most: without an allocation for each.
 template <class Numbers>
 class PointsOfNumbers {
  public:
   explicit PointsOfNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 1)) {}
-  /// Unset: not met yet.
+  /// The place of these numbers alone, unset until a point is put there; valid until the next is asked for. 0
+  /// and -0 are one number; NaN equals none, so that each look for it gives a new place, which counts.
   model::Ref<model::CartesianPoint>& operator[](const Numbers& v) {
     std::size_t at = HashOfNumbers()(v);
     for (;; ++at) {
@@ -38,9 +39,10 @@ class PointsOfNumbers {
       if (slot == 0) {
         points_.push_back({v, {}});
         slot = static_cast<std::uint32_t>(points_.size());
+        return points_.back().second;
       }
       auto& [numbers, point] = points_[slot - 1];
-      if (numbers == v || !point) return point;
+      if (numbers == v) return point;
     }
   }
 

@@ -14,8 +14,12 @@ namespace capstan::step {
 
 /// For a cutter that is flat below: engagement::measure, found again where path, outline and the trails near
 /// the path are the same but for their place; then cuts the path from the stock.
-/// Accuracy  path and trails are rounded by 4.7e-10 mm (model::kOwnGrid) for the measurement, beside what it
-///           says itself; the stock is cut by what was not rounded.
+/// Accuracy  path and trails are rounded (model::kOwnGrid) for the measurement, beside what it says itself;
+///           the stock is cut by what was not rounded. Heights that are equal stay within stock::kTouch.
+///           Across the axis what touches may part or overlap by 2.6e-9 mm, twice what an end of an arc
+///           moves, which is more than that and does no harm: a contact so narrow counts in volume alone
+///           (engagement::kSliver), a section so small not at all, and ends of moves are seen from 1e-5 of
+///           the radius inside (engagement/planar).
 [[nodiscard]] Result<engagement::Measurement> measure_again(stock::PlanarStock& exact,
                                                             const model::CutterPath& path,
                                                             const model::Cutter& cutter,

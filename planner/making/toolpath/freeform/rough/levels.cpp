@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
+
 // A place whose lowest height of the tip is h keeps a terrace of z - h, where z is the lowest level above h.
 // It is content with any level of [h, h + b], where b is the bound of terraces at its slope. As few levels as
 // every place needs are found from below: the upper end of the interval that ends first is a level, and all
@@ -19,6 +21,7 @@
 namespace capstan::toolpath::freeform {
 namespace {
 
+constexpr double kSlack = 1e-9;  // mm: steps may exceed the axial depth by so much, by rounding
 constexpr double kAbove = 1e-6;  // mm: a level just at a floor is not below it
 
 /// Terraces that any place may keep, in height: so much square to a surface of this slope, or what leaves
@@ -78,6 +81,7 @@ std::vector<Wish> wishes_of(const FreeformJob& task, const DropGrid& reach) {
     for (int ix = 0; ix < reach.nx; ++ix) {
       const double h = reach.at(ix, iy);
       if (!(h < task.top_z_mm)) continue;  // not a number: beside the area
+      tick();
       const double step = step_of(terrace, corner, slope_at(reach, ix, iy));
       wish(h, step);
       for (const auto& [x, y] : {std::pair{ix + 1, iy}, {ix, iy + 1}}) {
@@ -102,9 +106,11 @@ void add_levels(const std::vector<Wish>& wishes, std::vector<double>& levels) {
   for (std::size_t i = 0; i < wishes.size(); ++i) {
     const Wish& w = wishes[i];
     const auto given = std::lower_bound(levels.begin(), levels.end(), w.h);
+    tick();
     if (last >= w.h || (given != levels.end() && *given <= w.most)) continue;
     double highest = w.h;
     for (std::size_t k = i; k < wishes.size(); ++k) {
+      if (k % 64 == 0) tick();  // a turn takes a nanosecond
       if (wishes[k].h <= w.most) highest = std::max(highest, wishes[k].h);
     }
     last = std::min(highest + kAbove, w.most);
@@ -122,15 +128,16 @@ std::vector<double> areas_of(const DropGrid& reach, const std::vector<double>& l
   }
   std::sort(h.begin(), h.end());
   std::vector<double> out;
-  for (const double z : levels)
+  for (const double z : levels) {
+    tick();
     out.push_back(static_cast<double>(std::upper_bound(h.begin(), h.end(), z) - h.begin()));
+  }
   return out;
 }
 
 /// The levels, given from above, in the order in which they are cut.
 std::vector<double> in_groups(const std::vector<double>& levels, const std::vector<double>& areas, double top,
                               double most) {
-  constexpr double kSlack = 1e-9;
   /// A pocket that is cut before what lies around it is cut out of the solid, by ramps and slots: where the
   /// lowest level has less than this share of the highest one's area, so much of that is added. Default,
   /// unsourced.
@@ -142,7 +149,9 @@ std::vector<double> in_groups(const std::vector<double>& levels, const std::vect
   for (std::size_t end = 1; end <= n; ++end) {
     for (std::size_t k = end; k-- > 0;) {
       const double from = k == 0 ? top : levels[k - 1];
-      if (from - levels[end - 1] > most + kSlack) break;
+      // A level by itself is as deep as it is.
+      if (k + 1 < end && from - levels[end - 1] > most + kSlack) break;
+      tick();
       // Of equal ones the fewest groups.
       const double solid = areas[end - 1] < kInSolid * areas[k] ? kInSolid * areas[k] : 0.0;
       const double c = cost[k] + areas[k] + solid + 1.0;
@@ -167,7 +176,7 @@ std::vector<double> split(const std::vector<double>& levels, double top, double 
   double from = top;
   for (const double to : levels) {
     if (from - to < kNothing) continue;
-    const int n = std::max(1, static_cast<int>(std::ceil((from - to) / most - 1e-9)));
+    const int n = std::max(1, static_cast<int>(std::ceil((from - to - kSlack) / most)));
     for (int k = 1; k < n; ++k) out.push_back(from - (from - to) * k / n);
     out.push_back(to);
     from = to;
