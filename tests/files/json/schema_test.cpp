@@ -130,7 +130,7 @@ TEST(PlanSchemaFile, IsCurrent) {
     ASSERT_TRUE(write_file(path, json_schema()));
   }
   EXPECT_TRUE(testing::slurp(path) == json_schema())
-      << "run output_test with CAPSTAN_UPDATE=1 to renew " << path;
+      << "run json_test with CAPSTAN_UPDATE=1 to renew " << path;
 }
 
 }  // namespace
