@@ -362,6 +362,33 @@ TEST(Rough, ComesInFromBesideWhereTheSurfaceEndsWithTheStock) {
   EXPECT_GT(ramps(wider), 0);
 }
 
+// Its rapids went down beside the drawn piece as if a sawn one were no larger.
+TEST(Rough, RapidsEndAboveARawPieceThatIsNearerThanAMillimetre) {
+  const Mesh mesh = surface(20, 50.0, [](double x, double) { return -2.0 - 0.12 * x; });
+  FreeformJob task = job_on(mesh, cutter(CutterClass::kBullnoseEndmill, 8.0, 1.0));
+  task.allowance_mm = 0.3;
+  task.feed_angle_rad = 0.0;
+  const auto piece = stock::from_box({{0, 0, -20}, {50, 50, 0}}, 0.25);
+  task.stock = &piece;
+  Job job;
+  const auto out = rough(task, job);
+  ASSERT_TRUE(out) << out.error().message;
+  const model::CutterPath& path = out->path;
+  const auto profile = model::profile_of(task.cutter);
+  stock::HeightMap left = piece;
+  int near = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vec3 p = path.point(i);
+    // Raw is what still stands as high as the piece does.
+    if (path.kind[i] == model::MoveKind::kRapid && stock::max_height(left, xy(p), 4.0 + 0.9) >= 0.0) {
+      ++near;
+      EXPECT_GE(p.z, 0.0) << p.x << ' ' << p.y;
+    }
+    stock::cut(left, profile, path, i);
+  }
+  EXPECT_GT(near, 0);
+}
+
 TEST(Finish, ReachesTheRimOfASurfaceThatRisesInwards) {
   // A roof: both sides rise to the middle, at 35 degrees.
   const double rise = std::tan(35.0 * std::numbers::pi / 180.0);

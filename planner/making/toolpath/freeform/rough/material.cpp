@@ -91,6 +91,13 @@ bool Material::meets(Vec2 p, double z) const {
   });
 }
 
+bool Material::stands(Vec2 p, double z) const {
+  const double above = z - map.origin.z + kWorthMm;
+  const double part = map.cell_mm / kPerCell;
+  return any(p, profile.radius_mm - map.cell_mm,
+             [&](const stock::Column& c, double r) { return c.mean() > above + outline(r + part); });
+}
+
 bool Material::is_clear(Vec2 p, double z) const {
   if (is_below(p, z)) return true;
   // To a cell's corner from its middle.

@@ -25,6 +25,9 @@ class Material {
   /// Whether the cutter, its tip at p and z, takes more than `kWorthMm` anywhere. What its corner or its
   /// ball passes by is no material.
   [[nodiscard]] bool meets(geometry::Vec2 p, double z) const;
+  /// The same by the means of cells alone: slivers that a round cut left in a cell are no depth to go down
+  /// through.
+  [[nodiscard]] bool stands(geometry::Vec2 p, double z) const;
   /// Whether the cutter, its tip at p and z, takes nothing at all: no cell that it touches is higher than its
   /// outline over that cell's nearest point.
   [[nodiscard]] bool is_clear(geometry::Vec2 p, double z) const;

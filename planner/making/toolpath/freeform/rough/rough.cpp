@@ -77,7 +77,8 @@ class Rougher {
         above = std::exchange(lowest_of_group, levels[k]);
         group = k;
       }
-      cut[k] = level(k, levels[k], above, raised);
+      // From below, in strips, only over a level that was cut; else it is cut whole, from above.
+      cut[k] = level(k, levels[k], above, raised && cut[k - 1]);
       // What could not be entered out of the solid may be from a level that is cleared above it.
       double cleared = levels[k];
       for (std::size_t j = k; cut[k] && j > group && !cut[j - 1]; --j) {

@@ -133,7 +133,7 @@ bool WaysIn::enter(double u, double far, double v, double z) {
     }
   }
   // Too short for a ramp.
-  const bool deep = rest_.meets(hatch_.place(u, v), z + kStraightTerraces * task_.terrace_mm);
+  const bool deep = rest_.stands(hatch_.place(u, v), z + kStraightTerraces * task_.terrace_mm);
   if (task_.terrace_mm > 0.0 && angle > 0.0 && deep) return false;
   if (!task_.cutter.centre_cutting) return false;
   come_down(at(u, v, z), stock::max_height(rest_.map, hatch_.place(u, v), radius_));
@@ -167,7 +167,11 @@ void WaysIn::come_down(Vec3 p, double material, bool was_there) {
     lift();
     path_.rapid(high);
   }
-  const double z = std::min(here().z, std::max(material, p.z) + task_.clearance_mm);
+  double fast = std::max(material, p.z) + task_.clearance_mm;
+  // A raw piece may be larger than it is drawn: fast no lower than above one that is as near.
+  const double beside = stock::max_height(rest_.map, xy(p), radius_ + kAboveRaw);
+  if (is_raw(beside)) fast = std::max(fast, beside + std::min(task_.clearance_mm, kAboveRaw));
+  const double z = std::min(here().z, fast);
   if (z < task_.security_z_mm && here().z == task_.security_z_mm)
     path_.rapid({p.x, p.y, z}, MoveRole::kApproach);
   // Beside the piece nothing is near; on what is cleared the tip comes to stand on material.
