@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <stop_token>
+#include <string>
 
 #include "capstan/capstan.h"
 #include "planner/door/service/options.h"
@@ -139,6 +142,38 @@ TEST(Facade, APocketIsCutTheSameInALargeRawPiece) {
   EXPECT_TRUE(small.findings.empty() && large.findings.empty());
   EXPECT_EQ(small.tool_table, large.tool_table);
   EXPECT_NEAR(large.time_s / small.time_s, 1.0, 0.01);
+}
+
+// Nothing stands higher than what a rough leaves, 0.5 mm: the rough is left out, and not the surface.
+TEST(Facade, AReliefThatIsLowerThanARoughLeavesIsFinishedAlone) {
+  constexpr int kCells = 30;
+  const auto at = [](int i, int j) {
+    const double x = 1.2 * i, y = 1.0 * j;
+    return std::to_string(x) + " " + std::to_string(y) + " " +
+           std::to_string(0.15 * (std::sin(0.2 * x) * std::cos(0.15 * y) - 1.0));
+  };
+  std::string stl = "solid relief\n";
+  const auto facet = [&](const std::string& a, const std::string& b, const std::string& c) {
+    stl += "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c +
+           "\nendloop\nendfacet\n";
+  };
+  for (int j = 0; j < kCells; ++j) {
+    for (int i = 0; i < kCells; ++i) {
+      facet(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      facet(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  PlanOptions options;
+  options.material = "6061";
+  options.stock = "box:0,0,-10,36,30,0";
+  const PlanOutput out = plan_bytes(stl + "endsolid relief\n", "relief.stl", options);
+  ASSERT_TRUE(out.planned) << out.diagnostics.back().text;
+  EXPECT_EQ(out.unplanned, 0U);
+  EXPECT_TRUE(out.findings.empty()) << out.findings.front().text;
+  EXPECT_FALSE(out.linuxcnc.empty());
+  const bool told = std::any_of(out.diagnostics.begin(), out.diagnostics.end(),
+                                [](const PlanMessage& m) { return m.code == "PIP-GONE"; });
+  EXPECT_TRUE(told);
 }
 
 TEST(Facade, APersonsEditsHoldInThePlanAndComeBackAsAFile) {

@@ -10,6 +10,7 @@
 
 #include "planner/making/toolpath/freeform/drop_cutter.h"
 #include "planner/making/toolpath/freeform/freeform.h"
+#include "planner/making/toolpath/path_job.h"
 #include "planner/physics/stock/sweep.h"
 
 namespace capstan::toolpath::freeform {
@@ -441,7 +442,7 @@ TEST(Paths, ImpossibleTasksAreRefusedByName) {
   task = job_on(mesh, cutter(CutterClass::kEndmill, 6.0, 0.0));
   task.top_z_mm = -19.0;  // below everything the cutter can reach
   task.security_z_mm = 5.0;
-  EXPECT_EQ(rough(task, job).error().code, "FRF-EMPTY");
+  EXPECT_EQ(rough(task, job).error().code, kNothingToCut);
 }
 
 }  // namespace

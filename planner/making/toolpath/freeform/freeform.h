@@ -74,7 +74,8 @@ struct FreeformPath {
 /// Needs      axial_depth, stepover > 0, stepover at most the diameter.
 /// Fails      FRF-CUTTER   a drill, a cone, or a hollow outline
 ///            FRF-VALUE    a number that cannot be
-///            FRF-EMPTY    nothing to cut in the area
+///            FRF-EMPTY    nothing in the area that can be cut
+///            TPA-NOTHING  (rough) nothing stands higher than what is left for the finish
 ///            FRF-STOPPED  the job was stopped
 /// Warns      FRF-REST     passes that the cutter can reach but not enter, on each level
 /// After the passes of a level the cutter goes once along the border of what is free there (climbing, for a

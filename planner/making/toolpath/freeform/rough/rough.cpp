@@ -15,6 +15,7 @@
 #include "planner/making/toolpath/freeform/rough/ways_in.h"
 #include "planner/making/toolpath/freeform/surface_line.h"
 #include "planner/making/toolpath/freeform/task.h"
+#include "planner/making/toolpath/path_job.h"
 #include "planner/physics/stock/sweep.h"
 
 namespace capstan::toolpath::freeform {
@@ -62,7 +63,7 @@ class Rougher {
     if (task_.terrace_mm > 0.0) {
       for (const double z : grid_.z) lowest = std::isnan(z) ? lowest : std::min(lowest, z);
     }
-    if (lowest >= task_.top_z_mm) return fail("FRF-EMPTY", "nothing above the surface is left to rough");
+    if (lowest >= task_.top_z_mm) return fail(kNothingToCut, "nothing above the surface is left to rough");
     const auto [levels, floors] = levels_of(task_, grid_, lowest, reach_.margin_mm);
     floors_ = floors;
     left_out_.resize(levels.size());
