@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "planner/model/features/shape/open_reach.h"
 #include "planner/model/nouns/profile.h"
 
 namespace capstan::from_cad {
@@ -198,12 +199,11 @@ class Maker {
   /// wall to its end.
   static std::vector<Vec2> past(const std::vector<Piece>& run, double mm, const Piece& before,
                                 const Piece& after) {
-    constexpr double kLeastSine = 0.17;  // of the angle, 10 degrees; default, unsourced
     const std::size_t n = run.size();
     const auto along = [&](std::size_t i) { return unit(run[i].to - run[i].from); };
     const auto end = [&](Vec2 wall, Vec2 side, Vec2 inwards) {
       const double sine = dot(wall, right_of(side));
-      const bool leans = dot(wall, inwards) < -recognise::kSameAngleRad && sine > kLeastSine;
+      const bool leans = dot(wall, inwards) < -recognise::kSameAngleRad && sine > model::shape::kLeastMouthSine;
       return leans ? (mm / sine) * wall : mm * right_of(side);
     };
     std::vector<Vec2> out{run[0].from + end(heading(before, true), along(0), along(0))};

@@ -300,7 +300,6 @@ struct Hidden {
   double area_mm2 = 0.0, share = 0.0;
 };
 Hidden hidden_of(const Mesh& mesh, bool inside_out) {
-  constexpr double kUpright = 1e-3;  // of unit normals, as planner/making/piece/mesh has it
   const double lowest = geometry::bounds(mesh).lo.z + geometry::kWeldMm;
   Hidden out;
   double all = 0.0;
@@ -308,7 +307,7 @@ Hidden hidden_of(const Mesh& mesh, bool inside_out) {
     tick();
     const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
     const Vec3 n = (inside_out ? -0.5 : 0.5) * cross(b - a, c - a);
-    const bool down = n.z < -kUpright * norm(n);
+    const bool down = n.z < -geometry::kUprightNormal * norm(n);
     if (down && std::max({a.z, b.z, c.z}) <= lowest) continue;  // the underside
     all += norm(n);
     if (down) out.area_mm2 += norm(n);

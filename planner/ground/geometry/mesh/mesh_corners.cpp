@@ -16,8 +16,6 @@
 namespace capstan::geometry {
 namespace {
 
-constexpr double kUpright = 1e-3;  // of a unit normal's z; default, unsourced
-
 Vec3 normal_of(const Mesh& m, const std::array<std::uint32_t, 3>& t, bool inside_out) {
   const Vec3 n = cross(m.vertices[t[1]] - m.vertices[t[0]], m.vertices[t[2]] - m.vertices[t[0]]);
   const double size = norm(n);
@@ -44,7 +42,7 @@ std::vector<MeshCorner> sharp_corners(const Mesh& mesh, bool inside_out) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> edges;  // of upright triangles
   for (const auto& t : mesh.triangles) {
     const Vec3 n = normal_of(mesh, t, inside_out);
-    if (!(norm(n) > 0.0) || std::abs(n.z) > kUpright) continue;
+    if (!(norm(n) > 0.0) || std::abs(n.z) > kUprightNormal) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       edges[{std::min(a, b), std::max(a, b)}].push_back({n, mesh.vertices[t[(k + 2) % 3]]});
@@ -79,7 +77,7 @@ Region higher_than(const Mesh& mesh, bool inside_out, double z) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed;
   for (const auto& t : mesh.triangles) {
     const Vec3 n = normal_of(mesh, t, inside_out);
-    if (n.z <= kUpright) continue;
+    if (n.z <= kUprightNormal) continue;
     double top = -1e300;
     for (const std::uint32_t v : t) top = std::max(top, mesh.vertices[v].z);
     if (top <= z) continue;

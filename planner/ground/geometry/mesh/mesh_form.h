@@ -9,6 +9,9 @@
 
 namespace capstan::geometry {
 
+/// A facet is upright if its unit normal has less of z than this. Default, unsourced.
+inline constexpr double kUprightNormal = 1e-3;
+
 /// What a mesh bounds, by its edges.
 struct MeshForm {
   enum class Kind {

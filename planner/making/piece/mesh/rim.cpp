@@ -20,7 +20,6 @@ namespace {
 using geometry::Vec2;
 using geometry::Vec3;
 
-constexpr double kUpright = 1e-3;  ///< of unit normals, as SurfaceForm has it
 constexpr double kLevel =
     1e-3;  ///< the horizontal part of a unit normal: less is the rounding of coordinates
 
@@ -43,7 +42,7 @@ geometry::Box2 box_of_axis(const geometry::Mesh& mesh, double radius_mm, double 
     if (!(norm(n) > 0.0)) continue;
     n = (form.inside_out ? -1.0 : 1.0) / norm(n) * n;
     if (!solid && n.z < 0.0) n = -1.0 * n;  // a sheet may be drawn either way up
-    if (n.z < kUpright) continue;
+    if (n.z < geometry::kUprightNormal) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t p = t[k], q = t[(k + 1) % 3];
       edges[{std::min(p, q), std::max(p, q)}].push_back({n, xy(mesh.vertices[t[(k + 2) % 3]])});

@@ -61,8 +61,8 @@ double surface_radius(const geometry::Mesh& mesh) {
 
 SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) {
   using geometry::Vec3;
-  constexpr double kUpright = 1e-3, kLevel = 1.0 - 1e-6;  // of unit normals
-  constexpr double kSameMm = 0.02;                        // of coordinates; default, unsourced
+  constexpr double kLevel = 1.0 - 1e-6;  // of unit normals
+  constexpr double kSameMm = 0.02;       // of coordinates; default, unsourced
   SurfaceForm out;
   const geometry::MeshForm form = geometry::form_of(mesh);
   if (form.kind != geometry::MeshForm::Kind::kSolid) return out;
@@ -88,7 +88,7 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
     Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
     if (!(norm(n) > 0.0)) continue;
     n = (form.inside_out ? -1.0 : 1.0) / norm(n) * n;
-    if (std::abs(n.z) < kUpright) {
+    if (std::abs(n.z) < geometry::kUprightNormal) {
       if (on_side(p)) continue;
       out.walls = true;
       for (std::size_t k = 0; k < 3; ++k) {

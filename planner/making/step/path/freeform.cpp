@@ -55,6 +55,18 @@ geometry::Region over_its_rim(const geometry::Mesh& mesh, const model::Cutter& c
   return geometry::rectangle(out.lo, out.hi);
 }
 
+/// The first finish of the same feature after a step that `f` holds for; null: there is none.
+template <class F>
+const StepDraft* finish_after(const model::Model& m, const std::vector<StepDraft>& steps,
+                              const StepDraft& step, const F& f) {
+  auto at = std::find_if(steps.begin(), steps.end(), [&](const StepDraft& s) { return s.step == step.step; });
+  if (at == steps.end()) return nullptr;
+  at = std::find_if(at + 1, steps.end(), [&](const StepDraft& s) {
+    return s.feature == step.feature && m.holds<model::FreeformFinishMilling>(s.operation) && f(s);
+  });
+  return at != steps.end() ? &*at : nullptr;
+}
+
 }  // namespace
 
 // The nouns of a freeform operation have no place for it: of one that was read, that it is not the last says
@@ -64,24 +76,16 @@ double freeform_allowance(const model::Model& m, const std::vector<StepDraft>& s
   if (step.proposed) return step.proposal.allowance_side_mm;
   if (m.holds<model::FreeformRoughMilling>(step.operation)) return kRoughAllowanceMm;
   const double own = scallop_of(m, step.operation);
-  bool after = false;
-  for (const StepDraft& s : steps) {
-    if (after && s.feature == step.feature && m.holds<model::FreeformFinishMilling>(s.operation) &&
-        scallop_of(m, s.operation) < own)
-      return kSemiAllowanceMm;
-    after = after || s.step == step.step;
-  }
-  return 0.0;
+  const auto* finer =
+      finish_after(m, steps, step, [&](const StepDraft& s) { return scallop_of(m, s.operation) < own; });
+  return finer != nullptr ? kSemiAllowanceMm : 0.0;
 }
 
 std::optional<double> left_by_next_mm(const PlanSoFar& p, const StepDraft& step) {
-  bool after = false;
-  for (const StepDraft& s : p.steps) {
-    if (after && s.feature == step.feature && p.plan.model.holds<model::FreeformFinishMilling>(s.operation))
-      return freeform_allowance(p.plan.model, p.steps, s);
-    after = after || s.step == step.step;
-  }
-  return std::nullopt;
+  const model::Model& m = p.plan.model;
+  const auto* next = finish_after(m, p.steps, step, [](const StepDraft&) { return true; });
+  if (next == nullptr) return std::nullopt;
+  return freeform_allowance(m, p.steps, *next);
 }
 
 std::optional<TooMuch> too_much_for_next(const PlanSoFar& p, const StepDraft& step,

@@ -82,20 +82,17 @@ bool Material::meets(Vec2 p, double z) const {
   if (flat_mm_ > 0.0 && stock::max_height(map, p, flat_mm_) > z + kNothing) return true;
   // Beyond the plane of the tip cell by cell, at the middle of each and with the mean of its column; what a
   // cell's far side has more is within kWorthMm or cut from the next place.
-  const double radius = profile.radius_mm - map.cell_mm;
-  if (radius <= flat_mm_) return false;
-  const double above = z - map.origin.z + kWorthMm;
-  const double part = map.cell_mm / kPerCell;
-  return any(p, radius, [&](const stock::Column& c, double r) {
-    return r >= flat_mm_ && c.top_mm > above && c.mean() > above + outline(r + part);
-  });
+  return profile.radius_mm - map.cell_mm > flat_mm_ && higher(p, z, flat_mm_);
 }
 
-bool Material::stands(Vec2 p, double z) const {
+bool Material::stands(Vec2 p, double z) const { return higher(p, z, 0.0); }
+
+bool Material::higher(Vec2 p, double z, double from_mm) const {
   const double above = z - map.origin.z + kWorthMm;
   const double part = map.cell_mm / kPerCell;
-  return any(p, profile.radius_mm - map.cell_mm,
-             [&](const stock::Column& c, double r) { return c.mean() > above + outline(r + part); });
+  return any(p, profile.radius_mm - map.cell_mm, [&](const stock::Column& c, double r) {
+    return r >= from_mm && c.top_mm > above && c.mean() > above + outline(r + part);
+  });
 }
 
 bool Material::is_clear(Vec2 p, double z) const {

@@ -40,6 +40,9 @@ class Material {
   template <class F>
   [[nodiscard]] bool any(geometry::Vec2 p, double radius_mm, const F& f) const;
   [[nodiscard]] double outline(double r_mm) const;
+  /// Whether the mean of a cell's column, its middle at least `from_mm` from the axis and a cell within the
+  /// radius, is higher than the outline by kWorthMm.
+  [[nodiscard]] bool higher(geometry::Vec2 p, double z, double from_mm) const;
 
   double flat_mm_ = 0.0;        ///< radius of the plane at the tip
   std::vector<float> outline_;  ///< heights above the tip, `kPerCell` of them for each cell from the axis

@@ -48,14 +48,13 @@ geometry::Region beside(const std::vector<Vec2>& line, double width, bool right)
 /// angle, as far as the wall would go on, so that the wall is made to its end. Both lines pass the mouth's
 /// two ends.
 geometry::Region before_mouth(const std::vector<Vec2>& walls, const std::vector<Vec2>& mouth, bool right) {
-  constexpr double kLeastSine = 0.17;  // of the angle, 10 degrees; default, unsourced
   const auto unit = [](Vec2 v) { return norm(v) > 0.0 ? (1.0 / norm(v)) * v : Vec2{}; };
   geometry::Region out = beside(mouth, kOpenReach, right);
   const std::size_t w = walls.size(), m = mouth.size();
   const auto flare = [&](Vec2 end, Vec2 wall, Vec2 inwards, Vec2 along) {
     const Vec2 square = right ? Vec2{along.y, -along.x} : Vec2{-along.y, along.x};
     const double sine = dot(wall, square);
-    if (!(dot(wall, inwards) < -1e-6) || sine < kLeastSine) return;
+    if (!(dot(wall, inwards) < -1e-6) || sine < kLeastMouthSine) return;
     geometry::Loop loop = {end, end + kOpenReach * square, end + (kOpenReach / sine) * wall};
     if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
     out = geometry::unite(out, geometry::clean({loop}));
