@@ -6,6 +6,7 @@
 #   bin/capstan                 the command; share/man/man1 its manual pages, and bash's completion of it
 #   lib/libcapstan.so           capstan::capstan, capstan.pc, with include/capstan/capstan.h
 #   lib/libcapstan_late.so      capstan::late, capstan_late.pc, the C interface of late binding
+#   lib/python3.*/dist-packages/capstan  the module of Python, where pybind11 is there
 #   share/capstan/{rules,tooling}/data   what the rules and the catalogue read
 #   share/capstan/plan.schema.json       the JSON schema of plans
 #   share/doc/capstan           what there is to read, and the examples
@@ -71,6 +72,12 @@ if(TARGET capstan_postgres)  # opened, not linked
   install(TARGETS capstan_postgres LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/capstan)
 endif()
 
+if(TARGET capstan_python)
+  install(TARGETS capstan_python LIBRARY DESTINATION ${CAPSTAN_PYTHON_DIR}/capstan)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/planner/door/python/capstan DESTINATION ${CAPSTAN_PYTHON_DIR}
+    FILES_MATCHING PATTERN *.py)
+endif()
+
 if(TARGET capstan_manual_pages)
   install(DIRECTORY ${CAPSTAN_MANUAL_FOLDER}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
   install(DIRECTORY ${CAPSTAN_MANUAL_FOLDER}/completions DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion)
@@ -78,7 +85,7 @@ endif()
 
 # What `cmake --install` needs, and no test: `./dev demo` builds this.
 add_custom_target(capstan_installed)
-foreach(target IN LISTS capstan_exported ITEMS capstan capstan-brep capstan_postgres capstan_manual_pages)
+foreach(target IN LISTS capstan_exported ITEMS capstan capstan-brep capstan_postgres capstan_python capstan_manual_pages)
   if(TARGET ${target})
     add_dependencies(capstan_installed ${target})
   endif()

@@ -19,7 +19,7 @@ FLOORS = {
     "physics": "mechanics motion stock engagement",
     "making": "draft sequence piece toolpath workholding optimise step probing propose given",
     "proof": "verify",
-    "door": "pipeline late report service transport facade app",
+    "door": "pipeline late report service transport facade python app",
 }
 
 # Folder -> room. planner/controls is a room with a folder per control, on shared pieces. Of folders that hold each other the deepest counts.
@@ -47,7 +47,7 @@ FOLDERS = {
 }
 
 # The rooms of the door; each may include only what its row says.
-DOORS = ("pipeline", "late", "report", "service", "transport", "facade", "app", "public")
+DOORS = ("pipeline", "late", "report", "service", "transport", "facade", "python", "app", "public")
 
 # Room -> what it may include besides itself.
 GROUND = "base memo vocabulary geometry"
@@ -112,6 +112,8 @@ ALLOWED = {
     "service": " ".join(r for r in FOLDERS.values() if r not in DOORS) + " pipeline late report",
     "transport": "base service public",
     "facade": MODEL + " motion optimise service public",
+    # Another language's way into the library: of the project it knows the public header.
+    "python": "public",
     # The command shows what others do: the rooms after `service` are what its lists and texts are of.
     "app": MODEL + " brep recognise service transport motion mechanics optimise json rules casebase retain tune controls shop catalogue library formats",
     "public": "",
@@ -140,12 +142,13 @@ FENCES = {
     "xxHash": (r"xxhash\.h$", 3),
     "Eigen": (r"(unsupported/)?Eigen/", None),
     "Boost": (r"boost/", 1),
+    "pybind11": (r"pybind11/", 1),
     "OpenCASCADE": (r"(opencascade/)?\w+\.hxx$", 2),
 }
 FENCES = {name: (re.compile(pattern), limit) for name, (pattern, limit) in FENCES.items()}
 
 C_HEADERS = {"stdbool.h", "stddef.h", "stdint.h"}
-EXTERNAL_NAME = re.compile(r"\b(boost|Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|pqxx|ClipperLib)::|\bsqlite3\b")
+EXTERNAL_NAME = re.compile(r"\b(boost|Eigen|nlohmann|YAML|CLI|tl|fmt|nlopt|Ipopt|flann|pqxx|ClipperLib|pybind11)::|\bsqlite3\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 

@@ -50,7 +50,8 @@ class Tree(unittest.TestCase):
                            "MINOR": GIVEN.version.rpartition(".")[0],
                            "BREP": f"{GIVEN.libexecdir}/capstan/capstan-brep" if GIVEN.brep else "",
                            "POSTGRES": f"{GIVEN.libexecdir}/capstan/capstan-postgres.so" if GIVEN.postgres
-                           else ""}.items():
+                           else "",
+                           "PYTHON": f"{GIVEN.python}/capstan/**" if GIVEN.python else ""}.items():
             lines = lines.replace(f"@{key}@", value)
         wanted = {line for line in lines.split("\n") if line and not line.startswith("#")}
         below = {line[:-2] for line in wanted if line.endswith("/**")}
@@ -176,6 +177,23 @@ class OpenedFiles(unittest.TestCase):
                            f"set(CMAKE_INSTALL_FULL_LIBEXECDIR {os.path.join('/usr', libexecdir)})\n"
                            f"capstan_libexec_from(way /usr/{libdir})\nmessage(STATUS ${{way}})\n")
             self.assertEqual(run(GIVEN.cmake, "-P", script).split()[-1], way)
+
+
+class ModuleOfPython(unittest.TestCase):
+    def test_plans_from_where_it_is_installed_also_when_that_was_moved(self):
+        if not GIVEN.python:
+            self.skipTest("built without pybind11")
+        program = ("import capstan, sys\nprint(capstan.version(), capstan.__file__)\n"
+                   "print(len(capstan.plan(sys.argv[1]).path(1).xyz) > 0)\n")
+        moved = os.path.join(GIVEN.scratch, "moved")
+        alone = {name: value for name, value in os.environ.items() if name not in ("LD_LIBRARY_PATH", "CAPSTAN_BREP")}
+        shutil.rmtree(moved, ignore_errors=True)
+        shutil.copytree(in_prefix(), moved, symlinks=True)
+        for prefix in (in_prefix(), moved):
+            folder = os.path.join(prefix, GIVEN.python)
+            said = run(GIVEN.interpreter, "-B", "-c", program, os.path.join(GIVEN.source, "examples/reference_pocket.p21"),
+                       env=dict(alone, PYTHONPATH=folder))
+            self.assertEqual(said.split(), [GIVEN.version, os.path.join(folder, "capstan/__init__.py"), "True"])
 
 
 class Identity(unittest.TestCase):
@@ -306,5 +324,7 @@ if __name__ == "__main__":
         arguments.add_argument("--" + name, required=True)
     arguments.add_argument("--brep", action="store_true")
     arguments.add_argument("--postgres", action="store_true")
+    arguments.add_argument("--python", default="", help="where modules of Python are, below the prefix")
+    arguments.add_argument("--interpreter", default="", help="of Python, that the module is for")
     GIVEN, rest = arguments.parse_known_args()
     unittest.main(argv=[sys.argv[0], *rest], verbosity=2)

@@ -8,6 +8,8 @@ if(TARGET capstan_facade AND TARGET capstan_late_shared AND TARGET capstan_manua
       --libdir ${CMAKE_INSTALL_LIBDIR} --libexecdir ${CMAKE_INSTALL_LIBEXECDIR} --version ${PROJECT_VERSION} --cmake ${CMAKE_COMMAND}
       --generator ${CMAKE_GENERATOR} --cxx ${CMAKE_CXX_COMPILER} --cc ${CMAKE_C_COMPILER}
       $<$<TARGET_EXISTS:capstan-brep>:--brep> $<$<TARGET_EXISTS:capstan_postgres>:--postgres>
+      $<$<TARGET_EXISTS:capstan_python>:--python=${CAPSTAN_PYTHON_DIR}>
+      $<$<TARGET_EXISTS:capstan_python>:--interpreter=${CAPSTAN_PYTHON}>
     COMMAND_EXPAND_LISTS)
   set_tests_properties(Install.HoldsWhatIsPromised PROPERTIES TIMEOUT 300)
 endif()

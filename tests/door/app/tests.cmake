@@ -5,5 +5,10 @@ if(TARGET app_test)
   if(TARGET capstan-brep)
     add_dependencies(app_test capstan-brep)
   endif()
-  target_compile_definitions(app_test PRIVATE CAPSTAN_COMMAND="$<TARGET_FILE:capstan>")
+  target_compile_definitions(app_test PRIVATE CAPSTAN_COMMAND="$<TARGET_FILE:capstan>"
+    CAPSTAN_PYTHON="$<IF:$<TARGET_EXISTS:capstan_python>,${CAPSTAN_PYTHON},python3>"
+    CAPSTAN_PYTHON_PATH="${CMAKE_BINARY_DIR}/python")
+  if(TARGET capstan_python)
+    add_dependencies(app_test capstan_python)
+  endif()
 endif()

@@ -37,7 +37,7 @@ class CommandTest : public ::testing::Test {
   }
   /// The same of a Python program, which finds the command by the variable CAPSTAN.
   [[nodiscard]] Ran run_python(const std::string& arguments) const {
-    return run_line("CAPSTAN='" CAPSTAN_COMMAND "' python3 " + arguments);
+    return run_line("CAPSTAN='" CAPSTAN_COMMAND "' PYTHONPATH='" CAPSTAN_PYTHON_PATH "' " CAPSTAN_PYTHON " -B " + arguments);
   }
   void put(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
