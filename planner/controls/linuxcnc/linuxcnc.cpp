@@ -1,10 +1,13 @@
 #include "planner/controls/linuxcnc/linuxcnc.h"
 
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "planner/controls/gcode/writer.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/control_options.h"
 
 namespace capstan::controls::linuxcnc {
 namespace {
@@ -13,14 +16,25 @@ namespace {
 constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",   "G57",  "G58",
                                                           "G59", "G59.1", "G59.2", "G59.3"};
 
-constexpr int kPitchDecimals = 6;
+constexpr int kPitchDecimals = 6, kDwellDecimals = 3;
 
-gcode::Words words() {
-  return {
+/// A hole as G81 (out by rapid) or G85 (out at feed to R, from there by rapid), with a dwell as G82 or G89.
+/// The tool is over the hole, so that G98 brings it back to where it is. Source: LinuxCNC 2.9, G-codes.
+std::string hole_text(const gcode::HoleCycle& h) {
+  const bool waits = rounded(h.dwell_s, kDwellDecimals) > 0.0;
+  const char* code = h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
+  return "G98 " + std::string(code) + " X" + trimmed(h.at.x, h.decimals) + " Y" +
+         trimmed(h.at.y, h.decimals) + " Z" + trimmed(h.bottom_z, h.decimals) + " R" +
+         trimmed(h.r_z, h.decimals) + (waits ? " P" + trimmed(h.dwell_s, kDwellDecimals) : "") + " F" +
+         trimmed(h.feed_mm_min, h.feed_decimals) + "\nG80";
+}
+
+gcode::Words words(const model::Machine& machine) {
+  gcode::Words out = {
       .work_offsets = kWorkOffsets,
       .longest_line = 252,  // LINELEN is 255; longer ones are refused ("Command too long")
       .speed_decimals = 1,
-      .dwell_decimals = 3,
+      .dwell_decimals = kDwellDecimals,
       .first = "",
       .last = "M2",
       .number = &trimmed,
@@ -34,11 +48,14 @@ gcode::Words words() {
             return "G33.1 Z" + trimmed(h.bottom_z, h.decimals) + " K" + trimmed(h.pitch_mm, kPitchDecimals);
           },
   };
+  if (model::control_option(machine, "cycles") == "feature")
+    out.cycle = [](const gcode::HoleCycle& h) { return std::optional(hole_text(h)); };
+  return out;
 }
 
 Result<std::string> write_program(const model::Plan& plan, Job& job,
                                   const std::vector<model::Condemnation>& condemned) {
-  return gcode::write(plan, words(), condemned, job);
+  return gcode::write(plan, words(plan.machine), condemned, job);
 }
 
 }  // namespace

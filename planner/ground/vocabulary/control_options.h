@@ -30,9 +30,10 @@ inline constexpr std::array kControlOptions{
     ControlOptionRow{
         "cycles", "feature explicit", 0, 0, false,
         "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
-        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84; Heidenhain: CYCL DEF 200, 201, 207); "
-        "or explicit moves",
-        "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling"},
+        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84; Heidenhain: CYCL DEF 200, 201, 207; "
+        "LinuxCNC: G81, G82, G85, G89, and G33.1 for threads); or explicit moves",
+        "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
+        "2.9, G-codes, canned cycles"},
     ControlOptionRow{
         "retract", "g53 g28", 0, 0, false,
         "to the top of Z in machine coordinates, or by way of the reference point, which is there",

@@ -23,7 +23,7 @@ struct ControlRow {
 /// One row per control.
 inline constexpr std::array kControlRows{
     // Source: LinuxCNC 2.9, blendmath.h, BLEND_ACC_RATIO_NORMAL and BLEND_ACC_RATIO_TANGENTIAL.
-    ControlRow{"linuxcnc", 0.86602540378443864676, 0.5, true},
+    ControlRow{"linuxcnc", 0.86602540378443864676, 0.5, true, "cycles=explicit"},
     // Acceleration before interpolation is a parameter of each axis, whole on arcs as on lines; a lower F is
     // looked ahead for. Source: FANUC 0i operator's manual B-63844EN/02, "AI advanced preview control";
     // shares

@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <sstream>
+#include <utility>
 
 #include "planner/ground/base/number.h"
+#include "tests/controls/control_plans.h"
 #include "tests/controls/linuxcnc/written.h"
 
 namespace capstan::controls::linuxcnc {
@@ -16,8 +19,10 @@ namespace {
 
 using model::MoveKind;
 using std::numbers::pi;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 std::string failure_of(const Plan& plan) {
   Job job;
@@ -227,6 +232,52 @@ TEST(LinuxCnc, TapsInStepWithTheSpindle) {
   ASSERT_EQ(r.only({"RIGID_TAP"}).size(), 1U);
   EXPECT_EQ(r.only({"RIGID_TAP"})[0].numbers, (std::vector<double>{10, 10, -12}));
   EXPECT_EQ(r.only({"START_SPEED_FEED_SYNC"})[0].numbers[0], 1.0);
+}
+
+TEST(LinuxCnc, WritesHolesAsCyclesOnlyWhereTheMachineAsksForThem) {
+  Plan plan = plans::holes_plan("linuxcnc");
+  EXPECT_THAT(program_of(plan), AllOf(Not(HasSubstr("G81")), HasSubstr("G0 Z2\nG1 Z-18.2 F180\nG0 Z10\n")));
+  plans::choose(plan, "cycles", "feature");
+  const std::string text = program_of(plan);
+  EXPECT_THAT(text, HasSubstr("\nG98 G81 X20 Y20 Z-18.2 R2 F180\nG80\n"));
+  EXPECT_THAT(text, HasSubstr("\nG98 G82 X40 Y20 Z-18.2 R2 P0.35 F180\nG80\n"));
+  EXPECT_THAT(text, HasSubstr("\nG98 G85 X20 Y20 Z-18.2 R2 F180\nG80\n"));
+  EXPECT_THAT(text, HasSubstr("\nG33.1 Z-12 K1\n"));
+}
+
+TEST(LinuxCncInterpreter, MakesOfCyclesTheMovesOfThePath) {
+  CAPSTAN_NEEDS_RS274();
+  // Moves, each with the feed that holds, and dwells; moves to where the tool already is are left out.
+  const auto moves = [](const Plan& plan) {
+    const Rs274Run r = run(plan);
+    EXPECT_EQ(r.status, 0) << r.output;
+    std::vector<std::string> out;
+    std::string at, feed;
+    for (const auto& c :
+         r.only({"STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "DWELL", "RIGID_TAP", "SET_FEED_RATE"})) {
+      if (c.name == "SET_FEED_RATE") {
+        feed = " F" + c.text;
+        continue;
+      }
+      if (c.name.starts_with("STRAIGHT") && std::exchange(at, c.text) == c.text) continue;
+      out.push_back(c.name + "(" + c.text + ")" + (c.name == "STRAIGHT_FEED" ? feed : ""));
+    }
+    return out;
+  };
+  Plan plan = plans::holes_plan("linuxcnc");
+  const auto by_moves = moves(plan);
+  plans::choose(plan, "cycles", "feature");
+  auto by_cycles = moves(plan);
+  // The reamer comes out at feed to R, and from there by rapid; along the path at feed all the way.
+  const auto differs = std::mismatch(by_moves.begin(), by_moves.end(), by_cycles.begin(), by_cycles.end());
+  ASSERT_NE(differs.first, by_moves.end());
+  EXPECT_THAT(*differs.first, StartsWith("STRAIGHT_FEED(20.0000, 20.0000, 10.0000"));
+  EXPECT_THAT(*differs.second, StartsWith("STRAIGHT_FEED(20.0000, 20.0000, 2.0000"));
+  by_cycles.erase(differs.second);
+  const std::size_t rapid = static_cast<std::size_t>(differs.first - by_moves.begin());
+  EXPECT_THAT(by_cycles[rapid], StartsWith("STRAIGHT_TRAVERSE(20.0000, 20.0000, 10.0000"));
+  by_cycles[rapid] = by_moves[rapid];
+  EXPECT_EQ(by_cycles, by_moves);
 }
 
 TEST(LinuxCnc, RefusesATapWhoseFeedIsNotItsPitch) {

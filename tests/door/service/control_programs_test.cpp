@@ -66,8 +66,9 @@ std::string verdict(const std::string& control, const std::string& path, bool re
   if (!result) return "not planned: " + result.error().what.code;
   model::Plan plan = result->plan;
   if (plan.steps.empty()) return "no step";
-  std::string out = joined(blamed(plan));
-  if (model::find_control_option(control, "cycles") == nullptr) return out;
+  if (model::find_control_option(control, "cycles") == nullptr) return joined(blamed(plan));
+  plan.machine.control_options = model::ControlOptions{{{"cycles", "feature"}}};
+  const std::string out = joined(blamed(plan));
   plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}}};
   const std::string by_moves = joined(blamed(plan));
   return by_moves == out ? out : out + "; explicit moves: " + by_moves;
