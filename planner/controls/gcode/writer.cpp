@@ -19,6 +19,7 @@
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/plan/order/step_ids.h"
+#include "planner/model/plan/resources/control_options.h"
 
 namespace capstan::controls::gcode {
 namespace {
@@ -51,6 +52,8 @@ class Writer {
     write_setup(plan_, plan_.steps.front().setup, std::nullopt, program_);
     program_.blank();
     if (!words_.first_state.empty()) program_.line(words_.first_state);
+    // What they leave is stated again.
+    if (shop_blocks("start_blocks") && !words_.first_state.empty()) program_.line(words_.first_state);
     tolerance(0.0, true);
     retract();
     stop();
@@ -70,11 +73,27 @@ class Writer {
     program_.comment("end");
     retract();
     stop();
+    shop_blocks("end_blocks");
     program_.line(words_.last);
     return program_.take();
   }
 
  private:
+  // The blocks of the shop that this option of the machine has, if there are any.
+  bool shop_blocks(std::string_view option) {
+    std::string_view rest = model::control_option(plan_.machine, option);
+    const bool any = !rest.empty();
+    while (!rest.empty()) {
+      const std::size_t bar = std::min(rest.find('|'), rest.size());
+      std::string_view block = rest.substr(0, bar);
+      rest.remove_prefix(std::min(bar + 1, rest.size()));
+      while (!block.empty() && block.front() == ' ') block.remove_prefix(1);
+      while (!block.empty() && block.back() == ' ') block.remove_suffix(1);
+      if (!block.empty()) program_.line(std::string(block));
+    }
+    return any;
+  }
+
   // Characters of a message that leaves so many of the line free.
   [[nodiscard]] std::size_t room(std::size_t free) const {
     const std::size_t of_line = words_.longest_line - std::min(free, words_.longest_line);

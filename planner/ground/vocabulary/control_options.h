@@ -90,6 +90,21 @@ inline constexpr std::array kControlOptions{
     ControlOptionRow{"codes", "", 0, 0, false,
                      "the codes that this machine has, as G0 G1 M3, with blanks between; not stated: all",
                      "the machine builder's list of codes"},
+    ControlOptionRow{"start_blocks", "", 0, 0, false,
+                     "blocks of the shop behind the program's first state, with | between; the state is "
+                     "stated again behind "
+                     "them, and the check reads them as any others",
+                     "the shop"},
+    ControlOptionRow{"end_blocks", "", 0, 0, false,
+                     "blocks of the shop before the program's end, with | between: the tool is away, spindle "
+                     "and coolant are off",
+                     "the shop"},
+    ControlOptionRow{
+        "shop_codes", "", 0, 0, false,
+        "M codes of the machine's builder that move no axis, turn no spindle and change no state, as M51 "
+        "M52, "
+        "with blanks between: the check passes over them. A code with a meaning of the control's own is none",
+        "the machine builder's list of codes"},
     ControlOptionRow{"tool_call", "number name", 0, 0, false,
                      "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
                      "tools names it",

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -109,6 +110,79 @@ void expect_verdicts(const std::string& folder, const std::vector<std::string>& 
       }
     }
     if (std::getenv("CAPSTAN_UPDATE") != nullptr) write_table(found);
+  }
+}
+
+/// The reference pocket's program for a control with these options, and what the check has against it.
+struct WithOptions {
+  std::string text;
+  Codes blamed;
+};
+WithOptions with_options(const std::string& control, std::vector<model::ControlOption> options) {
+  static std::map<std::string, model::Plan> plans;
+  if (!plans.contains(control)) {
+    const auto result = planned(control, testing::source_dir() + "/examples/reference_pocket.p21", false);
+    EXPECT_TRUE(result) << control;
+    if (!result) return {};
+    plans[control] = result->plan;
+  }
+  model::Plan plan = plans[control];
+  plan.machine.control_options = model::ControlOptions{std::move(options)};
+  Job job;
+  const auto text = controls::write_program(plan, job);
+  EXPECT_TRUE(text) << control;
+  return {text.value_or(""), blamed(plan)};
+}
+
+TEST(ShopBlocks, StandBehindTheHeadAndBeforeTheEndOfEveryControlsPrograms) {
+  for (const controls::Dialect* control : controls::dialects()) {
+    const std::string id(control->id);
+    const auto r = with_options(id, {{"start_blocks", "M0 | M1"}, {"end_blocks", "M9"}});
+    const auto at = [&](const std::string& what, std::size_t from) {
+      for (std::size_t i = r.text.find(what, from); i != std::string::npos; i = r.text.find(what, i + 1)) {
+        // Heidenhain's blocks have numbers before them.
+        if (r.text[i + what.size()] == '\n' && (r.text[i - 1] == '\n' || r.text[i - 1] == ' ')) return i;
+      }
+      return std::string::npos;
+    };
+    const std::size_t head = at("M0", 0), step = r.text.find("CAPSTAN STEP");
+    ASSERT_LT(head, step) << id << "\n" << r.text;
+    EXPECT_LT(at("M1", head), step) << id;
+    // Spindle and coolant go off at the end, M9, and the shop's M9 stands behind that.
+    std::vector<std::size_t> off;
+    for (std::size_t i = at("M9", 0); i != std::string::npos; i = at("M9", i + 1)) off.push_back(i);
+    ASSERT_GE(off.size(), 2U) << id;
+    const std::string between = r.text.substr(off[off.size() - 2], off.back() - off[off.size() - 2]);
+    EXPECT_EQ(std::count(between.begin(), between.end(), '\n'), 1) << id << "\n" << between;
+  }
+}
+
+TEST(ShopBlocks, AreReadByTheCheckAsAnyOthers) {
+  // The end cannot turn the spindle on, nor the head move the tool at feed.
+  for (const controls::Dialect* control : controls::dialects()) {
+    const std::string id(control->id);
+    EXPECT_NE(joined(with_options(id, {{"end_blocks", "M3"}}).blamed), "clean") << id;
+    const std::string feed = id == "heidenhain" ? "L X+10 F500" : "G1 X10. F500.";
+    EXPECT_NE(joined(with_options(id, {{"start_blocks", feed}}).blamed), "clean") << id;
+  }
+}
+
+TEST(ShopBlocks, MayHaveACodeOfTheMachinesBuilderOnlyWhereItIsListed) {
+  for (const controls::Dialect* control : controls::dialects()) {
+    const std::string id(control->id);
+    if (model::find_control_option(id, "shop_codes") == nullptr) continue;  // Grbl refuses what it lacks
+    const std::string code = id == "linuxcnc" ? "M151" : "M51";
+    EXPECT_EQ(joined(with_options(id, {{"start_blocks", code}}).blamed).substr(0, 4), "CHK-") << id;
+    EXPECT_EQ(joined(with_options(id, {{"start_blocks", code}, {"shop_codes", "M60 " + code}}).blamed),
+              "clean")
+        << id;
+    // Nor is a code of another number, and one that is the control's own whatever is listed.
+    EXPECT_NE(joined(with_options(id, {{"start_blocks", code}, {"shop_codes", code + "1"}}).blamed), "clean")
+        << id;
+    for (const char* own : {"M98", "M99"}) {
+      EXPECT_NE(joined(with_options(id, {{"start_blocks", own}, {"shop_codes", own}}).blamed), "clean")
+          << id << " " << own;
+    }
   }
 }
 

@@ -1,8 +1,10 @@
 #include "planner/proof/verify/program/block_state.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <system_error>
 
 #include "planner/proof/verify/findings.h"
 
@@ -33,6 +35,21 @@ Program too_large_program() {
 void BlockState::fault(int property, std::string code, std::string message, bool undecided) {
   if (out_.faults.size() < kFaultCap)
     out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});
+}
+
+void BlockState::shop_codes(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view one = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(one.size() + 1, text.size()));
+    if (one.size() < 2 || one.front() != 'M') continue;
+    int code = 0;
+    const auto [end, wrong] = std::from_chars(one.data() + 1, one.data() + one.size(), code);
+    if (wrong == std::errc() && end == one.data() + one.size()) shop_codes_.push_back(code);
+  }
+}
+
+bool BlockState::of_shop(int code) const {
+  return std::find(shop_codes_.begin(), shop_codes_.end(), code) != shop_codes_.end();
 }
 
 double BlockState::speed() const { return spindle_ * speed_; }

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "planner/proof/verify/program/program.h"
 
@@ -44,9 +46,16 @@ class BlockState {
   void to(geometry::Vec3 p, model::MoveKind kind, bool synchronised = false);
   void dwell(double seconds);
   [[nodiscard]] Block block() const;
+  /// Notes the M codes of the machine's option `shop_codes`: of its builder, with no meaning for what the
+  /// check follows. Words that are none of M and a whole number are no codes, and stay unknown.
+  void shop_codes(std::string_view text);
+  /// Whether the machine's file lists M `code`. A code that the control itself has is never passed over:
+  /// each reader asks only for those behind all that it knows.
+  [[nodiscard]] bool of_shop(int code) const;
   [[nodiscard]] double units() const { return inch_ ? 25.4 : 1.0; }
   [[nodiscard]] double speed() const;
 
+  std::vector<int> shop_codes_;
   Program out_;
   long line_ = 0;
   int marker_ = -1;

@@ -7,13 +7,14 @@
 #include "planner/proof/verify/program/heidenhain/reader.h"
 #include "planner/proof/verify/program/linuxcnc/reader.h"
 #include "planner/proof/verify/program/siemens/reader.h"
+#include "planner/proof/verify/reader_options.h"
 
 namespace capstan::verify {
 namespace {
 
-/// Its programs say all that its reader must know.
-Program read_linuxcnc(std::string_view text, const model::Machine& /*machine*/) {
-  return linuxcnc::read_program(text);
+/// Its programs say all else that its reader must know.
+Program read_linuxcnc(std::string_view text, const model::Machine& machine) {
+  return linuxcnc::read_program(text, option(machine, "shop_codes"));
 }
 
 // A new control is a folder beside linuxcnc/ and a row.
@@ -23,6 +24,7 @@ constexpr std::array kReaders{
                   .work_offsets = linuxcnc::kWorkOffsets,
                   .program = &read_linuxcnc,
                   .tool_table = &linuxcnc::read_tool_table,
+                  .options = "shop_codes=",
                   .signs = linuxcnc::kSigns},
     DialectReader{.dialect = "fanuc",
                   .name = "Fanuc",
@@ -52,7 +54,7 @@ constexpr std::array kReaders{
                   .tool_table = nullptr,
                   .speed_decimals = 0,
                   .words = siemens::kWords,
-                  .options = "prove_out=m1 line_length=200",
+                  .options = "prove_out=m1 line_length=200 shop_codes=",
                   .signs = siemens::kSigns},
     DialectReader{.dialect = "heidenhain",
                   .name = "Heidenhain TNC 640",
@@ -61,7 +63,7 @@ constexpr std::array kReaders{
                   .tool_table = nullptr,
                   .speed_decimals = 0,
                   .words = heidenhain::kWords,
-                  .options = "prove_out=m1 line_length=200",
+                  .options = "prove_out=m1 line_length=200 shop_codes=",
                   .numbered_code = 2470000,
                   .numbered_name = "PRESET",
                   .signs = heidenhain::kSigns},

@@ -25,7 +25,14 @@ constexpr double kMost = 99999.9999;  ///< mm or degrees of a word: TNC 640 ISO 
 
 bool Interpreter::Said::has_m(int code) const { return std::find(m.begin(), m.end(), code) != m.end(); }
 
+namespace {
+/// Modal cycle calls, machine coordinates and ways along a contour: no builder's, whatever a file lists.
+/// Source: HEIDENHAIN, TNC 640, miscellaneous functions M89 to M148.
+constexpr bool is_own_m(int m) { return m >= 89 && m <= 148; }
+}  // namespace
+
 Interpreter::Interpreter(const model::Machine& machine) {
+  shop_codes(option(machine, "shop_codes"));
   const std::string_view proves = option(machine, "prove_out");
   proves_out_ = proves == "m1" || proves == "skip_m0";
   longest_block_ = static_cast<std::size_t>(option_number(machine, "line_length"));
@@ -372,6 +379,7 @@ void Interpreter::before_move(const std::vector<int>& m) {
       case 129:  // M128, which moves the tool about its tip, is off
         break;
       default:
+        if (!is_own_m(code) && of_shop(code)) break;
         fault(33, "CHK-CODE", "M" + std::to_string(code) + " is not followed: what it does is not known",
               true);
     }

@@ -20,9 +20,11 @@ constexpr bool is_motion(int g) {
 constexpr bool is_cycle(int g) { return g == 730 || (g >= 810 && g <= 890); }
 
 /// M codes that LinuxCNC has and this reader does not follow, times ten.
+/// M100 to M199 run programs of the shop. Source: LinuxCNC 2.9 manual, M-codes.
+constexpr bool is_of_shop(int m) { return m % 10 == 0 && m >= 1000 && m <= 1990; }
 constexpr bool is_other_m(int m) {
   return m % 10 == 0 && (m == 190 || (m >= 500 && m <= 530) || (m >= 610 && m <= 680) ||
-                         (m >= 700 && m <= 730) || m == 980 || m == 990 || (m >= 1000 && m <= 1990));
+                         (m >= 700 && m <= 730) || m == 980 || m == 990 || is_of_shop(m));
 }
 
 /// A tool or offset number; out of range becomes one that no table has.
@@ -228,6 +230,7 @@ void Interpreter::machine_codes(const BlockSaid& s) {
       case 300:
         break;
       default:
+        if (is_of_shop(s.m[i]) && of_shop(s.m[i] / 10)) break;
         fault(33, is_other_m(s.m[i]) ? "CHK-UNVERIFIABLE" : "CHK-CODE",
               code_text('M', s.m[i]) + (is_other_m(s.m[i]) ? " is not followed" : " is none of LinuxCNC's"),
               is_other_m(s.m[i]));
@@ -354,8 +357,8 @@ Program Interpreter::finish(long lines) {
   return std::move(out_);
 }
 
-Program read_program(std::string_view text) {
-  Interpreter machine;
+Program read_program(std::string_view text, std::string_view shop_codes) {
+  Interpreter machine(shop_codes);
   Line line;
   long number = 0;
   if (text.size() > kProgramCap) return too_large_program();

@@ -11,6 +11,7 @@ namespace capstan::verify::linuxcnc {
 /// The interpreter's state, and what one line does to it.
 class Interpreter : private BlockState {
  public:
+  explicit Interpreter(std::string_view shop_codes) { BlockState::shop_codes(shop_codes); }
   void line(const Line& l, long number);
   [[nodiscard]] Program finish(long lines);
 

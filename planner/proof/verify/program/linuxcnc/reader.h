@@ -19,9 +19,12 @@ inline constexpr std::size_t kLineCap = 252;
 /// is beyond that (parameters, expressions, O-words, other planes) becomes a fault, and reading goes on. So
 /// does a block that LinuxCNC refuses or reads otherwise (block_rules.cpp).
 ///
+/// `shop_codes`: M100 to M199, programs of the shop, that the machine's file says move and switch nothing
+/// that the check follows; they are passed over.
+///
 /// Cost    linear in the text. No recursion.
 /// Source  LinuxCNC 2.9 manual, "G-codes" and "RS274/NGC code overview".
-[[nodiscard]] Program read_program(std::string_view text);
+[[nodiscard]] Program read_program(std::string_view text, std::string_view shop_codes = {});
 
 /// LinuxCNC's tool table as LinuxCNC reads it: a line per tool of words T, P, Z, D and others, a comment
 /// after `;`. Units   as written, taken as mm. Source  LinuxCNC 2.9 manual, "Tool table format".
