@@ -45,6 +45,13 @@ class Tools {
     auto in = read();
     if (!in) return s_.end(in.error(), kUnreadable);
     told("read", from_, in->report);
+    if (in->report.tools == 0 && in->library.entries.empty())
+      return s_.end({.code = "LIBRARY-EMPTY",
+                     .message = "there is no tool in it",
+                     .file = from_,
+                     .expected = "a library of one tool or more",
+                     .hint = "export it again with its tools"},
+                    kUnreadable);
     s_.summary =
         "read " + counted(in->report.tools, "tool", "tools") + " from " + from_ + ": " + sums(in->report);
     if (!o.tools.save_map.empty()) {

@@ -87,6 +87,16 @@ TEST_F(ToolsCommand, ImportSaysWhatIsLostAndWritesTheRest) {
   EXPECT_THAT(slurp("a.yaml"), HasSubstr("maximum_depth_of_cut: 20"));
 }
 
+TEST_F(ToolsCommand, AnImportOfALibraryWithoutToolsIsAnErrorAndWritesNothing) {
+  put("none.csv", "id,class,diameter\n");
+  put("none.json", "{\"data\": [], \"version\": 2}\n");
+  for (const char* file : {"none.csv", "none.json"}) {
+    EXPECT_EQ(run(std::string("import ") + file + " --unit mm -o a.yaml"), 3) << err_;
+    EXPECT_THAT(err_, HasSubstr(std::string(file) + ": error: there is no tool in it"));
+    EXPECT_FALSE(there("a.yaml"));
+  }
+}
+
 TEST_F(ToolsCommand, WithoutAnOutputImportSaysWhatPlanningCanUse) {
   EXPECT_EQ(run("import own.yaml"), 0) << err_;
   EXPECT_THAT(err_, HasSubstr("planning can use 2"));

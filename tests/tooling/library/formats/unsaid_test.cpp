@@ -230,6 +230,23 @@ TEST(Unlikely, AFractionBesideTheSameNumberSaysInches) {
   EXPECT_DOUBLE_EQ(read->at(0).cutting_diameter_mm, 6.35);
 }
 
+TEST(Unlikely, MillimetresBesideTheSameSizeInInchesSayInches) {
+  Job job;
+  const auto refused =
+      read_tool_table("T1 P1 Z4.0157 D+0.3937 ;generic 10 mm carbide end mill\n", "a.tbl", job);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "TBL-UNIT");
+  EXPECT_THAT(to_text(refused.error()), HasSubstr("capstan tools import a.tbl --unit inch -o tools.yaml"));
+  LibraryOptions inch;
+  inch.mm_per_unit = 25.4;
+  const auto read = read_tool_table("T1 P1 D+0.3937 ;generic 10 mm carbide end mill\n", "a.tbl", job, inch);
+  ASSERT_TRUE(read);
+  EXPECT_NEAR(read->at(0).cutting_diameter_mm, 10.0, 1e-3);
+  // A worn mill, and one whose comment speaks of something else, are in mm.
+  ASSERT_TRUE(
+      read_tool_table("T1 P1 D+7.98 ;8 mm end mill\nT2 P2 D+0.5 ;end mill, 6 mm shank\n", "a.tbl", job));
+}
+
 TEST(Unlikely, TwoColumnsOfDiametersAreRefused) {
   Job job;
   const auto r = import_bytes("id,class,diameter,DC\na,endmill,6,8\n", "t.csv", {}, job);

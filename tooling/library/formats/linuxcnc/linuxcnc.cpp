@@ -144,11 +144,15 @@ class Reader {
       return;
     }
     const double d = diameter_of(e);
-    if (unit_assumed_ && says_fraction(e.comment, d)) {
+    if (unit_told_) return;
+    if (unit_assumed_ && (says_fraction(e.comment, d) || says_millimetres(e.comment, d * kMmPerInch))) {
       refuse("TBL-UNIT",
              name + " has a diameter of " + trimmed(d, 5) + ", taken as mm, and its comment '" + e.comment +
-                 "' gives the same size in inches",
-             "one unit", "--unit inch, or --unit mm when the comment is wrong");
+                 "' gives the size that it has in inches",
+             "one unit",
+             "capstan tools import " + file_ +
+                 " --unit inch -o tools.yaml and plan with tools.yaml; --unit mm when the comment is wrong");
+      unit_told_ = true;  // of the other lines it would be said again
       return;
     }
     if (d == 0.0) {
@@ -181,6 +185,21 @@ class Reader {
       const auto a = parse_double(comment.substr(from, at - from));
       const auto b = parse_double(comment.substr(at + 1, to - at - 1));
       if (a && b && *b > 0.0 && *a < *b && std::abs(*a / *b - d) <= 0.01 * d && d > 0.0) return true;
+    }
+    return false;
+  }
+
+  /// True if a comment states that diameter in mm: "10 mm end mill".
+  static bool says_millimetres(std::string_view comment, double d) {
+    for (auto at = comment.find("mm"); at != std::string_view::npos; at = comment.find("mm", at + 2)) {
+      std::size_t to = at, from = 0;
+      while (to > 0 && comment[to - 1] == ' ') --to;
+      for (from = to;
+           from > 0 && ((comment[from - 1] >= '0' && comment[from - 1] <= '9') || comment[from - 1] == '.');)
+        --from;
+      const auto stated = parse_double(comment.substr(from, to - from));
+      // As far apart as three decimals of an inch leave them.
+      if (stated && *stated > 0.0 && d > 0.0 && std::abs(*stated - d) <= 0.01 * d) return true;
     }
     return false;
   }
@@ -234,7 +253,7 @@ class Reader {
 
   const std::string& file_;
   double mm_per_unit_;
-  bool unit_assumed_;
+  bool unit_assumed_, unit_told_ = false;
   Job& job_;
   Imported out_;
   std::uint64_t number_ = 0;
