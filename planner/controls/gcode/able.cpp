@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "planner/controls/gcode/options.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/control_options.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -55,6 +56,10 @@ Status able(const model::Plan& plan, const Words& words) {
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
     const auto& path = plan.steps[s].path;
     if (!path) continue;
+    if (plan.steps[s].through && !through_codes_of(plan.machine))
+      faults.push_back("step '" + ids[s] +
+                       "': coolant through the spindle, whose codes the machine's file does not state "
+                       "(through_coolant: M88/M89 under its control)");
     for (std::size_t i = 1; i < path->size(); ++i) {
       const std::string fault = fault_of(*path, i, words);
       if (fault.empty()) continue;

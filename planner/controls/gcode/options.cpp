@@ -17,6 +17,18 @@ std::string tool_end_of(const model::Machine& machine) {
   return option == "skip_m0" ? "/M0" : "";
 }
 
+std::optional<ThroughCodes> through_codes_of(const model::Machine& machine) {
+  const std::string_view option = model::control_option(machine, "through_coolant");
+  const std::size_t slash = option.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const auto is_code = [](std::string_view s) {
+    return s.size() > 1 && s.front() == 'M' && s.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  };
+  ThroughCodes out{std::string(option.substr(0, slash)), std::string(option.substr(slash + 1))};
+  if (!is_code(out.on) || !is_code(out.off)) return std::nullopt;
+  return out;
+}
+
 Status options_right(const model::Plan& plan) {
   if (!plan.machine.control_options) return {};
   for (const model::ControlOption& o : plan.machine.control_options->chosen) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "planner/controls/gcode/words.h"
@@ -12,6 +13,13 @@ namespace capstan::controls::gcode {
 [[nodiscard]] BlockNumbers block_numbers_of(const model::Machine& machine);
 /// The block behind the last step of each tool; empty for none.
 [[nodiscard]] std::string tool_end_of(const model::Machine& machine);
+
+/// The codes that switch coolant through the spindle.
+struct ThroughCodes {
+  std::string on, off;
+};
+/// Nothing where the machine's file does not state both.
+[[nodiscard]] std::optional<ThroughCodes> through_codes_of(const model::Machine& machine);
 
 /// Fails  OUT-OPTION for an option of the plan's machine that its control does not have, or not so.
 [[nodiscard]] Status options_right(const model::Plan& plan);

@@ -10,6 +10,7 @@
 #include "planner/controls/gcode/moves/arcs.h"
 #include "planner/controls/gcode/moves/helices.h"
 #include "planner/controls/gcode/moves/hole_cycles.h"
+#include "planner/controls/gcode/options.h"
 #include "planner/controls/gcode/probing.h"
 #include "planner/controls/gcode/program.h"
 #include "planner/controls/gcode/setups.h"
@@ -173,6 +174,7 @@ class Writer {
   void stop() {
     program_.line("M5");
     program_.line("M9");
+    through(false);
     speed_ = 0.0;
     flood_ = mist_ = false;
   }
@@ -313,11 +315,21 @@ class Writer {
   }
 
   void coolant(const StepResult& step) {
+    // First, for the code that switches it off may be M9.
+    if (!step.through) through(false);
     if ((flood_ && !step.flood) || (mist_ && !step.mist) || (!step.flood && !step.mist)) program_.line("M9");
     if (step.mist) program_.line("M7");
     if (step.flood) program_.line("M8");
     flood_ = step.flood;
     mist_ = step.mist;
+    if (step.through) through(true);
+  }
+
+  // Coolant through the spindle; where it is on it is stated again at each step.
+  void through(bool on) {
+    const auto codes = through_codes_of(plan_.machine);  // there where a step has it on: able.h
+    if (codes && (on || through_)) program_.line(on ? codes->on : codes->off);
+    through_ = on;
   }
 
   Status moves(const StepResult& step, const Cutter& cutter, const std::string& id) {
@@ -458,7 +470,7 @@ class Writer {
   std::size_t setup_ = 0;
   double speed_ = 0.0;
   std::string called_;  // speed that the change of the tool stated, until the spindle starts
-  bool flood_ = false, mist_ = false;
+  bool flood_ = false, mist_ = false, through_ = false;
   std::string defined_;  // text of the cycle that a call would run
 };
 

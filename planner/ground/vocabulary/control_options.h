@@ -105,6 +105,11 @@ inline constexpr std::array kControlOptions{
         "M52, "
         "with blanks between: the check passes over them. A code with a meaning of the control's own is none",
         "the machine builder's list of codes"},
+    ControlOptionRow{
+        "through_coolant", "", 0, 0, false,
+        "the M codes that switch coolant through the spindle on and off, as M88/M89; not stated: no "
+        "program of a plan that cuts with it",
+        "Haas 96-8000, M88, M89; else the machine builder's list of codes"},
     ControlOptionRow{"tool_call", "number name", 0, 0, false,
                      "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
                      "tools names it",

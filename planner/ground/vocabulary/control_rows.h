@@ -24,7 +24,7 @@ struct ControlRow {
 inline constexpr std::array kControlRows{
     // Source: LinuxCNC 2.9, blendmath.h, BLEND_ACC_RATIO_NORMAL and BLEND_ACC_RATIO_TANGENTIAL.
     ControlRow{"linuxcnc", 0.86602540378443864676, 0.5, true,
-               "cycles=explicit start_blocks= end_blocks= shop_codes="},
+               "cycles=explicit start_blocks= end_blocks= shop_codes= through_coolant="},
     // Acceleration before interpolation is a parameter of each axis, whole on arcs as on lines; a lower F is
     // looked ahead for. Source: FANUC 0i operator's manual B-63844EN/02, "AI advanced preview control";
     // shares
@@ -34,23 +34,24 @@ inline constexpr std::array kControlRows{
                "extended_offsets=0 ai_contour=no path_tolerance=assumed next_tool=staged arcs=half "
                "largest_radius_mm=99999.999 helices=yes block_numbers=steps program_number=1 "
                "prove_out=m1 comments=upper line_length=200 peck_clearance_mm= codes= "
-               "start_blocks= end_blocks= shop_codes="},
+               "start_blocks= end_blocks= shop_codes= through_coolant="},
     ControlRow{"haas", 0.86602540378443864676, 0.5, false,
                "cycles=feature retract=g53 tap=g84 tap_feed=per_minute tap_retract=0 dwell=seconds "
                "extended_offsets=99 smoothness=yes next_tool=staged arcs=half "
                "largest_radius_mm=15404.000 helices=yes block_numbers=steps program_number=1 "
                "prove_out=m1 comments=mixed line_length=200 peck_clearance_mm= codes= "
-               "start_blocks= end_blocks= shop_codes="},
+               "start_blocks= end_blocks= shop_codes= through_coolant=M88/M89"},
     // Looks ahead for lower feeds and corners (G64, LookAhead); shares of the axes' limits: default,
     // unsourced.
     ControlRow{"siemens", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called block_numbers=steps prove_out=m1 line_length=200 "
-               "tool_call=number smoothing=cycle832 turns=yes start_blocks= end_blocks= shop_codes="},
+               "tool_call=number smoothing=cycle832 turns=yes start_blocks= end_blocks= shop_codes= "
+               "through_coolant="},
     // Looks ahead 1,024 blocks (iTNC 530), also for lower feeds; shares of the axes' limits: default,
     // unsourced.
     ControlRow{"heidenhain", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called prove_out=m1 line_length=200 plane_reset=no "
-               "start_blocks= end_blocks= shop_codes="},
+               "start_blocks= end_blocks= shop_codes= through_coolant="},
     // Looks ahead over 16 moves, for lower feeds too (gnea/grbl, planner.c); shares of the axes' limits:
     // default, unsourced.
     ControlRow{"grbl", 0.86602540378443864676, 0.5, false,

@@ -186,6 +186,54 @@ TEST(ShopBlocks, MayHaveACodeOfTheMachinesBuilderOnlyWhereItIsListed) {
   }
 }
 
+TEST(ThroughCoolant, IsSwitchedByTheCodesThatTheMachinesFileStatesOrNoProgramIsWritten) {
+  for (const controls::Dialect* control : controls::dialects()) {
+    const std::string id(control->id);
+    const auto result = planned(id, testing::source_dir() + "/examples/reference_pocket.p21", false);
+    ASSERT_TRUE(result) << id;
+    model::Plan plan = result->plan;
+    plan.machine.has_through = true;
+    for (model::Cutter& c : plan.cutters) c.coolant_through = true;
+    plan.steps.front().through = true;
+    Job job;
+    if (id != "haas") {
+      const auto unstated = controls::write_program(plan, job);
+      ASSERT_FALSE(unstated) << id;
+      EXPECT_EQ(unstated.error().code, "OUT-CONTROL") << id;
+      EXPECT_NE(unstated.error().message.find("coolant through the spindle"), std::string::npos) << id;
+    }
+    if (model::find_control_option(id, "through_coolant") == nullptr) continue;  // Grbl has no such code
+    // Of LinuxCNC's M100 to M199; M89 is Heidenhain's own.
+    const std::string on = id == "linuxcnc" ? "M188" : id == "heidenhain" ? "M50" : "M88";
+    const std::string off = id == "linuxcnc" ? "M189" : id == "heidenhain" ? "M51" : "M89";
+    plan.machine.control_options = model::ControlOptions{{{"through_coolant", on + "/" + off}}};
+    const auto text = controls::write_program(plan, job);
+    ASSERT_TRUE(text) << id;
+    const auto said = [&](std::string program) {
+      Codes out;
+      for (const auto& f : verify::check_program({"program", std::move(program), ""}, &plan, plan.machine,
+                                                 plan.cutters, job)) {
+        if (f.severity != Severity::kNote) out.insert(f.code);
+      }
+      return joined(out);
+    };
+    EXPECT_EQ(said(*text), "clean") << id << "\n" << *text;
+    for (const std::string& code : {on, off}) {
+      std::string without = *text;
+      const std::size_t at = without.find(code + "\n");
+      ASSERT_NE(at, std::string::npos) << id;
+      // A block of another meaning that is followed, so that blocks keep their numbers.
+      without.replace(at, code.size(), code == on ? "M8" : "M9");
+      EXPECT_NE(said(without).find("CHK-"), std::string::npos) << id << " without " << code;
+    }
+    // M7 is it on many machines: no mist then.
+    plan.machine.control_options = model::ControlOptions{{{"through_coolant", "M7/M9"}}};
+    const auto by_m7 = controls::write_program(plan, job);
+    ASSERT_TRUE(by_m7) << id;
+    EXPECT_EQ(said(*by_m7), "clean") << id << "\n" << *by_m7;
+  }
+}
+
 // The check follows the plan's path in both: cycles make the moves that explicit ones are.
 TEST(ControlProgramsProperty, OfShippedPartsReadBackAsTheTableSaysWithCyclesAndWithExplicitMoves) {
   static bool done = false;  // a soak repeats what has no seed

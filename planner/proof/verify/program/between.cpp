@@ -108,7 +108,7 @@ class Between {
   }
 
   void change(const Block& b) {
-    if (b.flood || b.mist)
+    if (b.flood || b.mist || b.through)
       out_.error(29, "CHK-TEXT-STATE", c_.where(b), "the coolant is on in a change of tools");
     const model::StepResult* s = planned(b.marker);
     if (b.tool == loaded_ && !sets_anew(s, planned(changed_)))
@@ -130,7 +130,7 @@ class Between {
     last_stop_ = b.line;
     std::string wrong;
     if (b.spindle_rpm != 0.0) wrong = "with the spindle on";
-    if (b.flood || b.mist) wrong = "with the coolant on";
+    if (b.flood || b.mist || b.through) wrong = "with the coolant on";
     if (!at_top(b, c_.machine)) wrong = "before the tool is at the top of Z";
     if (!wrong.empty()) out_.error(31, "CHK-TEXT-STOP", c_.where(b), "the program stops " + wrong);
   }

@@ -37,19 +37,41 @@ void BlockState::fault(int property, std::string code, std::string message, bool
     out_.faults.push_back({property, std::move(code), line_, std::move(message), undecided});
 }
 
-void BlockState::shop_codes(std::string_view text) {
-  while (!text.empty()) {
-    const std::string_view one = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(one.size() + 1, text.size()));
-    if (one.size() < 2 || one.front() != 'M') continue;
-    int code = 0;
-    const auto [end, wrong] = std::from_chars(one.data() + 1, one.data() + one.size(), code);
-    if (wrong == std::errc() && end == one.data() + one.size()) shop_codes_.push_back(code);
+void BlockState::builders_codes(std::string_view shop_codes, std::string_view through_coolant) {
+  const auto number = [](std::string_view word) {
+    int code = -1;
+    if (word.size() < 2 || word.front() != 'M') return -1;
+    const auto [end, wrong] = std::from_chars(word.data() + 1, word.data() + word.size(), code);
+    return wrong == std::errc() && end == word.data() + word.size() ? code : -1;
+  };
+  while (!shop_codes.empty()) {
+    const std::string_view one = shop_codes.substr(0, shop_codes.find(' '));
+    shop_codes.remove_prefix(std::min(one.size() + 1, shop_codes.size()));
+    if (const int code = number(one); code >= 0) shop_codes_.push_back(code);
   }
+  const std::size_t slash = through_coolant.find('/');
+  if (slash == std::string_view::npos) return;
+  through_on_ = number(through_coolant.substr(0, slash));
+  through_off_ = number(through_coolant.substr(slash + 1));
 }
 
-bool BlockState::of_shop(int code) const {
+bool BlockState::builders(int code) {
+  if (code == through_on_ || code == through_off_) {
+    through_ = code == through_on_;
+    return true;
+  }
   return std::find(shop_codes_.begin(), shop_codes_.end(), code) != shop_codes_.end();
+}
+
+void BlockState::coolant(int code) {
+  if (code == through_off_) through_ = false;
+  if (code == through_on_) {
+    through_ = true;
+  } else if (code == 9) {
+    mist_ = flood_ = false;
+  } else {
+    (code == 7 ? mist_ : flood_) = true;
+  }
 }
 
 double BlockState::speed() const { return spindle_ * speed_; }
@@ -75,6 +97,7 @@ Block BlockState::block() const {
   b.cycle_active = cycle_active_;
   b.mist = mist_;
   b.flood = flood_;
+  b.through = through_;
   b.stated = stated_;
   b.tolerance_mm = tolerance_;
   b.naive_mm = naive_;

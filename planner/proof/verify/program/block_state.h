@@ -46,16 +46,21 @@ class BlockState {
   void to(geometry::Vec3 p, model::MoveKind kind, bool synchronised = false);
   void dwell(double seconds);
   [[nodiscard]] Block block() const;
-  /// Notes the M codes of the machine's option `shop_codes`: of its builder, with no meaning for what the
-  /// check follows. Words that are none of M and a whole number are no codes, and stay unknown.
-  void shop_codes(std::string_view text);
-  /// Whether the machine's file lists M `code`. A code that the control itself has is never passed over:
-  /// each reader asks only for those behind all that it knows.
-  [[nodiscard]] bool of_shop(int code) const;
+  /// Notes what the machine's file says of M codes of its builder: `shop_codes` ("M51 M52") move and switch
+  /// nothing that the check follows, `through_coolant` ("M88/M89") switches the coolant through the spindle
+  /// on and off. What is no M with a whole number is no code, and stays unknown.
+  void builders_codes(std::string_view shop_codes, std::string_view through_coolant);
+  /// Whether M `code` is one of these; it is carried out then. A code with a meaning of the control's own is
+  /// none, whatever the file lists: each reader asks only for those behind all that it knows.
+  [[nodiscard]] bool builders(int code);
+  /// M7, M8 or M9, one of which may be what the machine's file names for coolant through the spindle.
+  void coolant(int code);
   [[nodiscard]] double units() const { return inch_ ? 25.4 : 1.0; }
   [[nodiscard]] double speed() const;
 
   std::vector<int> shop_codes_;
+  int through_on_ = -1, through_off_ = -1;  ///< M codes; -1: not stated
+  bool through_ = false;
   Program out_;
   long line_ = 0;
   int marker_ = -1;

@@ -112,8 +112,9 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
       findings.error(29, "CHK-COOLANT-MACHINE", c.where(b),
                      std::string(word) + " is on, machine '" + c.machine.id + "' has none; take it out");
     };
-    if (b.flood) lacks(c.machine.has_flood || c.machine.has_through, "flood coolant (M8)");
-    if (b.mist) lacks(c.machine.has_mist || c.machine.has_through, "mist (M7)");
+    if (b.flood) lacks(c.machine.has_flood, "flood coolant (M8)");
+    if (b.mist) lacks(c.machine.has_mist, "mist (M7)");
+    if (b.through) lacks(c.machine.has_through, "coolant through the spindle");
     if (c.plan == nullptr || b.marker < 0) continue;
     const long i = c.step_of_marker[static_cast<std::size_t>(b.marker)];
     if (i < 0) continue;
@@ -125,8 +126,13 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
     };
     if (s.flood && !b.flood) missing("flood coolant", "M8");
     if (s.mist && !b.mist) missing("mist", "M7");
-    if (s.through && !b.mist && !b.flood) missing("coolant through the spindle", "M7 or M8");
-    if (s.through) continue;
+    if (s.through && !b.through)
+      missing("coolant through the spindle", "its code (through_coolant under the machine's control)");
+    if (!s.through && b.through && said.insert({b.marker, "through"}).second)
+      findings.error(
+          29, "CHK-COOLANT-OTHER", c.where(b),
+          "the program cuts with coolant through the spindle on, the step is planned without; switch "
+          "it off");
     if (!s.flood && !s.mist && (b.flood || b.mist) && said.insert({b.marker, "dry"}).second) {
       findings.error(29, "CHK-COOLANT-DRY", c.where(b),
                      "the step is planned dry, the program cuts with coolant on; state M9");

@@ -210,7 +210,7 @@ bool Following::approach_move(const Block& b) {
     return true;
   }
   if (!b.known_to[0] || !b.known_to[1] || !same(b.to, last_)) return wrong("a rapid to " + text_of(b.to));
-  if (!step_.through && (b.flood != step_.flood || b.mist != step_.mist))
+  if (coolant_differs(b))
     return say(b.line, "the coolant is not the plan's when the tool comes to the path's start", -1, 29,
                "CHK-TEXT-STATE");
   return true;
@@ -462,7 +462,7 @@ bool Following::numbers_agree(std::size_t i, const Block& b) {
   if (!drawn_away && std::abs(turns - wanted_rpm) > factor * speed_slack_)
     return say(b.line, "the spindle turns at " + plain(turns) + " rpm; the plan says " + plain(wanted_rpm),
                move);
-  if (!step_.through && (b.flood != step_.flood || b.mist != step_.mist) && !feeds)
+  if (coolant_differs(b) && !feeds)
     return say(b.line, "the coolant is not the plan's", move, 29, "CHK-TEXT-STATE");
   if (!feeds) return true;
   if (b.spindle_starts != starts_) {

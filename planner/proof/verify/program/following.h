@@ -41,6 +41,9 @@ class Following {
   bool numbers_agree(std::size_t i, const Block& b);
   bool tap_agrees(std::size_t i, const Block& b);
 
+  [[nodiscard]] bool coolant_differs(const Block& b) const {
+    return b.flood != step_.flood || b.mist != step_.mist || b.through != step_.through;
+  }
   [[nodiscard]] bool still(const Block& b) const;
   [[nodiscard]] long marker_line() const { return c_.program.markers[marker_].line; }
   [[nodiscard]] geometry::Vec3 round(geometry::Vec3 v) const;

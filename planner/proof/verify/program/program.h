@@ -75,6 +75,7 @@ struct Block {
   bool moved_since = false;  ///< and moved
   bool cycle_active = false;
   bool mist = false, flood = false;  ///< M7, M8
+  bool through = false;              ///< coolant through the spindle, by the codes of the machine's file
   unsigned stated = 0;               ///< Stated bits set since the last marker
   double tolerance_mm = 0.0;         ///< G64 P: corners may be rounded by this; 0 G61; kNoTolerance G64 alone
   double naive_mm = 0.0;             ///< G64 Q: points this near to a line are left out; as P where not said

@@ -14,7 +14,7 @@ namespace {
 
 /// Its programs say all else that its reader must know.
 Program read_linuxcnc(std::string_view text, const model::Machine& machine) {
-  return linuxcnc::read_program(text, option(machine, "shop_codes"));
+  return linuxcnc::read_program(text, option(machine, "shop_codes"), option(machine, "through_coolant"));
 }
 
 // A new control is a folder beside linuxcnc/ and a row.
@@ -24,7 +24,7 @@ constexpr std::array kReaders{
                   .work_offsets = linuxcnc::kWorkOffsets,
                   .program = &read_linuxcnc,
                   .tool_table = &linuxcnc::read_tool_table,
-                  .options = "shop_codes=",
+                  .options = "shop_codes= through_coolant=",
                   .signs = linuxcnc::kSigns},
     DialectReader{.dialect = "fanuc",
                   .name = "Fanuc",
@@ -54,7 +54,7 @@ constexpr std::array kReaders{
                   .tool_table = nullptr,
                   .speed_decimals = 0,
                   .words = siemens::kWords,
-                  .options = "prove_out=m1 line_length=200 shop_codes=",
+                  .options = "prove_out=m1 line_length=200 shop_codes= through_coolant=",
                   .signs = siemens::kSigns},
     DialectReader{.dialect = "heidenhain",
                   .name = "Heidenhain TNC 640",
@@ -63,7 +63,7 @@ constexpr std::array kReaders{
                   .tool_table = nullptr,
                   .speed_decimals = 0,
                   .words = heidenhain::kWords,
-                  .options = "prove_out=m1 line_length=200 shop_codes=",
+                  .options = "prove_out=m1 line_length=200 shop_codes= through_coolant=",
                   .numbered_code = 2470000,
                   .numbered_name = "PRESET",
                   .signs = heidenhain::kSigns},

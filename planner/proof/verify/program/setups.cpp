@@ -119,7 +119,7 @@ class SetupChecks {
         at_top(s, c_.machine) || (w.security_mm && s.known_to[2] && s.to.z >= *w.security_mm - 1e-6);
     if (!high)
       return s.known_to[2] ? "at z = " + plain(s.to.z) + ", not retracted" : std::string("not retracted");
-    if (s.mist || s.flood) return "with the coolant on";
+    if (s.mist || s.flood || s.through) return "with the coolant on";
     return {};
   }
 

@@ -40,7 +40,7 @@ Interpreter::Interpreter(const model::Machine& machine) {
   ways_.quadrants = is("arcs", "quadrant");
   ways_.helices = is("helices", "yes");
   ways_.codes = listed_codes(option(machine, "codes"));
-  shop_codes(option(machine, "shop_codes"));
+  builders_codes(option(machine, "shop_codes"), option(machine, "through_coolant"));
   ways_.longest_block = static_cast<std::size_t>(option_number(machine, "line_length"));
   ways_.largest_radius_mm = option_number(machine, "largest_radius_mm");
   ways_.last_decimal_mm = std::pow(10.0, -machine.control.decimals);
@@ -137,10 +137,8 @@ void Interpreter::before_move(const BlockWords& s) {
         change_tool();
         break;
       case 7:
-        mist_ = true;
-        break;
       case 8:
-        flood_ = true;
+        coolant(s.m[i]);
         break;
       case 29:
         if (!ways_.m29) fault(33, "CHK-CODE", "M29 is not followed: this machine taps rigidly without it");
@@ -156,7 +154,7 @@ void Interpreter::before_move(const BlockWords& s) {
       case 30:
         break;
       default:
-        if (!is_own_m(s.m[i]) && of_shop(s.m[i])) break;
+        if (!is_own_m(s.m[i]) && builders(s.m[i])) break;
         fault(33, "CHK-CODE", "M" + std::to_string(s.m[i]) + " is not followed: what it does is not known",
               true);
     }
@@ -166,12 +164,13 @@ void Interpreter::before_move(const BlockWords& s) {
 /// Where the machine's tools are proved out it stands between two of them, with the tool away and all off.
 void Interpreter::optional_stop() {
   const bool away = machine_z_ && *machine_z_ >= ways_.top_mm - 1e-6;
-  if (!ways_.proves_out || !away || spindle_ != 0 || flood_ || mist_) out_.odd.emplace_back(line_, "M1");
+  if (!ways_.proves_out || !away || spindle_ != 0 || flood_ || mist_ || through_)
+    out_.odd.emplace_back(line_, "M1");
 }
 
 void Interpreter::after_move(const BlockWords& s) {
   if (s.m_code(5)) spindle_ = 0;
-  if (s.m_code(9)) mist_ = flood_ = false;
+  if (s.m_code(9)) coolant(9);
   if (s.m_code(1)) optional_stop();
   if (s.m_code(0)) {
     Block b = block();

@@ -32,10 +32,10 @@ namespace capstan::verify::fanuc {
 /// What is taken where the machine's file says nothing.
 inline constexpr std::string_view kFanucOptions =
     "tap=m29 dwell=milliseconds extended_offsets=0 arcs=half largest_radius_mm=99999.999 helices=yes "
-    "prove_out=m1 line_length=200 peck_clearance_mm= codes= shop_codes=";
+    "prove_out=m1 line_length=200 peck_clearance_mm= codes= shop_codes= through_coolant=";
 inline constexpr std::string_view kHaasOptions =
     "tap=g84 dwell=seconds extended_offsets=99 arcs=half largest_radius_mm=15404.000 helices=yes "
-    "prove_out=m1 line_length=200 peck_clearance_mm= codes= shop_codes=";
+    "prove_out=m1 line_length=200 peck_clearance_mm= codes= shop_codes= through_coolant=M88/M89";
 
 /// Both begin with a number; what only one of them reads tells them apart.
 /// Source  FANUC 30i user's manual B-63944; Haas mill operator's manual 96-8210.

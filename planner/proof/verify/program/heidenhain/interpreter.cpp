@@ -32,7 +32,7 @@ constexpr bool is_own_m(int m) { return m >= 89 && m <= 148; }
 }  // namespace
 
 Interpreter::Interpreter(const model::Machine& machine) {
-  shop_codes(option(machine, "shop_codes"));
+  builders_codes(option(machine, "shop_codes"), option(machine, "through_coolant"));
   const std::string_view proves = option(machine, "prove_out");
   proves_out_ = proves == "m1" || proves == "skip_m0";
   longest_block_ = static_cast<std::size_t>(option_number(machine, "line_length"));
@@ -364,10 +364,8 @@ void Interpreter::before_move(const std::vector<int>& m) {
         if (code > 4) flood_ = true;
         break;
       case 7:
-        mist_ = true;
-        break;
       case 8:
-        flood_ = true;
+        coolant(code);
         break;
       case 0:
       case 1:
@@ -379,7 +377,7 @@ void Interpreter::before_move(const std::vector<int>& m) {
       case 129:  // M128, which moves the tool about its tip, is off
         break;
       default:
-        if (!is_own_m(code) && of_shop(code)) break;
+        if (!is_own_m(code) && builders(code)) break;
         fault(33, "CHK-CODE", "M" + std::to_string(code) + " is not followed: what it does is not known",
               true);
     }
@@ -388,14 +386,15 @@ void Interpreter::before_move(const std::vector<int>& m) {
 
 /// Where the machine's tools are proved out it stands between two of them, with the tool away and all off.
 void Interpreter::optional_stop() {
-  if (!proves_out_ || !machine_z_ || spindle_ != 0 || flood_ || mist_) out_.odd.emplace_back(line_, "M1");
+  if (!proves_out_ || !machine_z_ || spindle_ != 0 || flood_ || mist_ || through_)
+    out_.odd.emplace_back(line_, "M1");
 }
 
 /// M0 also stops the spindle and turns the coolant off; STOP by itself leaves them.
 void Interpreter::after_move(const std::vector<int>& m, bool stop_block) {
   const auto has = [&](int code) { return std::find(m.begin(), m.end(), code) != m.end(); };
   if (has(5)) spindle_ = 0;
-  if (has(9)) mist_ = flood_ = false;
+  if (has(9)) coolant(9);
   if (has(1)) optional_stop();
   if (has(0) || stop_block) stop();
   if (has(0)) {

@@ -211,13 +211,9 @@ void Interpreter::machine_codes(const BlockSaid& s) {
         spindle_ = 0;
         break;
       case 70:
-        mist_ = true;
-        break;
       case 80:
-        flood_ = true;
-        break;
       case 90:
-        mist_ = flood_ = false;
+        coolant(s.m[i] / 10);
         break;
       case 10:
       case 480:
@@ -230,7 +226,7 @@ void Interpreter::machine_codes(const BlockSaid& s) {
       case 300:
         break;
       default:
-        if (is_of_shop(s.m[i]) && of_shop(s.m[i] / 10)) break;
+        if (is_of_shop(s.m[i]) && builders(s.m[i] / 10)) break;
         fault(33, is_other_m(s.m[i]) ? "CHK-UNVERIFIABLE" : "CHK-CODE",
               code_text('M', s.m[i]) + (is_other_m(s.m[i]) ? " is not followed" : " is none of LinuxCNC's"),
               is_other_m(s.m[i]));
@@ -357,8 +353,8 @@ Program Interpreter::finish(long lines) {
   return std::move(out_);
 }
 
-Program read_program(std::string_view text, std::string_view shop_codes) {
-  Interpreter machine(shop_codes);
+Program read_program(std::string_view text, std::string_view shop_codes, std::string_view through_coolant) {
+  Interpreter machine(shop_codes, through_coolant);
   Line line;
   long number = 0;
   if (text.size() > kProgramCap) return too_large_program();

@@ -11,7 +11,9 @@ namespace capstan::verify::linuxcnc {
 /// The interpreter's state, and what one line does to it.
 class Interpreter : private BlockState {
  public:
-  explicit Interpreter(std::string_view shop_codes) { BlockState::shop_codes(shop_codes); }
+  Interpreter(std::string_view shop_codes, std::string_view through_coolant) {
+    builders_codes(shop_codes, through_coolant);
+  }
   void line(const Line& l, long number);
   [[nodiscard]] Program finish(long lines);
 

@@ -19,12 +19,13 @@ inline constexpr std::size_t kLineCap = 252;
 /// is beyond that (parameters, expressions, O-words, other planes) becomes a fault, and reading goes on. So
 /// does a block that LinuxCNC refuses or reads otherwise (block_rules.cpp).
 ///
-/// `shop_codes`: M100 to M199, programs of the shop, that the machine's file says move and switch nothing
-/// that the check follows; they are passed over.
+/// `shop_codes`, `through_coolant`: what the machine's file says of M100 to M199, programs of the shop
+/// (ground/vocabulary/control_options.h).
 ///
 /// Cost    linear in the text. No recursion.
 /// Source  LinuxCNC 2.9 manual, "G-codes" and "RS274/NGC code overview".
-[[nodiscard]] Program read_program(std::string_view text, std::string_view shop_codes = {});
+[[nodiscard]] Program read_program(std::string_view text, std::string_view shop_codes = {},
+                                   std::string_view through_coolant = {});
 
 /// LinuxCNC's tool table as LinuxCNC reads it: a line per tool of words T, P, Z, D and others, a comment
 /// after `;`. Units   as written, taken as mm. Source  LinuxCNC 2.9 manual, "Tool table format".

@@ -22,7 +22,7 @@ bool Interpreter::BlockWords::m_code(int m_code) const {
 }
 
 Interpreter::Interpreter(const model::Machine& machine) {
-  shop_codes(option(machine, "shop_codes"));
+  builders_codes(option(machine, "shop_codes"), option(machine, "through_coolant"));
   const std::string_view proves = option(machine, "prove_out");
   proves_out_ = proves == "m1" || proves == "skip_m0";
   longest_block_ = static_cast<std::size_t>(option_number(machine, "line_length"));

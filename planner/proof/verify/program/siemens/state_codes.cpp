@@ -10,11 +10,9 @@
 namespace capstan::verify::siemens {
 namespace {
 
-/// Ends of subprograms, gear steps and axis mode of the spindle, and calls of ISO mode: no builder's, whatever
-/// a file lists. Source: Siemens, SINUMERIK 840D sl, list of M commands; ISO milling, M96 to M99.
-constexpr bool is_own_m(int m) {
-  return m == 17 || (m >= 40 && m <= 45) || m == 70 || (m >= 96 && m <= 99);
-}
+/// Ends of subprograms, gear steps and axis mode of the spindle, and calls of ISO mode: no builder's,
+/// whatever a file lists. Source: Siemens, SINUMERIK 840D sl, list of M commands; ISO milling, M96 to M99.
+constexpr bool is_own_m(int m) { return m == 17 || (m >= 40 && m <= 45) || m == 70 || (m >= 96 && m <= 99); }
 
 }  // namespace
 
@@ -189,10 +187,8 @@ void Interpreter::before_move(const BlockWords& s) {
         change_tool();
         break;
       case 7:
-        mist_ = true;
-        break;
       case 8:
-        flood_ = true;
+        coolant(s.m[i]);
         break;
       case 19:
         spindle_ = 0;
@@ -205,7 +201,7 @@ void Interpreter::before_move(const BlockWords& s) {
       case 30:
         break;
       default:
-        if (!is_own_m(s.m[i]) && of_shop(s.m[i])) break;
+        if (!is_own_m(s.m[i]) && builders(s.m[i])) break;
         fault(33, "CHK-CODE", "M" + std::to_string(s.m[i]) + " is not followed: what it does is not known",
               true);
     }
@@ -217,12 +213,13 @@ void Interpreter::before_move(const BlockWords& s) {
 /// Where the machine's tools are proved out it stands between two of them, with the tool away and all off.
 void Interpreter::optional_stop() {
   const bool away = machine_z_ && *machine_z_ >= top_mm_ - 1e-6;
-  if (!proves_out_ || !away || spindle_ != 0 || flood_ || mist_) out_.odd.emplace_back(line_, "M1");
+  if (!proves_out_ || !away || spindle_ != 0 || flood_ || mist_ || through_)
+    out_.odd.emplace_back(line_, "M1");
 }
 
 void Interpreter::after_move(const BlockWords& s) {
   if (s.m_code(5)) spindle_ = 0;
-  if (s.m_code(9)) mist_ = flood_ = false;
+  if (s.m_code(9)) coolant(9);
   if (s.m_code(1)) optional_stop();
   if (s.m_code(0)) {
     Block b = block();
