@@ -49,8 +49,8 @@ double feed_at(const std::vector<Point>& points, std::size_t i, double limit) {
 }
 
 /// Loads of a class, of a corner's no less than any of the class has.
-std::optional<Column> loads_at(const CutLoads& loads, const std::optional<ReadyCut>& cut, double feed) {
-  const auto s = cut ? loads.at(*cut, feed) : std::nullopt;
+std::optional<Column> loads_at(const CutLoads& loads, const ReadyCut* cut, double feed) {
+  const auto s = cut != nullptr ? loads.at(*cut, feed) : std::nullopt;
   if (!s) return std::nullopt;
   Column load = s->load;
   if (cut->cut.csa_mm2 > 0.0) {
@@ -138,8 +138,10 @@ void CutClasses::fill(CutClass& kind, const CutLoads& loads) const {
   const double top = kMoreOfALimit * loads.ceiling_mm_min() * kind.gain;
   const double bottom = loads.floor_mm_min();
   const Column& limits = loads.limits();
-  const std::optional<ReadyCut> cut = loads.ready(kind.cut);
+  if (auto ready = loads.ready(kind.cut)) kind.ready = std::make_shared<const ReadyCut>(*std::move(ready));
+  const ReadyCut* const cut = kind.ready.get();
   std::vector<Point> points;
+  points.reserve(kPoints);
   const double step = std::pow(bottom / top, 1.0 / (kPoints - 1));
   for (int k = 0; k < kPoints; ++k) {
     const double feed = k + 1 == kPoints ? bottom : top * std::pow(step, k);

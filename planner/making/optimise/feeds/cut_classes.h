@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace capstan::optimise::feed {
 /// reaches the limit.
 struct CutClass {
   Cut cut;                   ///< the heaviest of the class
+  std::shared_ptr<const ReadyCut> ready;  ///< the same; null: outside the formulas' range
   double feed_mm_min = 0.0;  ///< the largest within every limit; 0: not even the least feed
   Column at_limit{};         ///< largest feed of each limit alone
   Column at_more{};          ///< the same with 10 % more of that limit

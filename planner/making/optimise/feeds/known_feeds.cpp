@@ -7,7 +7,7 @@
 namespace capstan::optimise {
 namespace {
 
-// What is kept is some 300 bytes a class; a path has a few hundred classes. Defaults, unsourced.
+// What is kept is some 800 bytes a class; a path has a few hundred classes. Defaults, unsourced.
 constexpr std::size_t kMostQuestions = 16;
 constexpr std::size_t kMostClasses = 4096;
 
