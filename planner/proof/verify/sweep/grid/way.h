@@ -97,7 +97,7 @@ class LineWay : public Way {
         length_(norm(d_)),
         dz_(m.to.z - m.from.z),
         way_(std::hypot(length_, dz_)),
-        cells_(o, a_, d_, std::min(m.from.z, m.to.z)) {
+        cells_(o, a_, d_, m.from.z, m.to.z) {
     zmin_ = std::min(m.from.z, m.to.z);
     // Of a torus, by less than a thousandth of the radius along the way (`least_between`).
     if (!level_) searched_ = 1e-3 * r_ * std::abs(dz_) / length_;
