@@ -197,8 +197,9 @@ class PathMaker {
                        [&](std::size_t i) { return cutter_.seconds_with(step, i); });
     if (step.proposed && plan_.target_mesh &&
         plan_.model.holds<model::FreeformRoughMilling>(step.operation) && step::left_by_next_mm(p_, step))
-      step::rank_by_rest(plan_, steps_, step, used_,
-                         [&](std::size_t i) { return cutter_.roughed_with(step, i); });
+      step::rank_by_rest(
+          plan_, steps_, step, used_, [&](std::size_t i) { return cutter_.roughed_with(step, i); },
+          [&] { cutter_.keep_last(); });
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     step::GroupedReasons why_not;
     bool gone = step.proposed;                            // true: every cutter finds no material to cut

@@ -59,21 +59,32 @@ std::string excess_text(const step::MeasuredCut& t) {
 }
 
 template <class F>
-void TryCutter::in_passing(StepDraft& step, std::size_t i, const F& look) {
+std::optional<TryCutter::Passed> TryCutter::in_passing(StepDraft& step, std::size_t i, const F& look) {
   auto said = means_.job.take_diagnostics();
   const auto before = means_.stocks.before(step.setup);
   const model::Cutter cutter = step.cutter;
-  const auto tried = with_cutter(step, i);
-  if (tried && !exceeds(step, *tried)) look(*tried);
+  std::optional<Passed> out;
+  auto tried = made_with(step, i);
+  if (tried && !exceeds(step, *tried)) {
+    look(*tried);
+    out = Passed{step.step,
+                 i < step.candidates.size() ? &step.candidates[i] : nullptr,
+                 step.constant_engagement,
+                 step.inwards,
+                 *std::move(tried),
+                 means_.job.take_diagnostics(),
+                 means_.stocks.take_out(step.setup, before)};
+  }
   step.cutter = cutter;
   means_.stocks.put_back(step.setup, before);
   (void)means_.job.take_diagnostics();
   for (auto& d : said) means_.job.report(std::move(d));
+  return out;
 }
 
 std::optional<double> TryCutter::seconds_with(StepDraft& step, std::size_t i) {
   std::optional<double> out;
-  in_passing(step, i, [&](const step::MeasuredCut& t) {
+  (void)in_passing(step, i, [&](const step::MeasuredCut& t) {
     out = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
   });
   return out;
@@ -81,7 +92,8 @@ std::optional<double> TryCutter::seconds_with(StepDraft& step, std::size_t i) {
 
 std::optional<step::Roughed> TryCutter::roughed_with(StepDraft& step, std::size_t i) {
   std::optional<step::Roughed> out;
-  in_passing(step, i, [&](const step::MeasuredCut& t) {
+  last_.reset();
+  last_ = in_passing(step, i, [&](const step::MeasuredCut& t) {
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
     if (!seconds || !t.removed_mm3) return;
     const auto left = step::too_much_for_next(p_, step, means_.stocks.of(step.setup));
@@ -91,6 +103,20 @@ std::optional<step::Roughed> TryCutter::roughed_with(StepDraft& step, std::size_
 }
 
 Result<step::MeasuredCut> TryCutter::with_cutter(StepDraft& step, std::size_t i) {
+  last_.reset();
+  std::optional<Passed> kept = std::exchange(kept_, std::nullopt);
+  if (!kept || kept->step != step.step || i >= step.candidates.size() ||
+      kept->candidate != &step.candidates[i])
+    return made_with(step, i);
+  step.cutter = step.candidates[i].cutter;
+  step.constant_engagement = kept->constant_engagement;
+  step.inwards = kept->inwards;
+  means_.stocks.put_in(step.setup, std::move(kept->removed));
+  for (Diagnostic& d : kept->said) means_.job.report(std::move(d));
+  return std::move(kept->cut);
+}
+
+Result<step::MeasuredCut> TryCutter::made_with(StepDraft& step, std::size_t i) {
   step.constant_engagement.reset();
   step.inwards.reset();
   const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;

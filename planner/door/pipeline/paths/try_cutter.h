@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "planner/making/draft/bans.h"
 #include "planner/making/draft/draft.h"
@@ -29,18 +31,32 @@ class TryCutter {
 
   /// How long a candidate's path takes, if it keeps the limits, s; nothing is kept or said of it.
   [[nodiscard]] std::optional<double> seconds_with(draft::StepDraft& step, std::size_t i);
-  /// What a candidate's path over a surface takes and leaves, if it keeps the limits; nothing is kept or said
-  /// of it.
+  /// What a candidate's path over a surface takes and leaves, if it keeps the limits; nothing is said of it,
+  /// and nothing is kept but by `keep_last`.
   [[nodiscard]] std::optional<step::Roughed> roughed_with(draft::StepDraft& step, std::size_t i);
+  /// Keeps the try of the last `roughed_with`: where the step's next try is of the same candidate, it is
+  /// taken and not made again.
+  void keep_last() { kept_ = std::exchange(last_, std::nullopt); }
   /// Tries one of the candidates: rings outwards, and where the step may have them and they could be quicker
   /// rings inwards and constant engagement; takes the quickest of those that keep the limits. Only that one
-  /// is removed from the stock.
+  /// is removed from the stock. The stock is as it was at `keep_last`, if that was called for this step.
   [[nodiscard]] Result<step::MeasuredCut> with_cutter(draft::StepDraft& step, std::size_t i);
 
  private:
-  /// A try of which nothing stays; `look` sees the cut while it is taken out of the stock.
+  /// A try that keeps the limits, taken out of the stock again.
+  struct Passed {
+    model::AnyRef step;
+    const model::Candidate* candidate = nullptr;  ///< of the step's; to know it again
+    std::optional<bool> constant_engagement, inwards;
+    step::MeasuredCut cut;
+    std::vector<Diagnostic> said;
+    step::Stocks::Undone removed;
+  };
+  /// A try of which nothing stays; `look` sees the cut while it is taken out of the stock. Gives the try,
+  /// where it keeps the limits.
   template <class F>
-  void in_passing(draft::StepDraft& step, std::size_t i, const F& look);
+  std::optional<Passed> in_passing(draft::StepDraft& step, std::size_t i, const F& look);
+  Result<step::MeasuredCut> made_with(draft::StepDraft& step, std::size_t i);
   /// Rings, or constant engagement where that is worthwhile; of the others, it reports only what is recorded.
   Result<step::MeasuredCut> quickest_way(draft::StepDraft& step, std::size_t i, bool inwards,
                                          const std::optional<step::ConstantCut>& other);
@@ -53,6 +69,7 @@ class TryCutter {
   const step::PlanSoFar& p_;
   const draft::Bans& bans_;
   const step::Means& means_;
+  std::optional<Passed> last_, kept_;
 };
 
 }  // namespace capstan::pipeline

@@ -22,6 +22,9 @@ constexpr double kCornerGrid = 1.01;
 constexpr double kGainStep = 0.1;
 constexpr double kFrontStep = 1.0 / 128.0;
 constexpr long kNoArea = std::numeric_limits<long>::min();
+/// Cuts that stay ready for their peak loads, some 3 kB each by measured coefficients. Of a path whose
+/// sections all differ the others are made ready once more. Default, unsourced.
+constexpr std::size_t kMostReady = 4096;
 constexpr int kPoints = 7;  // feeds at which loads of a class are computed, from above the ceiling down
 
 struct Point {
@@ -49,8 +52,8 @@ double feed_at(const std::vector<Point>& points, std::size_t i, double limit) {
 }
 
 /// Loads of a class, of a corner's no less than any of the class has.
-std::optional<Column> loads_at(const CutLoads& loads, const std::optional<ReadyCut>& cut, double feed) {
-  const auto s = cut ? loads.at(*cut, feed) : std::nullopt;
+std::optional<Column> loads_at(const CutLoads& loads, const ReadyCut* cut, double feed) {
+  const auto s = cut != nullptr ? loads.at(*cut, feed) : std::nullopt;
   if (!s) return std::nullopt;
   Column load = s->load;
   if (cut->cut.csa_mm2 > 0.0) {
@@ -102,6 +105,7 @@ CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
       p = *same;
     } else {
       fill(p, loads(n_rpm));
+      if (p.ready != nullptr && ++ready_ > kMostReady) p.ready.reset();
       if (known_ != nullptr) known_->keep(p, n_rpm);
     }
     it = classes_.emplace(key, p).first;
@@ -138,8 +142,10 @@ void CutClasses::fill(CutClass& kind, const CutLoads& loads) const {
   const double top = kMoreOfALimit * loads.ceiling_mm_min() * kind.gain;
   const double bottom = loads.floor_mm_min();
   const Column& limits = loads.limits();
-  const std::optional<ReadyCut> cut = loads.ready(kind.cut);
+  if (auto ready = loads.ready(kind.cut)) kind.ready = std::make_shared<const ReadyCut>(*std::move(ready));
+  const ReadyCut* const cut = kind.ready.get();
   std::vector<Point> points;
+  points.reserve(kPoints);
   const double step = std::pow(bottom / top, 1.0 / (kPoints - 1));
   for (int k = 0; k < kPoints; ++k) {
     const double feed = k + 1 == kPoints ? bottom : top * std::pow(step, k);

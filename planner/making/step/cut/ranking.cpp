@@ -196,7 +196,8 @@ std::vector<std::size_t> one_of_each_diameter(const draft::Candidates& all) {
 
 void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
                   const std::vector<std::string>& used,
-                  const std::function<std::optional<Roughed>(std::size_t)>& roughed) {
+                  const std::function<std::optional<Roughed>(std::size_t)>& roughed,
+                  const std::function<void()>& best) {
   // What a wider mill cannot reach a smaller one takes at this share of its rate. Default, unsourced.
   constexpr double kRestRate = 0.25;
   constexpr double kNothingLeft = 0.002;  // of what was taken; default, unsourced
@@ -210,6 +211,8 @@ void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& s
     double s = t->seconds + (is_used(used, step.candidates[i].cutter) ? 0.0 : plan.machine.tool_change_s);
     if (!even) s += t->seconds * t->too_much_mm3 / (kRestRate * t->taken_mm3) + plan.machine.tool_change_s;
     const bool slower = !times.empty() && s > times.back().first;
+    const auto quickest = std::min_element(times.begin(), times.end());
+    if (times.empty() || std::pair(s, i) < *quickest) best();
     times.emplace_back(s, i);
     if (even || slower) break;  // a smaller one takes longer still
   }

@@ -17,10 +17,6 @@ struct Piece {
   double sin_kappa = 1.0, cos_kappa = 0.0;
   double lag_low = 0.0, lag_high = 0.0;
   double from = 0.0, to = 0.0;
-  // Force per integral of the chip's shape over the lag, and per angle (edge forces); tangential, radial in
-  // the plane, axial.
-  double ct = 0.0, cr = 0.0, ca = 0.0;
-  double et = 0.0, er = 0.0, ea = 0.0;
 };
 
 struct Pieces {

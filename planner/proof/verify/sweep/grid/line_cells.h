@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "planner/ground/geometry/vec.h"
 #include "planner/proof/verify/sweep/grid/outline.h"
@@ -17,9 +18,9 @@ namespace capstan::verify {
 /// Units  mm.
 class LineCells {
  public:
-  /// `d`: from the line's start `a` to its end; `zmin`: the tip is nowhere lower; `four`: as many cells at
-  /// once, for a processor that `takes_four`.
-  LineCells(const CutterOutline& o, geometry::Vec2 a, geometry::Vec2 d, double zmin,
+  /// `d`: from the line's start `a` to its end; the tip runs from `from_z` to `to_z`; `four`: as many cells
+  /// at once, for a processor that `takes_four`.
+  LineCells(const CutterOutline& o, geometry::Vec2 a, geometry::Vec2 d, double from_z, double to_z,
             bool four = takes_four());
   [[nodiscard]] static bool takes_four();
 
@@ -40,6 +41,14 @@ class LineCells {
     geometry::Vec2 a, d, per;  ///< `per`: d over its square, so that their product with a way is the foot
     double most = 0.0;         ///< square of the distance
     std::array<CutterOutline::Floor, 2> floors;  ///< heights, of the square of the distance
+    /// Of a cutter whose end is one sphere.
+    struct Sphere {
+      double square = 0.0;             ///< of its radius
+      double nearest = 0.0;            ///< its centre's height at the lower end
+      double start = 0.0, rise = 0.0;  ///< the same at the line's start, and from there to its end
+      double upright = 0.0;            ///< of its heights over the line: the line's length over that in XY
+    };
+    std::optional<Sphere> sphere;
   };
 
  private:
