@@ -67,7 +67,7 @@ Sizes sizes_of(const model::FeatureShape& shape) {
   for (const model::Toleranced* size : {&shape.diameter, &shape.width}) {
     if (!size->given) continue;
     s.tolerance_mm = size->width();
-    s.middle_over_mm = size->middle() - size->nominal_mm;
+    s.middle_over_mm = 0.5 * (size->lower_mm + size->upper_mm);
     break;
   }
   return s;

@@ -79,6 +79,11 @@ TEST_F(CasesOnAServer, AreAddedAndJudgedByTheAddersRoleWhichMayNotAlterThem) {
   EXPECT_NE(rows(), before);
   const Ran planned = run("plan '" + part + "' --reopen all --cases '" + uri_of("adder") + "' -o with.json");
   EXPECT_EQ(planned.code, 0) << planned.err;
+  const std::string id = run("cases list '" + uri_of("adder") + "' REAMING | sed -n 2p | cut -d' ' -f1").out;
+  ASSERT_EQ(id.size(), 13u) << id;  // 12 digits and the end of the line
+  const Ran judged = run("cases judge '" + uri_of("adder") + "' " + id.substr(0, 12) +
+                         " --verdict bad --by \"A. Smith\" --reason bell-mouthed");
+  EXPECT_EQ(judged.code, 0) << judged.err;
   EXPECT_TRUE(may("adder", "PERFORM count(*) FROM capstan.head"));
   for (const char* harm :
        {"DELETE FROM capstan.head", "UPDATE capstan.body SET body = ''", "DELETE FROM capstan.id",
