@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <mutex>
 
 #include "casebase/intake.h"
 #include "casebase/search.h"
 #include "casebase/store/log.h"
+#include "planner/ground/base/stopping.h"
 
 namespace capstan::casebase {
 namespace {
@@ -50,17 +52,32 @@ struct CaseBase::Impl {
   }
 
   /// The cases that are not removed and of which this holds, by id.
-  std::vector<Case> live_where(const std::function<bool(const Entry&)>& holds) const {
+  std::vector<Case> live_where(const std::function<bool(const Entry&)>& holds,
+                               std::size_t most = std::numeric_limits<std::size_t>::max()) const {
     const std::vector<Entry>& entries = log.entries();
     std::vector<std::uint32_t> live;
     for (std::size_t i = 0; i < entries.size(); ++i) {
+      tick();
       if (!entries[i].removed && holds(entries[i])) live.push_back(static_cast<std::uint32_t>(i));
     }
-    std::vector<Case> out;
-    for (std::optional<Case>& c : log.load(live)) {
-      if (c) out.push_back(*std::move(c));
+    const auto by_id = [&](std::uint32_t a, std::uint32_t b) { return entries[a].id < entries[b].id; };
+    if (live.size() > most) {
+      std::nth_element(live.begin(), live.begin() + static_cast<std::ptrdiff_t>(most), live.end(), by_id);
+      live.resize(most);
     }
-    std::sort(out.begin(), out.end(), [](const Case& a, const Case& b) { return a.id < b.id; });
+    // In order before they are read: a case is a hundred times as large as its place.
+    std::sort(live.begin(), live.end(), by_id);
+    std::vector<Case> out;
+    out.reserve(live.size());
+    constexpr std::size_t kAtATime = 64;  // some 1 ms; default, unsourced
+    for (std::span<const std::uint32_t> left = live; !left.empty();) {
+      poll();
+      const auto some = left.first(std::min(left.size(), kAtATime));
+      left = left.subspan(some.size());
+      for (std::optional<Case>& c : log.load(some)) {
+        if (c) out.push_back(*std::move(c));
+      }
+    }
     return out;
   }
 
@@ -221,6 +238,20 @@ std::vector<Case> CaseBase::cut_with(std::string_view tool_class) const {
   return impl_->live_where([&](const Entry& e) {
     return e.origin != Origin::kSimulated && tool_class_in(impl_->log.categories(e)) == tool_class;
   });
+}
+
+std::vector<Case> CaseBase::measured_in(std::string_view material_group, std::string_view machine_class,
+                                        std::size_t most) const {
+  return impl_->live_where(
+      [&](const Entry& e) {
+        const std::string& categories = impl_->log.categories(e);
+        const auto is = [](std::string_view asked, std::string_view there) {
+          return asked.empty() || asked == there;
+        };
+        return e.origin == Origin::kMeasured && is(material_group, material_group_in(categories)) &&
+               is(machine_class, machine_class_in(categories));
+      },
+      most);
 }
 
 std::vector<Diagnostic> CaseBase::take_faults() const { return impl_->log.take_faults(); }

@@ -107,6 +107,10 @@ class CaseBase {
   [[nodiscard]] std::vector<Case> cases() const;
   /// Those that were cut, measured or entered, with a tool of this class; else as `cases`.
   [[nodiscard]] std::vector<Case> cut_with(std::string_view tool_class) const;
+  /// Measured cases of a material group on a machine class; an empty name: of any. At most `most`, those of
+  /// the least ids, which are a sample that neither time nor order chose; else as `cases`.
+  [[nodiscard]] std::vector<Case> measured_in(std::string_view material_group, std::string_view machine_class,
+                                              std::size_t most) const;
   /// What was found altered or gone since this was asked last, as warnings (CASE-ROW).
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 
@@ -128,6 +132,7 @@ class CaseBase {
 /// The sizes of a question; zero if one does not apply.
 struct Sizes {
   double diameter_mm = 0.0, depth_mm = 0.0, width_mm = 0.0, tolerance_mm = 0.0;
+  double middle_over_mm = 0.0;  ///< middle of the tolerance less the nominal size
   friend bool operator==(const Sizes&, const Sizes&) = default;
 };
 /// The sizes of a feature, the same when asking and when retaining.

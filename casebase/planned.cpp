@@ -12,6 +12,7 @@
 #include "planner/model/nouns/operation.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/setup_position.h"
+#include "planner/model/plan/resources/specific_force.h"
 
 namespace capstan::casebase {
 namespace {
@@ -63,10 +64,11 @@ Sizes sizes_of(const model::FeatureShape& shape) {
   if (shape.kind == model::ShapeKind::kThread) s.diameter_mm = shape.thread_major_mm;
   if (shape.kind == model::ShapeKind::kChamfer) s.width_mm = shape.chamfer_width_mm;
   if (shape.kind == model::ShapeKind::kEdgeRound) s.width_mm = shape.round_radius_mm;
-  if (shape.diameter.given) {
-    s.tolerance_mm = shape.diameter.width();
-  } else if (shape.width.given) {
-    s.tolerance_mm = shape.width.width();
+  for (const model::Toleranced* size : {&shape.diameter, &shape.width}) {
+    if (!size->given) continue;
+    s.tolerance_mm = size->width();
+    s.middle_over_mm = 0.5 * (size->lower_mm + size->upper_mm);
+    break;
   }
   return s;
 }
@@ -252,6 +254,7 @@ Result<Case> made(const model::Plan& plan, const model::StepResult& step, const 
   c.bound.ap_mm = step.axial_depth_mm;
   c.bound.ae_mm = step.radial_depth_mm;
   c.bound.corner_radius_mm = cutter->corner_radius_mm;
+  c.bound.aimed_over_mm = asked.middle_over_mm;
   c.bound.strategy = strategy_of(plan, ws->its_operation);
   take_allowances(plan, ws->its_operation, c.bound);
   take_contact(cutter->cutting_diameter_mm, c.bound);
@@ -262,7 +265,12 @@ Result<Case> made(const model::Plan& plan, const model::StepResult& step, const 
                  .torque_nm = step.loads.torque_nm,
                  .power_w = step.loads.power_w,
                  .deflection_mm = step.loads.deflection_mm,
-                 .tool_life_min = step.loads.tool_life_min};
+                 .tool_life_min = step.loads.tool_life_min,
+                 .force_margin = step.loads.force_margin,
+                 .specific_force_n_mm2 =
+                     model::is_a(ws->its_operation.type, model::TypeId::kDrillingTypeOperation)
+                         ? 0.0
+                         : model::specific_force_n_mm2(plan.material, *cutter, c.bound.mean_chip_mm)};
   const auto simulated = [](double v) {
     return v > 0.0 ? std::optional(Figure{v, 0.0, Origin::kSimulated}) : std::nullopt;
   };

@@ -111,10 +111,19 @@ std::string categories_of(const Question& q) {
   return q.operation + '\n' + q.material_group + '\n' + q.tool_class + '\n' + q.machine_class;
 }
 
-std::string_view tool_class_in(std::string_view categories) {
-  for (int before = 2; before > 0; --before) categories.remove_prefix(categories.find('\n') + 1);
-  return categories.substr(0, categories.find('\n'));
+namespace {
+
+/// The line of this number, from 0.
+std::string_view line_of(std::string_view text, int number) {
+  for (; number > 0; --number) text.remove_prefix(text.find('\n') + 1);
+  return text.substr(0, text.find('\n'));
 }
+
+}  // namespace
+
+std::string_view material_group_in(std::string_view categories) { return line_of(categories, 1); }
+std::string_view tool_class_in(std::string_view categories) { return line_of(categories, 2); }
+std::string_view machine_class_in(std::string_view categories) { return line_of(categories, 3); }
 
 Comparison comparison(std::uint16_t known_of_question, std::uint16_t known_of_case) {
   Comparison c;

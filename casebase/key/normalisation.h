@@ -37,8 +37,10 @@ using Point = std::array<double, kDimensions>;
 
 /// The four categories, which have to be equal.
 [[nodiscard]] std::string categories_of(const Question& q);
-/// The tool class in them.
+/// One of them.
+[[nodiscard]] std::string_view material_group_in(std::string_view categories);
 [[nodiscard]] std::string_view tool_class_in(std::string_view categories);
+[[nodiscard]] std::string_view machine_class_in(std::string_view categories);
 
 /// Diameter, depth and width: if one has it and the other has not, they never match.
 inline constexpr std::uint16_t kStrict = 0b111;

@@ -59,6 +59,8 @@ struct Bound {
   double ap_mm = 0.0, ae_mm = 0.0;  ///< as cut
   double allowance_side_mm = 0.0, allowance_bottom_mm = 0.0;
   double corner_radius_mm = 0.0;
+  double aimed_over_mm =
+      0.0;                    ///< the size that the path aims at less the nominal one: the middle of the zone
   std::string strategy = {};  ///< keyword, e.g. "contour_parallel"; may be empty
   // The path: of its cutting moves.
   double path_length_mm = 0.0;
@@ -77,6 +79,10 @@ struct Bound {
 struct Predicted {
   double time_s = 0.0, peak_force_n = 0.0, torque_nm = 0.0, power_w = 0.0;
   double deflection_mm = 0.0, tool_life_min = 0.0;
+  /// What the forces were computed with: the factor of the plan's margin in them, and, of a mill, the
+  /// specific force of the plan's law at the mean chip of `Bound` (model/plan/resources/specific_force.h).
+  /// Without them nobody can tell what an observed force says of the law.
+  double force_margin = 0.0, specific_force_n_mm2 = 0.0;
   bool operator==(const Predicted&) const = default;
 };
 
@@ -113,6 +119,9 @@ struct Observed {
   std::optional<Figure> wear_mm = {};   ///< flank wear (VB) at the end
   std::optional<Figure> chatter = {};   ///< 0 none, 1 heavy
   std::optional<Figure> breakage = {};  ///< 0 or 1: the tool broke
+  /// Feed per tooth as it was executed, override and control included: what forces are of. `Bound` has the
+  /// one that was commanded.
+  std::optional<Figure> executed_fz_mm = {};
   Series wear_series_mm;                ///< flank wear over cutting time
   Series load_series_percent;           ///< spindle load over cutting time
   Verdict verdict = Verdict::kUnknown;  ///< as recorded; a later judgement supersedes it (`CaseBase::judge`)

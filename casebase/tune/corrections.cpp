@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 /// Each model is made linear and handed to `regress`:
@@ -38,19 +39,34 @@ bool usable(std::initializer_list<double> values) {
 }
 
 Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<const Row> rows,
-               const RegressionOptions& options, Regression fit) {
+               const RegressionOptions& options, Regression fit, bool leave_out = true) {
   Corrected out;
   out.model = std::move(model);
   out.terms = std::move(terms);
   out.cases = rows.size();
   out.groups = fit.groups;
-  if (fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
+  if (leave_out && fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
     const std::vector<LeftOut> left_out = leave_groups_out(rows, fit.coefficient.size(), options);
     out.left_out = {rms(left_out), coverage_90(left_out)};
   }
   out.doubted = static_cast<std::size_t>(
       std::count_if(fit.weight.begin(), fit.weight.end(), [](double w) { return w < 0.5; }));
   out.fit = std::move(fit);
+  return out;
+}
+
+/// Rows on the unsafe side (1: above, -1: below) of a fit that hears what is far from all others little,
+/// farther than `kBeyondChance` allows.
+std::vector<std::size_t> beyond_chance(std::span<const Row> rows, std::size_t terms,
+                                       RegressionOptions options, double side) {
+  options.hear_above = options.hear_below = false;
+  const Regression others = regress(rows, terms, options);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double off = side * (rows[i].y - others.at(rows[i].x)) / others.predictive_std_dev_at(rows[i].x);
+    const double chance = 0.5 * std::erfc(off / std::numbers::sqrt2);
+    if (chance * static_cast<double>(rows.size()) < kBeyondChance) out.push_back(i);
+  }
   return out;
 }
 
@@ -91,6 +107,34 @@ std::optional<ForceCorrection> correct_force(std::span<const ForceSample> sample
       told("cutting force",
            {term(at.c_str(), "ln N/mm2", options.prior[0], fit, 0), term("mc", "", options.prior[1], fit, 1)},
            rows, options, fit);
+  return out;
+}
+
+std::optional<FactorCorrection> correct_force_factor(std::span<const ForceSample> samples,
+                                                     const std::function<double(double)>& law,
+                                                     double spread) {
+  std::vector<Row> rows;
+  std::vector<std::size_t> place;  // of each row in the samples
+  double ln_h = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const ForceSample& s = samples[i];
+    const double expected = usable({s.chip_mm}) ? law(s.chip_mm) : 0.0;
+    if (!usable({s.kc_n_mm2, expected})) continue;
+    rows.push_back({{1.0}, std::log(s.kc_n_mm2 / expected), 1.0, s.group});
+    place.push_back(i);
+    ln_h += std::log(s.chip_mm);
+  }
+  if (rows.empty() || !(spread > 1.0)) return std::nullopt;
+  const RegressionOptions options{
+      .prior = {{0.0, std::log(spread)}}, .noise = kForceNoise, .between = kForceEdges, .hear_above = true};
+  const Regression fit = regress(rows, 1, options);
+  const std::vector<double> here = {1.0};
+  FactorCorrection out{.factor = std::exp(fit.coefficient[0]),
+                       .spread = std::exp(fit.predictive_std_dev_at(here)),
+                       .chip_mm = std::exp(ln_h / static_cast<double>(rows.size())),
+                       .cases = rows.size(),
+                       .edges = fit.groups};
+  for (const std::size_t row : beyond_chance(rows, 1, options, 1.0)) out.beyond.push_back(place[row]);
   return out;
 }
 
@@ -142,13 +186,16 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
   if (law.h0_mm <= 0.0) law.h0_mm = first->feed_mm;
   if (law.a0_mm <= 0.0) law.a0_mm = first->depth_mm;
   std::vector<Row> rows;
-  for (const LifeSample& s : samples) {
+  std::vector<std::size_t> place;  // of each row in the samples
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const LifeSample& s = samples[i];
     if (!usable({s.vc_m_min, s.feed_mm, s.depth_mm, s.life_min})) continue;
     rows.push_back({{1.0, std::log(s.vc_m_min / law.v0_m_min), std::log(s.feed_mm / law.h0_mm),
                      std::log(s.depth_mm / law.a0_mm)},
                     std::log(s.life_min),
                     1.0,
                     s.group});
+    place.push_back(i);
   }
   const auto slope = [](double exponent) { return exponent > 0.0 ? -1.0 / exponent : 0.0; };
   const double scatter = handbook.scatter > 0.0 ? handbook.scatter : kLifeScatter;
@@ -156,7 +203,8 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
                                             {slope(handbook.n), kLifeBySpeedSpread},
                                             {slope(handbook.p), kLifeByFeedSpread},
                                             {slope(handbook.q), kLifeByDepthSpread}},
-                                  .noise = scatter};
+                                  .noise = scatter,
+                                  .hear_below = true};
   const Regression fit = regress(rows, 4, options);
   // Life never grows with speed; what grows with feed or depth is left out of the law.
   const auto exponent = [&](std::size_t i) {
@@ -173,7 +221,9 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
   const char* names[] = {"ln life", "exponent of speed", "exponent of feed", "exponent of depth"};
   for (std::size_t i = 0; i < 4; ++i)
     terms.push_back(term(names[i], i == 0 ? "ln min" : "", options.prior[i], fit, i));
-  return LifeCorrection{std::move(law), told("tool life", std::move(terms), rows, options, fit)};
+  LifeCorrection out{std::move(law), told("tool life", std::move(terms), rows, options, fit)};
+  for (const std::size_t row : beyond_chance(rows, 4, options, -1.0)) out.beyond.push_back(place[row]);
+  return out;
 }
 
 namespace {
@@ -191,7 +241,7 @@ double TimeCorrection::ln_std_dev(double block_s) const {
   return how.fit.predictive_std_dev_at(time_terms(block_s));
 }
 
-std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples) {
+std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples, bool leave_out) {
   std::vector<Row> rows;
   for (const TimeSample& s : samples) {
     if (!usable({s.planned_s, s.observed_s, s.block_s})) continue;
@@ -204,7 +254,7 @@ std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples) 
   return TimeCorrection{told("time",
                              {term("ln(observed / planned) at blocks of 0.1 s", "", options.prior[0], fit, 0),
                               term("per ln of the block's time", "", options.prior[1], fit, 1)},
-                             rows, options, fit)};
+                             rows, options, fit, leave_out)};
 }
 
 std::size_t slenderness_of(double stick_out_ratio) {
@@ -219,7 +269,7 @@ double BoreCorrection::std_dev_mm(double feed_per_turn_mm, double stick_out_rati
                                        slenderness_of(stick_out_ratio));
 }
 
-std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples) {
+std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples, bool leave_out) {
   std::vector<Row> rows;
   for (const BoreSample& s : samples) {
     if (!usable({s.feed_per_turn_mm, s.stick_out_ratio}) || !std::isfinite(s.deviation_mm)) continue;
@@ -235,7 +285,7 @@ std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples)
       "size of bores",
       {term("deviation at 0.05 mm per turn and 4 D", "mm", any, fit, 0),
        term("per ln of the feed", "mm", any, fit, 1), term("per ln of the stick-out", "mm", any, fit, 2)},
-      rows, options, fit)};
+      rows, options, fit, leave_out)};
 }
 
 model::WorkMaterial corrected(model::WorkMaterial material, const Corrections& corrections) {

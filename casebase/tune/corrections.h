@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,6 +55,25 @@ struct ForceCorrection {
 [[nodiscard]] std::optional<ForceCorrection> correct_force(std::span<const ForceSample> samples,
                                                            const ForceHandbook& handbook);
 
+/// One factor on a law of force, whatever its form.
+struct FactorCorrection {
+  double factor = 1.0, spread = 1.0;  ///< spread: of a further edge, one standard deviation
+  double chip_mm = 0.0;               ///< mean of the chips observed (geometric)
+  std::size_t cases = 0, edges = 0;
+  /// Samples, by their place, of more force than the others explain (`kBeyondChance`): nobody may lower or
+  /// narrow anything against them.
+  std::vector<std::size_t> beyond = {};
+};
+/// Chance of the farthest of all rows on the unsafe side of a robust fit to lie as far as that; one that is
+/// less likely is not explained by the others (Bonferroni's bound). Default, unsourced.
+inline constexpr double kBeyondChance = 0.01;
+/// The factor that the samples ask of `law`, the specific force in N/mm2 at a chip in mm, whose own spread is
+/// `spread`. A smaller force that lies far from the others counts little, a larger one in full: what is
+/// unsafe is no outlier. Nothing without a usable sample.
+[[nodiscard]] std::optional<FactorCorrection> correct_force_factor(std::span<const ForceSample> samples,
+                                                                   const std::function<double(double)>& law,
+                                                                   double spread);
+
 /// Wear of one edge after a time in the cut.
 struct WearReading {
   double time_min = 0.0, wear_mm = 0.0;
@@ -86,9 +106,12 @@ struct LifeCorrection {
   model::ToolLifeLaw
       law;  ///< scatter: of a further edge, the law's own uncertainty at its reference included
   Corrected how;
+  std::vector<std::size_t> beyond =
+      {};  ///< samples of a shorter life than the others explain, by their place
 };
 /// `handbook`: v0 and life at v0; n; h0, a0, p, q where they are known. Where speed, feed or depth do not
-/// vary, their exponents stay the handbook's.
+/// vary, their exponents stay the handbook's. A longer life that lies far from the others counts little, a
+/// shorter one in full.
 [[nodiscard]] std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
                                                          const model::ToolLifeLaw& handbook);
 
@@ -103,7 +126,9 @@ struct TimeCorrection {
   [[nodiscard]] double factor(double block_s) const;
   [[nodiscard]] double ln_std_dev(double block_s) const;
 };
-[[nodiscard]] std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples);
+/// `leave_out`: whether `how.left_out` is asked for, which costs a fit for each part.
+[[nodiscard]] std::optional<TimeCorrection> correct_time(std::span<const TimeSample> samples,
+                                                         bool leave_out = true);
 
 /// The deviation of a bore's diameter from what was programmed, and what it was milled with.
 struct BoreSample {
@@ -119,7 +144,8 @@ struct BoreCorrection {
   [[nodiscard]] double deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const;
   [[nodiscard]] double std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const;
 };
-[[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples);
+[[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples,
+                                                          bool leave_out = true);
 
 /// What planning may take: every member by itself.
 struct Corrections {

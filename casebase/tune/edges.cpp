@@ -38,19 +38,12 @@ struct Factor {
 using Kind = std::pair<std::string, std::string>;  // material group and tool class
 Kind kind_of(const Case& c) { return {c.asked.material_group, c.asked.tool_class}; }
 
-std::vector<WearReading> readings_of(const Observed& o) {
-  std::vector<WearReading> out;
-  if (o.wear_series_mm.origin == Origin::kSimulated) return out;
-  for (const Sample& s : o.wear_series_mm.samples) out.push_back({s.t_s / 60.0, s.value});
-  return out;
-}
-
 std::map<Kind, Factor> factors_of(std::span<const Case> cases) {
   std::map<Kind, std::vector<Row>> rows;
   std::map<std::string, std::size_t> edges;
   for (const Case& c : cases) {
     std::vector<Row>& of = rows[kind_of(c)];
-    const auto life = life_of(readings_of(c.observed), kWornMm);
+    const auto life = life_of(readings_of(c.observed.wear_series_mm), kWornMm);
     if (!life || !positive(c.predicted.tool_life_min)) continue;
     std::string edge = edge_of(c.from);
     if (edge.empty()) edge = "?" + c.id;
@@ -78,7 +71,7 @@ Factor by_reading(double wear_mm) {
 /// The wear that a case read at its end, if any.
 std::optional<double> read_at_end(const Observed& o) {
   if (seen(o.wear_mm)) return o.wear_mm->value;
-  const auto all = readings_of(o);
+  const auto all = readings_of(o.wear_series_mm);
   if (all.empty()) return std::nullopt;
   return all.back().wear_mm;
 }

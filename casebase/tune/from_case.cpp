@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "casebase/key/normalisation.h"
+#include "planner/ground/base/stopping.h"
 
 namespace capstan::casebase::tune {
 namespace {
@@ -54,13 +55,6 @@ double limit_of(const PlannedStep& p, Watched w) {
   return 0.0;
 }
 
-std::vector<WearReading> readings_of(const Series& wear) {
-  std::vector<WearReading> out;
-  if (wear.origin == Origin::kSimulated) return out;
-  for (const Sample& s : wear.samples) out.push_back({s.t_s / 60.0, s.value});
-  return out;
-}
-
 /// The wear before the cut, mm: between the readings, at the last's time less that of the step; 0: not known.
 double worn_before_mm(const Observed& o) {
   const std::vector<WearReading> all = readings_of(o.wear_series_mm);
@@ -102,12 +96,6 @@ std::string edge_name(const From& f) {
 /// The part that a case is of; where it is not known, what its source and its time tell apart.
 std::string part_name(const From& f) { return f.part.empty() ? "?" + f.source + f.time_utc : f.part; }
 
-/// Whether a step mills a bore, whose size is the path's: of a drill, a reamer or a tap it is the tool's.
-bool mills_bore(const Question& q) {
-  const bool round = positive(q.diameter_mm) && !positive(q.width_mm);
-  return round && q.operation.ends_with("MILLING") && q.feature.find("THREAD") == std::string::npos;
-}
-
 /// Names as numbers, in the order in which they come.
 class Groups {
  public:
@@ -123,6 +111,13 @@ class Groups {
 
 std::string edge_of(const From& f) {
   return f.tool_edge.empty() ? f.tool_instance : f.tool_instance + '/' + f.tool_edge;
+}
+
+std::vector<WearReading> readings_of(const Series& wear) {
+  std::vector<WearReading> out;
+  if (wear.origin == Origin::kSimulated) return out;
+  for (const Sample& s : wear.samples) out.push_back({s.t_s / 60.0, s.value});
+  return out;
 }
 
 std::optional<long> day_of(const std::string& time_utc) {
@@ -190,6 +185,11 @@ Handbook handbook_of(const PlannedStep& p) {
   return h;
 }
 
+bool cut_short(const Observed& o) {
+  return (evidence(o.chatter) && o.chatter->value >= kHeavyChatter) ||
+         (evidence(o.breakage) && o.breakage->value >= kBroken);
+}
+
 Evidence evidence_of(const Case& c, const PlannedStep& p) {
   Evidence e;
   e.id = c.id;
@@ -220,13 +220,14 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   };
   load(Watched::kForce, o.peak_force_n);
   load(Watched::kPower, o.power_w);
-  load(Watched::kSize, o.size_deviation_mm);
+  // Half the zone lies to either side of its middle, which the path aims at: of 20 H7 that is 20.0105 mm.
+  std::optional<Figure> size = o.size_deviation_mm;
+  if (size) size->value -= c.bound.aimed_over_mm;
+  load(Watched::kSize, size);
   load(Watched::kFinish, o.surface_ra_um);
   if (const auto wear = wear_at_change_mm(o, e.at, p)) load(Watched::kWear, Figure{.value = *wear});
-  const bool chatter = evidence(o.chatter), broke = evidence(o.breakage);
-  e.failed = o.verdict == Verdict::kBad || (chatter && o.chatter->value >= kHeavyChatter) ||
-             (broke && o.breakage->value >= kBroken);
-  e.judged = o.verdict != Verdict::kUnknown || chatter || broke;
+  e.failed = o.verdict == Verdict::kBad || cut_short(o);
+  e.judged = o.verdict != Verdict::kUnknown || evidence(o.chatter) || evidence(o.breakage);
   e.measured = c.origin == Origin::kMeasured;
   for (const std::string& one :
        {c.from.source, c.from.part, c.from.workingstep, c.from.time_utc, edge_of(c.from)}) {
@@ -238,34 +239,64 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   return e;
 }
 
+bool mills_bore(const Question& q) {
+  const bool round = positive(q.diameter_mm) && !positive(q.width_mm);
+  return round && q.operation.ends_with("MILLING") && q.feature.find("THREAD") == std::string::npos;
+}
+
+std::vector<TimeSample> times_of(std::span<const Case> cases) {
+  std::vector<TimeSample> out;
+  Groups parts;
+  for (const Case& c : cases) {
+    tick();
+    if (c.origin != Origin::kMeasured || c.observed.verdict == Verdict::kBad || cut_short(c.observed))
+      continue;
+    const auto& time = c.observed.time_s;
+    if (!evidence(time) || !positive(c.predicted.time_s) || c.bound.path_blocks <= 0) continue;
+    out.push_back({c.predicted.time_s, time->value, c.predicted.time_s / c.bound.path_blocks,
+                   parts.of(part_name(c.from))});
+  }
+  return out;
+}
+
+std::vector<BoreSample> bores_of(std::span<const Case> cases) {
+  std::vector<BoreSample> out;
+  Groups parts;
+  for (const Case& c : cases) {
+    tick();
+    const auto& size = c.observed.size_deviation_mm;
+    if (cut_short(c.observed)) continue;
+    if (c.origin != Origin::kMeasured || !mills_bore(c.asked) || !evidence(size)) continue;
+    if (!positive(c.asked.cutter_diameter_mm)) continue;
+    out.push_back({size->value - c.bound.aimed_over_mm, c.bound.fz_mm * std::max(1, c.asked.teeth),
+                   c.asked.stick_out_mm / c.asked.cutter_diameter_mm, parts.of(part_name(c.from))});
+  }
+  return out;
+}
+
 Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook) {
   std::vector<ForceSample> forces;
   std::vector<LifeSample> lives;
-  std::vector<TimeSample> times;
-  std::vector<BoreSample> bores;
-  Groups edges, parts;
+  Groups edges;
   for (const Case& c : cases) {
     if (c.origin != Origin::kMeasured) continue;
-    const std::size_t edge = edges.of(edge_name(c.from)), part = parts.of(part_name(c.from));
+    const std::size_t edge = edges.of(edge_name(c.from));
     const Observed& o = c.observed;
     const Bound& b = c.bound;
     if (evidence(o.peak_force_n) && positive(c.predicted.peak_force_n) && positive(b.mean_chip_mm)) {
-      const double expected = c.predicted.peak_force_n / handbook.force_margin;
-      const double kc = handbook.force.kc11_n_mm2 * std::pow(b.mean_chip_mm, -handbook.force.mc);
+      // A case of an older record does not say what its plan's forces were computed with.
+      const Predicted& p = c.predicted;
+      const bool told = p.force_margin >= 1.0 && positive(p.specific_force_n_mm2);
+      const double expected = p.peak_force_n / (told ? p.force_margin : handbook.force_margin);
+      const double kc = told ? p.specific_force_n_mm2
+                             : handbook.force.kc11_n_mm2 * std::pow(b.mean_chip_mm, -handbook.force.mc);
       forces.push_back({b.mean_chip_mm, kc * o.peak_force_n->value / expected, edge});
-    }
-    if (evidence(o.time_s) && positive(c.predicted.time_s) && b.path_blocks > 0) {
-      times.push_back({c.predicted.time_s, o.time_s->value, c.predicted.time_s / b.path_blocks, part});
-    }
-    if (mills_bore(c.asked) && evidence(o.size_deviation_mm) && positive(c.asked.cutter_diameter_mm)) {
-      bores.push_back({o.size_deviation_mm->value, b.fz_mm * std::max(1, c.asked.teeth),
-                       c.asked.stick_out_mm / c.asked.cutter_diameter_mm, part});
     }
     if (const auto life = life_of(readings_of(o.wear_series_mm), kWornMm))
       lives.push_back({b.vc_m_min, b.fz_mm, b.ap_mm, *life, edge});
   }
-  return {correct_force(forces, handbook.force), correct_life(lives, handbook.life), correct_time(times),
-          correct_bores(bores)};
+  return {correct_force(forces, handbook.force), correct_life(lives, handbook.life),
+          correct_time(times_of(cases)), correct_bores(bores_of(cases))};
 }
 
 }  // namespace capstan::casebase::tune

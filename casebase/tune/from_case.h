@@ -20,6 +20,9 @@ inline constexpr double kLifeUsed = 0.5;
 /// The very edge that a case was cut with: tool instance and edge; empty: not known.
 [[nodiscard]] std::string edge_of(const From& from);
 
+/// The readings of a wear series over cutting time; none of a simulated one.
+[[nodiscard]] std::vector<WearReading> readings_of(const Series& wear);
+
 /// Days since 1970-01-01 of a date or a time in ISO 8601; nothing where it is none.
 [[nodiscard]] std::optional<long> day_of(const std::string& time_utc);
 
@@ -52,6 +55,17 @@ struct PlannedStep {
 /// step's edge is changed, after as many parts at the case's speed and feed. That takes readings since the
 /// edge was new; a wear whose age is not known counts where it is beyond what is allowed already.
 [[nodiscard]] Evidence evidence_of(const Case& c, const PlannedStep& planned);
+
+/// Whether the step mills a bore, whose size is the path's: of a drill, a reamer or a tap it is the tool's.
+[[nodiscard]] bool mills_bore(const Question& question);
+/// Whether the tool broke or chattered heavily: what was observed is not what such a cut does.
+[[nodiscard]] bool cut_short(const Observed& observed);
+/// What measured cases observed of times, each part a group. Cuts that were judged bad are left out, and
+/// those whose tool broke or chattered.
+[[nodiscard]] std::vector<TimeSample> times_of(std::span<const Case> cases);
+/// What they observed of milled bores, each part a group; without those whose tool broke or chattered. One
+/// that was judged bad is heard: its size may be why.
+[[nodiscard]] std::vector<BoreSample> bores_of(std::span<const Case> cases);
 
 /// What the handbook says where cases correct it.
 struct CorrectionHandbook {

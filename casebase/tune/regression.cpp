@@ -241,7 +241,9 @@ Regression regress_alike(std::span<const Row> rows, std::size_t terms, const Reg
       const double scale =
           std::max(kMadToDeviation * median(sizes), std::hypot(options.noise, options.between));
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        weight[i] = base[i] * robust_weight(std::abs(r.of_row[i]) / scale, turn >= kHuberTurns);
+        const bool in_full = r.of_row[i] > 0.0 ? options.hear_above : options.hear_below;
+        weight[i] =
+            base[i] * (in_full ? 1.0 : robust_weight(std::abs(r.of_row[i]) / scale, turn >= kHuberTurns));
       }
     }
     const Residuals r = residuals(rows, group, groups, weight, now.b);

@@ -30,6 +30,8 @@ struct RegressionOptions {
   double between = 0.0;               ///< std dev between groups that is expected beforehand
   double between_groups = 2.0;        ///< how many groups that expectation is worth
   bool robust = true;  ///< Huber's weights, then Tukey's: rows far from all others are not heard
+  /// Rows above, or below, the fit count in full however far they lie: those of the unsafe side.
+  bool hear_above = false, hear_below = false;
 };
 
 /// A fitted model with its uncertainty.

@@ -1,11 +1,15 @@
 #include "tests/simulated_shop/campaign.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "casebase/tune/card.h"
+#include "planner/model/plan/resources/specific_force.h"
 #include "planner/physics/mechanics/constants.h"
+#include "planner/physics/mechanics/force/force_law.h"
 
 namespace capstan::testing {
 namespace {
@@ -49,6 +53,13 @@ void plan_step(PlannedJob& j, const model::StepLoads& loads) {
   c.predicted.peak_force_n = loads.peak_force_n;
   c.predicted.power_w = loads.power_w;
   c.predicted.tool_life_min = j.tables.life_min;
+  c.predicted.force_margin = loads.force_margin;
+  c.bound.ae_mm = j.ae_mm;
+  // Of the chord: cos(phi) = 1 - 2 ae / D, hm = fz (1 - cos(phi)) / phi.
+  const double cosine = 1.0 - 2.0 * j.ae_mm / j.question.cutter.cutting_diameter_mm;
+  c.bound.mean_chip_mm = j.fz_mm * (1.0 - cosine) / std::acos(cosine);
+  c.predicted.specific_force_n_mm2 =
+      model::specific_force_n_mm2(j.question.material, j.question.cutter, c.bound.mean_chip_mm);
   p.force_margin = loads.force_margin;  // the planner's loads carry it
   p.force_spread = mechanics::kForceUncertaintyFactor;
   p.power_limit_w = j.job.power_w;
@@ -68,6 +79,7 @@ casebase::Case case_of(const PlannedJob& j, const tune::Setting& at, const CutPa
   const auto figure = [](double v) { return casebase::Figure{.value = v}; };
   c.observed.time_s = figure(part.time_s);
   c.observed.peak_force_n = figure(part.seen.force_n);
+  c.observed.executed_fz_mm = figure(c.bound.fz_mm);
   c.observed.power_w = figure(part.seen.power_w);
   c.observed.size_deviation_mm = figure(part.seen.size_mm);
   c.observed.surface_ra_um = figure(part.seen.ra_um);
@@ -100,6 +112,7 @@ PlannedJob drawn_job(std::uint64_t seed) {
   c.runout_mm = 0.01;
   q.material.kc11_n_mm2 = draw.uniform(1500.0, 2200.0);
   q.material.mc = draw.uniform(0.17, 0.25);
+  q.material.id = "steel";
   q.material.iso_group = "P";
   q.fz_start_mm = 0.006 * c.cutting_diameter_mm;
   c.fz_max_mm = 1.5 * q.fz_start_mm;  // a maker's range about its start value
@@ -256,6 +269,61 @@ Summary run_shops(std::uint64_t first_seed, int shops, int parts) {
         by_part.push_back(runs[a].parts[k].time_s / runs[0].parts[k].time_s);
       }
     }
+  }
+  return out;
+}
+
+ForceForecasts forecast_forces(std::uint64_t first_seed, int shops) {
+  constexpr int kFirstEdges = 4, kFurtherEdges = 10, kMostParts = 3;
+  ForceForecasts out{.shops = shops};
+  for (int i = 0; i < shops; ++i) {
+    const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
+    const PlannedJob planned = drawn_job(seed);
+    HiddenShop shop(seed, planned.tables);
+    const int parts = std::min(kMostParts, planned.job.parts_per_edge);
+    std::vector<casebase::Case> cases;
+    for (int k = 0; k < kFirstEdges; ++k) {
+      ShopEdge edge = shop.new_edge();
+      for (int part = 0; part < parts; ++part) {
+        // As operators do: turned down, as planned, turned up. What was commanded is the plan's.
+        constexpr std::array<double, kMostParts> kOverride = {0.8, 1.0, 1.1};
+        const double fz_mm = kOverride.at(static_cast<std::size_t>(part)) * planned.fz_mm;
+        const CutPart cut = shop.cut(planned.job, planned.vc_m_min, fz_mm, edge);
+        cases.push_back(case_of(planned, {}, cut, edge, {}, k * parts + part));
+        cases.back().observed.executed_fz_mm = casebase::Figure{.value = fz_mm};
+      }
+    }
+    const model::WorkMaterial& card = planned.question.material;
+    const mechanics::ForceMargin by_card = mechanics::force_margin(card, model::Substrate::kCarbide);
+    const auto found = tune::card_corrections(cases, card, [&](model::Substrate) { return by_card.spread; });
+    if (found.empty() || !found.front().taken()) continue;
+    ++out.taken;
+    const tune::CardCorrection& by = found.front();
+    mechanics::ForceMargin by_cases = by_card;
+    by_cases.spread = by.spread;
+    const double expected = planned.planned.step.predicted.peak_force_n / planned.planned.force_margin;
+    const double corrected = expected * by.factor;
+    // The set that planning makes of it is Kienzle's law for no rake.
+    const double held = corrected / model::kienzle_share(card, planned.question.cutter) * by_cases.factor();
+    double truth = 0.0;
+    int cuts = 0;
+    for (int k = 0; k < kFurtherEdges; ++k) {
+      ShopEdge edge = shop.new_edge();
+      for (int part = 0; part < parts; ++part) {
+        const double force_n = shop.cut(planned.job, planned.vc_m_min, planned.fz_mm, edge).truth.force_n;
+        ++cuts;
+        truth += std::log(force_n);
+        out.over_card += force_n > expected * by_card.factor() ? 1 : 0;
+        out.over_cases += force_n > held ? 1 : 0;
+        if (part > 0) continue;
+        ++out.sharp;
+        constexpr double kTwoSided90 = 1.645;
+        out.within_90 += std::abs(std::log(force_n / corrected)) <= kTwoSided90 * std::log(by.spread) ? 1 : 0;
+      }
+    }
+    out.cuts += cuts;
+    out.ln_held_card.push_back(std::log(expected * by_card.factor()) - truth / cuts);
+    out.ln_held_cases.push_back(std::log(held) - truth / cuts);
   }
   return out;
 }

@@ -79,6 +79,17 @@ struct Summary {
 };
 [[nodiscard]] Summary run_shops(std::uint64_t first_seed, int shops, int parts);
 
+/// Forces of further edges against the loads that planning holds its limits against at the usual margin: by
+/// the card, and by the card that `tune::card_corrections` corrects from the first edges of each shop.
+struct ForceForecasts {
+  int shops = 0, taken = 0;  ///< taken: those whose cases the correction is taken of
+  int cuts = 0, over_card = 0, over_cases = 0;
+  int within_90 = 0, sharp = 0;  ///< of the first cuts of edges: within 1.645 standard deviations of `spread`
+  /// Of each shop that is taken: ln of the load held over the true mean force.
+  std::vector<double> ln_held_card = {}, ln_held_cases = {};
+};
+[[nodiscard]] ForceForecasts forecast_forces(std::uint64_t first_seed, int shops);
+
 /// The upper bound of a probability at 95 % (one side) after `hits` of `n`.
 /// Source  Clopper and Pearson, Biometrika 26 (1934) 404.
 [[nodiscard]] double clopper_pearson_upper(int hits, int n, double confidence = 0.95);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 
@@ -14,7 +15,7 @@ using casebase::tune::TuneOptions;
 
 constexpr int kParts = 40;
 
-/// A short sample; thirty shops as those of docs/validation.md, from other seeds, where the tests soak.
+/// A short sample; the thirty shops of docs/validation.md, from other seeds, where the tests soak.
 const Summary& shops() {
   static std::map<std::uint64_t, Summary> by_seed;
   const auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
@@ -48,6 +49,21 @@ TEST(SimulatedShopProperty, WhereTheHandbookItselfIsTooMuchTheTunerIsNotWorse) {
     EXPECT_LE(arm.unsound_over, all.arms.front().unsound_over + TuneOptions{}.probability * arm.unsound_parts)
         << "of " << arm.unsound_parts;
   }
+}
+
+TEST(SimulatedShopProperty, ForcesExceedTheLoadsOfTheCorrectedCardNoMoreOftenThanTheMarginStates) {
+  const auto seed = static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed());
+  const ForceForecasts all = soaking() ? forecast_forces(1000 * seed, 40) : forecast_forces(1, 15);
+  EXPECT_GE(all.taken, all.shops / 2);
+  // The usual margin: 84 of 100 cuts stay below (mechanics/loads/margin.h).
+  EXPECT_LE(clopper_pearson_upper(all.over_cases, all.cuts), 0.16) << all.over_cases << " of " << all.cuts;
+  EXPECT_GE(all.within_90, 0.8 * all.sharp) << all.within_90 << " of " << all.sharp;
+  // How far it lies above the true force differs less from shop to shop.
+  const auto range = [](const std::vector<double>& ln) {
+    const auto [low, high] = std::minmax_element(ln.begin(), ln.end());
+    return *high - *low;
+  };
+  EXPECT_LT(range(all.ln_held_cases), 0.5 * range(all.ln_held_card));
 }
 
 TEST(SimulatedShop, IsTheSameForTheSameSeed) {

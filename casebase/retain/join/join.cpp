@@ -122,6 +122,11 @@ Case observed(Case c, const Executed& e, const LogFrom& from) {
   bind_by_log(c, e);
   c.observed = {};
   c.observed.time_s = figure(e.moving_s);
+  // What it was cut with, where the log shows speed and feed: forces that are measured beside are of it. A
+  // table of times has what somebody noted.
+  const double rpm = e.of(Item::kSpindle).held, fed = e.of(Item::kFeed).held;
+  const double fz = rpm > 0.0 && e.run != kSummedUp ? fed / rpm / std::max(1, c.asked.teeth) : 0.0;
+  if (fz >= 1e-5 && fz <= 10.0) c.observed.executed_fz_mm = figure(fz);
   if (const Statistic& lag = e.of(Item::kLag); lag.seconds > 0.0)
     c.observed.lag_mm = figure(std::abs(lag.peak));
   if (const Statistic& load = e.of(Item::kLoad); load.seconds > 0.0) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "planner/door/pipeline/corrected_card.h"
 #include "planner/making/given/machine_needs.h"
 #include "planner/making/given/tool_material.h"
 #include "planner/model/nouns/all.h"
@@ -16,6 +17,7 @@
 #include "planner/model/plan/decision/edited.h"
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/field_differences.h"
+#include "planner/model/plan/resources/by_cases.h"
 #include "planner/model/plan/resources/machine_fields.h"
 #include "planner/model/plan/resources/material_fields.h"
 
@@ -56,7 +58,14 @@ bool made_for(const Plan& plan, const pipeline::Inputs& in) {
   if (in.material_name && *in.material_name != plan.material.id) return false;
   const auto at = std::find_if(in.materials.begin(), in.materials.end(),
                                [&](const auto& m) { return m.id == plan.material.id; });
-  return at == in.materials.end() || model::told_differences(*at, plan.material).empty();
+  return at == in.materials.end() ||
+         model::told_differences(*at, model::without_cases(plan.material)).empty();
+}
+
+/// Whether the plan's card has of cases what these cases say of it now: nothing where there are none.
+bool by_the_same_cases(const Plan& plan, const pipeline::Inputs& in) {
+  if (!in.cases) return !model::corrected_by_cases(plan.material);
+  return pipeline::corrected_card(*in.cases, plan.material, plan.machine.id).card == plan.material;
 }
 
 bool edited(const Job& job) {
@@ -140,7 +149,7 @@ void state_pockets(Plan& plan) {
 std::optional<Plan> as_it_is(const Plan& plan, const pipeline::Inputs& inputs,
                              std::optional<pipeline::Window> window, Job& job) {
   if (edited(job) || !model::unreadable(plan).empty() || !model::contradictions(plan).empty() ||
-      !made_for(plan, inputs) || !chosen_alike(plan, inputs))
+      !made_for(plan, inputs) || !chosen_alike(plan, inputs) || !by_the_same_cases(plan, inputs))
     return std::nullopt;
   if (window && plan.steps.size() < window->first + window->count) return std::nullopt;
   Plan out = plan;

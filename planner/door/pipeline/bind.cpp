@@ -20,6 +20,7 @@
 #include "planner/model/plan/decision/unreadable.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/range/positions.h"
+#include "planner/model/plan/resources/by_cases.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -153,13 +154,31 @@ Result<std::optional<Drafted>> choose_steps(model::Plan plan, Drafts drafts, con
 
 /// Writes material, machine and raw piece, and who named them; other provenance is recorded anew in this run.
 void put_workpiece(model::Plan& plan, Resolved resolved, const Inputs& inputs) {
-  plan.material = std::move(resolved.material);
+  // A plan's own card may have what cases said when it was made: they say it anew, or it does not hold.
+  plan.material = model::without_cases(std::move(resolved.material));
   plan.machine = inputs.machine;
   plan.stock = std::move(resolved.raw);
   plan.provenance = inputs.provenance;
   plan.provenance.push_back(std::move(resolved.margin.said));
   for (const model::Edit& e : inputs.edits) plan.provenance.push_back(model::provenance_of(e));
   if (inputs.stock) piece::state_raw_piece(plan.model, plan.stock.box);
+}
+
+/// Puts what measured cases say of the material's card into it, and tells it; also where the plan that is
+/// planned anew had more of it (`before`: its card then).
+void take_cases(model::Plan& plan, const casebase::CaseBase* cases, const model::WorkMaterial& before,
+                Tries& tries, Job& job) {
+  if (cases != nullptr) {
+    if (!tries.card || tries.card->of != plan.material)
+      tries.card = corrected_card(*cases, plan.material, plan.machine.id);
+    plan.material = tries.card->card;
+    plan.provenance.insert(plan.provenance.end(), tries.card->rows.begin(), tries.card->rows.end());
+    for (const Diagnostic& d : tries.card->told) job.report(d);
+  }
+  if (model::corrected_by_cases(before) && !model::corrected_by_cases(plan.material))
+    job.warn("CASE-MODEL",
+             "the plan was made with what measured cases say of '" + before.id +
+                 "', and they are not here: forces, margins and lives are the card's own again");
 }
 
 /// One try. Nothing when something failed: `tries` has learned what, and the plan is to be made again.
@@ -182,6 +201,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (!resolved) return tl::unexpected(resolved.error());
   const mechanics::MarginPolicy margin = resolved->margin.policy;
   put_workpiece(plan, *std::move(resolved), inputs);
+  take_cases(plan, inputs.cases.get(), recorded.material, tries, job);
   const Asked asked{.inputs = inputs,
                     .policy = policy,
                     .bans = tries.bans,

@@ -9,6 +9,7 @@
 #include "planner/making/given/tool_material.h"
 #include "planner/making/piece/corner_rests.h"
 #include "planner/making/piece/raw_piece_limits.h"
+#include "planner/making/step/record/expected_by_cases.h"
 #include "planner/making/step/record/worn_edges.h"
 #include "planner/model/plan/decision/reopen_all.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -175,6 +176,10 @@ Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Req
   plan.setups = *std::move(setups);
   plan.unplanned = with_what_rests(plan, drafts.setups);
   name_steps(plan);
+  if (bind == Bind::kAll) {
+    for (model::Provenance& row : step::tell_expected(plan, asked.inputs.cases.get(), job))
+      plan.provenance.push_back(std::move(row));
+  }
   for (model::Provenance& row : tell_needed(plan, needed, job)) plan.provenance.push_back(std::move(row));
   return plan;
 }

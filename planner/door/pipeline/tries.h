@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/door/pipeline/corrected_card.h"
 #include "planner/ground/memo/memo.h"
 #include "planner/making/draft/bans.h"
 #include "planner/making/propose/choose.h"
@@ -61,6 +62,8 @@ struct Tries {
   step::SmallestCutters smallest;
   /// How few tools: more thrift where the magazine was full, never less again.
   propose::Thrift thrift = propose::Thrift::kNone;
+  /// The material's card as cases correct it; made once.
+  std::optional<CorrectedCard> card = std::nullopt;
   /// Results of stages: the caller's, or those of these tries alone.
   std::shared_ptr<memo::Memo> memo;
 

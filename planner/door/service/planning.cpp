@@ -9,6 +9,7 @@
 #include "planner/controls/suitability.h"
 #include "planner/door/late/late.h"
 #include "planner/door/late/measured_names.h"
+#include "planner/door/pipeline/corrected_card.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
@@ -129,6 +130,7 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     policy.bind = request.bind;
     auto bound = pipeline::bind_checked(read_part->plan, *inputs, policy, job);
     if (!bound) return failed(bound.error(), code_of(bound.error(), Code::kImpossible));
+    pipeline::tell_without_cases(bound->plan, read_part->plan, *inputs, policy, job);
     // What its control is unable to do of the plan as a whole, which concerns no single step.
     for (model::Finding& f : controls::suitability(bound->plan)) {
       if (f.step.empty()) bound->findings.push_back(std::move(f));

@@ -21,6 +21,7 @@
 #include "planner/making/given/tool_material.h"
 #include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/edit/provenance.h"
+#include "planner/model/plan/resources/by_cases.h"
 #include "rules/engine/check.h"
 #include "rules/rules.h"
 #include "tooling/library/cutters/generic.h"
@@ -84,7 +85,7 @@ Status material_of(const Request& o, const model::Plan& plan, pipeline::Inputs& 
                                    [&](const auto& m) { return m.id == before->value; });
   if (!shipped && plan.material.id == before->value) {
     // A shop's own: the plan has what its file said.
-    if (auto ok = take_material(in, plan.material); !ok) return ok;
+    if (auto ok = take_material(in, model::without_cases(plan.material)); !ok) return ok;
   } else {
     in.material_name = before->value;
   }

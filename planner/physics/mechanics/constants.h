@@ -40,18 +40,6 @@ inline constexpr double kColletRunoutMm = 0.015;
 
 // --- Cutting force ----------------------------------------------------------------------------------
 
-/// Share of Kienzle's force that is saved by each degree of rake over the 0 degrees of the tables.
-/// Source: "Increasing rake angle by 1 deg in the positive direction decreases cutting power by about 1 %",
-/// Mitsubishi Materials, function of tool features, rake angle; that kc1 is for a rake of 0: Sandvik
-/// Coromant, specific cutting force; the same for milling: Tungaloy catalogue 2020-21 p. 1650.
-inline constexpr double kForcePerDegreeOfRake = 0.01;
-/// Radial rake of end mills, degrees.
-/// Source: Ingersoll catalogue 2011 p. 457 (docs.steelcam.org), data for regrinding solid-carbide mills: 10
-/// to 12, 17 and 18 of those for aluminium. The least is taken for all. Those of high-speed steel have no
-/// less (jntools.com). Cutters for hardened material are ground to a rake of 0 or less (mmc-carbide.com,
-/// radial rake angle): none is counted there; nor for cutters with inserts, of which no rake is known.
-inline constexpr double kEndMillRakeDeg = 10.0;
-
 /// Radial force of a milling tooth divided by its tangential force, as used for peak force with Kienzle
 /// data, which speak of the tangential force only.
 /// Source: largest Krc/Ktc (788.83 / 1319.41 = 0.598) of the six measured sets for aluminium alloys in

@@ -47,7 +47,8 @@ TEST(CaseFields, HaveRisingTagsAndNamesOfTheirOwn) {
 TEST(CaseFields, WearTheirUnitInTheirNames) {
   for (const Field& f : fields()) {
     if (f.unit.empty() || f.unit == "1") continue;
-    std::string end = "_" + std::string(f.unit == "m/min" ? "m_min" : f.unit == "%" ? "percent" : f.unit);
+    std::string end = "_" + std::string(f.unit == "%" ? "percent" : f.unit);
+    std::replace(end.begin(), end.end(), '/', '_');
     std::transform(end.begin(), end.end(), end.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     EXPECT_TRUE(f.name.ends_with(end)) << f.name;

@@ -83,8 +83,7 @@ TEST(EdgeUse, LivesOfEdgesThatWereFollowedToTheirEndCorrectTheLaw) {
   for (int other = 0; other < 8; ++other) {
     Case c = cut("followed " + std::to_string(other), 0);
     for (double t = 5.0; t <= 30.0; t += 5.0)  // worn out in half an hour
-      c.observed.wear_series_mm.samples.push_back(
-          {60.0 * t, kWornMm * std::pow(t / 30.0, kWearByTime)});
+      c.observed.wear_series_mm.samples.push_back({60.0 * t, kWornMm * std::pow(t / 30.0, kWearByTime)});
     c.predicted.tool_life_min = kLifeMin;
     c.id = id_of(c);
     cases.push_back(c);

@@ -240,5 +240,61 @@ TEST(CorrectionsOf, BoresThatAreMilledAloneByPart) {
   EXPECT_FALSE(bores("SIDE_FINISH_MILLING", "DEFINED_THREAD"));
 }
 
+/// A bore that was milled on a part, 0.02 mm too wide, in 75 s instead of 60.
+Case milled_bore(const std::string& part) {
+  Case c = planned().step;
+  c.origin = Origin::kMeasured;
+  c.asked.width_mm = 0.0;
+  c.asked.diameter_mm = 20.0;
+  c.asked.stick_out_mm = 40.0;
+  c.observed.time_s = Figure{.value = 75.0};
+  c.observed.size_deviation_mm = Figure{.value = 0.02};
+  c.from.part = part;
+  c.from.source = "log";
+  return c;
+}
+
+TEST(SamplesOfCases, LeaveOutTimesAndBoresOfToolsThatBrokeOrChattered) {
+  const auto heard = [](const Observed& o) {
+    Case c = milled_bore("1");
+    c.observed = o;
+    const std::vector<Case> cases = {c};
+    return std::pair(times_of(cases).size(), bores_of(cases).size());
+  };
+  const Observed well = milled_bore("1").observed;
+  EXPECT_EQ(heard(well), std::pair(1UL, 1UL));
+  Observed o = well;
+  o.breakage = Figure{.value = 1.0};
+  EXPECT_EQ(heard(o), std::pair(0UL, 0UL));
+  o = well;
+  o.chatter = Figure{.value = 0.8};
+  EXPECT_EQ(heard(o), std::pair(0UL, 0UL));
+  o.chatter = Figure{.value = 0.2};  // light
+  EXPECT_EQ(heard(o), std::pair(1UL, 1UL));
+  o = well;
+  o.verdict = Verdict::kBad;  // for its size, perhaps: the size is heard
+  EXPECT_EQ(heard(o), std::pair(0UL, 1UL));
+}
+
+TEST(SamplesOfCases, OfBoresAreWhatThePathMissedOfTheSizeThatItAimedAt) {
+  // 20 H7, aimed at 20.0105: 0.02 mm over the nominal size is 0.0095 over what was programmed.
+  Case c = milled_bore("1");
+  c.bound.aimed_over_mm = 0.0105;
+  const std::vector<Case> cases = {c};
+  ASSERT_EQ(bores_of(cases).size(), 1U);
+  EXPECT_NEAR(bores_of(cases).front().deviation_mm, 0.0095, 1e-12);
+}
+
+TEST(EvidenceOf, HoldsASizeAgainstItsZoneAsDrawn) {
+  // A zone of 0.1 mm on one side of the nominal size: its middle is no deviation, its edge is all of the
+  // limit.
+  Case c = cut(1);
+  c.bound.aimed_over_mm = 0.05;
+  c.observed.size_deviation_mm = Figure{.value = 0.05};
+  EXPECT_LE(load(evidence_of(c, planned()), Watched::kSize), 0.02 + 1e-12);
+  c.observed.size_deviation_mm = Figure{.value = 0.0};
+  EXPECT_NEAR(load(evidence_of(c, planned()), Watched::kSize), 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace capstan::casebase::tune

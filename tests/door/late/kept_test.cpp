@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <memory>
 #include <string>
 
+#include "casebase/casebase.h"
 #include "planner/door/late/late.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/resources/by_cases.h"
+#include "planner/model/plan/resources/specific_force.h"
 #include "tests/door/late/brought.h"
 #include "tests/support/soak.h"
 
@@ -168,6 +173,47 @@ TEST(LateKept, EachBindingIsARowOfThePlansRecordInEveryForm) {
               rows[1].source.substr(0, rows[1].source.find(", tools")))
         << "the machine is the same";
   }
+}
+
+/// The plan with a force that cases are said to have put into its card.
+model::Plan by_cases(model::Plan plan) {
+  const auto* own = model::measured_set(plan.material, model::Substrate::kCarbide);
+  EXPECT_NE(own, nullptr);
+  model::MechanisticSet set = *own;
+  set.ktc_n_mm2 *= 0.8;
+  set.source.assign(model::kByCases);
+  plan.material.mechanistic.insert(plan.material.mechanistic.begin(), set);
+  return plan;
+}
+
+TEST(LateKept, WhatCasesSaidOfTheCardIsNotKeptWithoutThemAndThatIsTold) {
+  const model::Plan plan = by_cases(bracket().plan);
+  Job job;
+  const auto bound = bind(plan, shop_of(bracket().table), kInTime, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_FALSE(bound->kept);
+  EXPECT_FALSE(model::corrected_by_cases(bound->plan.material));
+  EXPECT_EQ(bound->plan.material, bracket().plan.material);
+  EXPECT_TRUE(std::any_of(job.diagnostics().begin(), job.diagnostics().end(), [](const Diagnostic& d) {
+    return d.code == "CASE-MODEL" && d.severity == Severity::kWarning;
+  }));
+}
+
+TEST(LateKept, ACardOfCasesThatSayNothingMoreIsNotKept) {
+  const std::string file = capstan::testing::scratch_file("late_cases.db");
+  std::remove(file.c_str());
+  Job job;
+  pipeline::Inputs in = shop_of(bracket().table);
+  auto base = casebase::CaseBase::open_or_create(file, job);
+  ASSERT_TRUE(base);
+  in.cases = std::make_shared<casebase::CaseBase>(*std::move(base));
+  const auto plain = bind(bracket().plan, in, kInTime, job);
+  ASSERT_TRUE(plain) << to_text(plain.error());
+  EXPECT_TRUE(plain->kept);  // cases that change nothing
+  const auto bound = bind(by_cases(bracket().plan), in, kInTime, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_FALSE(bound->kept);
+  EXPECT_EQ(bound->plan.material, bracket().plan.material);
 }
 
 }  // namespace

@@ -29,6 +29,12 @@ TEST(LastLine, OfASafePlanHasItsAmountsAndFiles) {
             "wrote plan.p21 (without 11 things, see the notes), x.ngc");
 }
 
+TEST(LastLine, HasTheTimeByCasesBesideThePlannedOne) {
+  Ending end = planned();
+  end.time_by_cases = "4 min 51 s +- 9.4 s";
+  EXPECT_EQ(last_line(end), "Safe: 21 steps, 10 tools, 4 min 29 s (by cases 4 min 51 s +- 9.4 s)");
+}
+
 TEST(LastLine, WarningsOfTheCheckStandInFront) {
   Ending end = planned();
   end.warned = 2;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 namespace capstan::mechanics {
 namespace {
 
@@ -103,6 +106,38 @@ TEST(ToothOfACutter, HasTheCornerOfABall) {
   c.cutter_class = model::CutterClass::kBallEndmill;
   EXPECT_EQ(tooth_of(c).corner_radius_mm, 4.0);
   EXPECT_EQ(tooth_of(c).teeth, 1);
+}
+
+TEST(CorrectedSet, ScalesTheCardsSetAndStatesTheSpreadOfTheEvidence) {
+  model::WorkMaterial m = aluminium();
+  const model::MechanisticSet before = *measured_set(m, model::Substrate::kCarbide);
+  const auto set = corrected_set(m, model::Substrate::kCarbide,
+                                 {.factor = 0.8, .spread = 1.15, .chip_mm = 0.05, .source = "18 cases"});
+  EXPECT_DOUBLE_EQ(set.ktc_n_mm2, 0.8 * before.ktc_n_mm2);
+  EXPECT_DOUBLE_EQ(set.kre_n_mm, 0.8 * before.kre_n_mm);
+  m.mechanistic.insert(m.mechanistic.begin(), set);
+  EXPECT_NEAR(force_margin(m, model::Substrate::kCarbide).spread, 1.15, 1e-12);
+  EXPECT_NE(force_source(m, model::Substrate::kCarbide, true).find("18 cases"), std::string::npos);
+}
+
+TEST(CorrectedSet, IsNowhereBelowKienzlesLawTimesTheFactorAndMeetsItAtTheChipObserved) {
+  model::WorkMaterial m;
+  m.kc11_n_mm2 = 1800.0;
+  m.mc = 0.25;
+  constexpr double kChip = 0.05, kFactor = 0.8;
+  const auto set = corrected_set(m, model::Substrate::kHss,
+                                 {.factor = kFactor, .spread = 1.2, .chip_mm = kChip, .source = {}});
+  const auto by_set = [&](double h) { return set.ktc_n_mm2 * h + set.kte_n_mm; };
+  const auto by_kienzle = [&](double h) { return kFactor * m.kc11_n_mm2 * std::pow(h, 1.0 - m.mc); };
+  EXPECT_NEAR(by_set(kChip), by_kienzle(kChip), 1e-9 * by_kienzle(kChip));
+  // Of the axial force, too, whose edge share has its own coefficient: the mills' steepest helix is 45
+  // degrees.
+  const auto axial_by_set = [&](double h) { return set.kac_n_mm2 * h + set.kae_n_mm; };
+  for (double h = 0.001; h < 1.0; h *= 1.3) {
+    EXPECT_GE(by_set(h), by_kienzle(h) * (1.0 - 1e-12)) << h;
+    EXPECT_GE(axial_by_set(h), kAxialToTangentialRatio * by_kienzle(h) * (1.0 - 1e-12)) << h;
+  }
+  EXPECT_EQ(set.substrate, "hss");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "planner/model/plan/resources/specific_force.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/proof/verify/checked.h"
@@ -265,7 +266,7 @@ std::vector<model::Finding> deeply(double share, bool as_program) {
   planned(k, 2.0, 10.0);
   const model::WorkMaterial& w = k.plan.material;
   const double mean_chip = 0.05 * 2.0 / std::numbers::pi;
-  const double rake = 1.0 - mechanics::kForcePerDegreeOfRake * mechanics::kEndMillRakeDeg;
+  const double rake = 1.0 - model::kForcePerDegreeOfRake * model::kEndMillRakeDeg;
   const double kc = rake * w.kc11_n_mm2 * std::pow(mean_chip, -w.mc) * mechanics::kWearForceFactor;
   const double edges = kc * 50.0 * kSlow / (std::numbers::pi * 10.0 * 3000.0) *
                        std::hypot(1.0, mechanics::kRadialToTangentialRatio);

@@ -157,6 +157,11 @@ TEST(ReadMaterials, RefusesSetsAndLawsThatCannotBe) {
   EXPECT_EQ(
       code("    mechanistic:\n      - {substrate: hss, ktc_n_mm2: 9, krc_n_mm2: 300, uncertainty: 0.4}\n"),
       "MATERIAL-RANGE");
+  // Planning marks by that what cases correct, and leaves it out when it plans anew.
+  EXPECT_EQ(
+      code("    mechanistic:\n      - {substrate: hss, ktc_n_mm2: 900, krc_n_mm2: 300, uncertainty: 0.4, "
+           "source: \"measured cases: ten of ours\"}\n"),
+      "DATA-SOURCE");
   EXPECT_EQ(code("    mechanistic:\n      - {substrate: hss, ktc_n_mm2: 900, krc_n_mm2: 300}\n"),
             "DATA-MISSING");
   EXPECT_EQ(

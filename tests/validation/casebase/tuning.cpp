@@ -17,7 +17,7 @@ namespace tune = casebase::tune;
 
 constexpr std::uint64_t kFirstSeed =
     2001;  // none of which the tuner's or the shop's constants were chosen by
-constexpr int kShops = 30, kParts = 40;
+constexpr int kShops = 30, kParts = 40, kForceShops = 60;
 
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
@@ -66,6 +66,26 @@ Table shop_by_shop(const testing::Summary& shops) {
 
 std::string of(int hits, int n) { return std::to_string(hits) + " of " + std::to_string(n); }
 
+/// Forces of further edges by the card and by the corrected card.
+std::string forces_text() {
+  const testing::ForceForecasts f = testing::forecast_forces(kFirstSeed, kForceShops);
+  const auto row = [&](const char* name, std::vector<double> ln, int over) {
+    return std::vector<std::string>{
+        name, fixed(std::exp(quantile(ln, 0.0)), 2) + " to " + fixed(std::exp(quantile(ln, 1.0)), 2),
+        fixed(std::exp(quantile(ln, 0.5)), 2), of(over, f.cuts),
+        fixed(100.0 * testing::clopper_pearson_upper(over, f.cuts), 1) + " %"};
+  };
+  const Table table{{"load that limits are held against", "over a shop's true mean force", "median",
+                     "cuts beyond it", "upper bound (95 %)"},
+                    {row("by the card", f.ln_held_card, f.over_card),
+                     row("by the card as four edges correct it", f.ln_held_cases, f.over_cases)}};
+  return "Forces of ten further edges in each of " + of(f.taken, f.shops) +
+         " shops whose first four, cut at 80, 100 and 110 % of the planned feed, correct the card (the usual "
+         "margin states 16 %):\n\n" +
+         markdown(table) + "\nOf the first cuts of those edges " + of(f.within_90, f.sharp) +
+         " lie within the interval of 90 % that the correction states.\n";
+}
+
 }  // namespace
 
 Comparison tuning(Extent extent) {
@@ -109,6 +129,7 @@ Comparison tuning(Extent extent) {
              fixed(std::exp(between.value + between.half_90), 3) + ".\n" + "\nThe other " +
              std::to_string(shops.shops - shops.sound) + ":\n\n" + markdown(unsound) +
              "\nEach shop; a time is that of the last ten parts over the handbook's:\n\n" + markdown(each);
+  out.text += "\n" + forces_text();
   const bool lines = tune::TuneOptions{}.learner == tune::Learner::kRegression;
   const ArmSummary& taken =
       shops.arms[static_cast<std::size_t>(lines ? testing::Arm::kRegression : testing::Arm::kProcess)];

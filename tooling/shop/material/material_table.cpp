@@ -4,6 +4,7 @@
 
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/range/ranges.h"
+#include "planner/model/plan/resources/by_cases.h"
 #include "tooling/shop/data/data.h"
 #include "tooling/shop/data/tree.h"
 #include "tooling/shop/material/iso_groups.h"
@@ -64,6 +65,13 @@ std::string read_substrate(Fields& f) {
   return out;
 }
 
+/// What planning makes of cases is left out when a part is planned anew: a table's own row may not be.
+void refuse_mark(Fields& r, const char* of) {
+  r.fault("DATA-SOURCE",
+          "a source begins '" + std::string(model::kByCases) + "', which is how planning marks its own", of,
+          r.line(), "name the source in other words");
+}
+
 void read_sets(Fields& f, WorkMaterial& m) {
   const Node* rows = f.child("mechanistic", false);
   if (rows == nullptr) return;
@@ -81,6 +89,7 @@ void read_sets(Fields& f, WorkMaterial& m) {
     set.uncertainty = r.number("uncertainty");
     set.source = r.source();
     if (set.source.empty()) r.fault("DATA-SOURCE", "no source is stated", "mechanistic", r.line());
+    if (model::by_cases(set)) refuse_mark(r, "mechanistic");
     if (r.fault_count() == before) {
       check(set.ktc_n_mm2, range::kKtcNMm2, "ktc_n_mm2", r);
       check(set.krc_n_mm2, range::kKrcNMm2, "krc_n_mm2", r);
@@ -116,6 +125,7 @@ void read_life(Fields& f, WorkMaterial& m) {
     law.scatter = r.number_or("scatter", 0.0);
     law.source = r.source();
     if (law.source.empty()) r.fault("DATA-SOURCE", "no source is stated", "life", r.line());
+    if (model::by_cases(law)) refuse_mark(r, "life");
     if (r.fault_count() == before) {
       check(law.v0_m_min, range::kLifeSpeedMMin, "v0_m_min", r);
       check(law.life_min, range::kLifeMin, "life_min", r);

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/step/record/expected_by_cases.h"
 #include "planner/physics/motion/time.h"
 #include "planner/proof/verify/verify.h"
 
@@ -37,7 +38,10 @@ std::string amounts(const Ending& end) {
     out.push_back(counted(end.tools, "tool", "tools") +
                   (end.to_load > 0 ? " (" + std::to_string(end.to_load) + " to load)" : ""));
   }
-  if (end.time_s) out.push_back(motion::duration_text(*end.time_s));
+  if (end.time_s) {
+    out.push_back(motion::duration_text(*end.time_s));
+    if (!end.time_by_cases.empty()) out.back() += " (by cases " + end.time_by_cases + ")";
+  }
   return joined(out, ", ");
 }
 
@@ -143,6 +147,9 @@ void take_plan(const model::Plan& plan, Ending& into) {
   into.to_load = loaded == 0 ? 0 : plan.cutters.size() - loaded;
   // Steps without a path have no time.
   if (const auto t = motion::time_of(plan); t && t->total_s() > 0.0) into.time_s = t->total_s();
+  for (const model::Provenance& p : plan.provenance) {
+    if (p.what == step::kTimeByCases) into.time_by_cases = p.value;
+  }
   into.unplanned = unplanned_features(plan);
   into.features = features_of(plan);
 }

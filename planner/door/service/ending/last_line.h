@@ -30,6 +30,7 @@ struct Ending {
   std::size_t steps = 0, setups = 0, tools = 0;
   std::size_t to_load = 0;                      ///< tools that are not in the magazine, where others are
   std::optional<double> time_s = std::nullopt;  ///< nothing: not known
+  std::string time_by_cases = {};               ///< "2 min 51 s +- 9.4 s"; empty: no case says
   std::size_t files = 0;                        ///< check: plans and programs that were looked at
   std::size_t features = 0;                     ///< that are planned, or should be
   std::size_t unplanned = 0;                    ///< of these

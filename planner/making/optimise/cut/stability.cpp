@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/making/optimise/cut/limits.h"
+#include "planner/model/plan/resources/by_cases.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/stability.h"
@@ -37,6 +38,8 @@ std::optional<Lobes> lobes_of(const CutQuestion& q, double ae_mm, double fz_mm) 
   const double d = q.cutter.cutting_diameter_mm;
   const auto law = mechanics::force_law(q.material, q.cutter);
   const auto modes = mechanics::modes_for(q.machine, q.cutter.id);
+  // Kienzle's law counts whole, not by its slope at a chip; as cases correct it, too.
+  const bool corrected = law.mechanistic && model::kienzle_by_cases(q.material, q.cutter.substrate);
   Lobes out;
   for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
     mechanics::ChatterCut cut{.arc = mechanics::immersion_arc(std::min(ae_mm, d), d, direction),
@@ -44,9 +47,11 @@ std::optional<Lobes> lobes_of(const CutQuestion& q, double ae_mm, double fz_mm) 
     const double swept = std::max(cut.arc.exit_rad - cut.arc.entry_rad, 1e-6);
     const double mean = fz_mm * (std::cos(cut.arc.entry_rad) - std::cos(cut.arc.exit_rad)) / swept;
     const double kc = mechanics::specific_force_n_mm2(law.kienzle, std::max(mean, 1e-6));
-    cut.ktc_n_mm2 = law.uncertainty_factor * (law.mechanistic ? law.mechanistic->ktc_n_mm2 : kc);
-    cut.krc_n_mm2 = law.mechanistic ? law.uncertainty_factor * law.mechanistic->krc_n_mm2
-                                    : mechanics::kRadialToTangentialRatio * cut.ktc_n_mm2;
+    double ktc = law.mechanistic ? law.mechanistic->ktc_n_mm2 : kc;
+    if (corrected) ktc += law.mechanistic->kte_n_mm / std::max(mean, 1e-6);
+    cut.ktc_n_mm2 = law.uncertainty_factor * ktc;
+    cut.krc_n_mm2 = law.mechanistic && !corrected ? law.uncertainty_factor * law.mechanistic->krc_n_mm2
+                                                  : mechanics::kRadialToTangentialRatio * cut.ktc_n_mm2;
     auto lobes = mechanics::StabilityLobes::make(modes, cut);
     if (!lobes) return std::nullopt;
     const double engaged = cut.teeth * swept / (2.0 * std::numbers::pi);

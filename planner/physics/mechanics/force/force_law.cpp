@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/model/plan/resources/specific_force.h"
+
 namespace capstan::mechanics {
 
-const model::MechanisticSet* measured_set(const model::WorkMaterial& material, model::Substrate substrate) {
-  const auto it = std::find_if(
-      material.mechanistic.begin(), material.mechanistic.end(),
-      [&](const auto& set) { return set.substrate == model::to_text(substrate) && set.ktc_n_mm2 > 0.0; });
-  return it == material.mechanistic.end() ? nullptr : &*it;
-}
+using model::measured_set;
 
 double ForceMargin::factor() const {
   return std::exp(deviations * std::hypot(std::log(spread), std::log(wear), std::log(override_up)));
@@ -51,11 +48,42 @@ std::string force_source(const model::WorkMaterial& material, model::Substrate s
 }
 
 WorkMaterial milled_with(const model::WorkMaterial& material, const model::Cutter& cutter) {
-  const bool end_mill = model::has(cutter.cutter_class, model::CutterTrait::kEndMill) ||
-                        model::has(cutter.cutter_class, model::CutterTrait::kBall);
-  const bool raked = end_mill && material.iso_group != "H";
-  const double share = raked ? 1.0 - kForcePerDegreeOfRake * kEndMillRakeDeg : 1.0;
-  return {share * material.kc11_n_mm2, material.mc};
+  return {model::kienzle_share(material, cutter) * material.kc11_n_mm2, material.mc};
+}
+
+namespace {
+
+// The axial force of a set holds for any helix; that of Kienzle's law grows with it. Taken for 45 degrees,
+// the steepest of usual mills.
+constexpr double kSteepHelixTangent = 1.0;
+
+/// The tangent at this chip to the force per length of edge, kc1.1 h^(1 - mc), of an end mill or a face mill,
+/// whichever is more. That force bends downwards, so that its tangent is nowhere below it.
+model::MechanisticSet tangent_of(const model::WorkMaterial& m, double chip_mm) {
+  const double kc = m.kc11_n_mm2 * std::pow(chip_mm, -m.mc);
+  model::MechanisticSet set;
+  set.ktc_n_mm2 = (1.0 - m.mc) * kc;
+  set.kte_n_mm = m.mc * kc * chip_mm;
+  set.krc_n_mm2 = kRadialToTangentialRatio * set.ktc_n_mm2;
+  set.kre_n_mm = kRadialToTangentialRatio * set.kte_n_mm;
+  set.kac_n_mm2 = kAxialToTangentialRatio * kSteepHelixTangent * set.ktc_n_mm2;
+  set.kae_n_mm = kAxialToTangentialRatio * kSteepHelixTangent * set.kte_n_mm;
+  return set;
+}
+
+}  // namespace
+
+model::MechanisticSet corrected_set(const model::WorkMaterial& material, model::Substrate substrate,
+                                    const SetCorrection& by) {
+  const model::MechanisticSet* before = measured_set(material, substrate);
+  model::MechanisticSet set = before != nullptr ? *before : tangent_of(material, by.chip_mm);
+  for (double* k :
+       {&set.ktc_n_mm2, &set.kte_n_mm, &set.krc_n_mm2, &set.kre_n_mm, &set.kac_n_mm2, &set.kae_n_mm})
+    *k *= by.factor;
+  set.substrate = model::to_text(substrate);
+  set.uncertainty = by.spread - 1.0;
+  set.source = by.source;
+  return set;
 }
 
 ForceLaw force_law(const model::WorkMaterial& material, const model::Cutter& cutter) {

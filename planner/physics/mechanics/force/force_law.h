@@ -5,6 +5,7 @@
 #include "planner/ground/vocabulary/noun_kind.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/resources/material.h"
+#include "planner/model/plan/resources/specific_force.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/loads/margin.h"
 #include "planner/physics/mechanics/loads/section.h"
@@ -29,9 +30,7 @@ struct MarginAsked {
   double deviations = kUsualMargin.deviations;
 };
 
-/// The measured set of the material: the first for the tool's substrate; null if there is none.
-[[nodiscard]] const model::MechanisticSet* measured_set(const model::WorkMaterial& material,
-                                                        model::Substrate substrate);
+using model::measured_set;
 
 /// Whether the law of milling holds for a cut: all but drilling, reaming and tapping; a thread or a hole may
 /// be milled.
@@ -42,8 +41,20 @@ struct MarginAsked {
                                        bool milled);
 
 /// Kienzle's coefficients of a material as they hold for milling with this cutter: less by
-/// kForcePerDegreeOfRake for each degree of its rake (kEndMillRakeDeg).
+/// model::kForcePerDegreeOfRake for each degree of its rake (model::kEndMillRakeDeg).
 [[nodiscard]] WorkMaterial milled_with(const model::WorkMaterial& material, const model::Cutter& cutter);
+
+/// What cuts say of a card's law of milling: forces are this factor of the card's at this thickness of the
+/// chip, mm, and those of a further edge lie within a factor of `spread` (one standard deviation).
+struct SetCorrection {
+  double factor = 1.0, spread = 1.0, chip_mm = 0.0;
+  std::string source;
+};
+/// The card's law of milling with that correction, as a measured set that goes before the card's own: its set
+/// for the substrate times the factor; where it has none, Kienzle's law for a rake of 0 times the factor, as
+/// the tangent at that chip (never below the law), with kRadialToTangentialRatio and kAxialToTangentialRatio.
+[[nodiscard]] model::MechanisticSet corrected_set(const model::WorkMaterial& material,
+                                                  model::Substrate substrate, const SetCorrection& by);
 
 /// The measured set where there is one for the cutter's substrate, else Kienzle's law; uncertainty_factor is
 /// the margin's spread. The Kienzle values (`milled_with`) are there either way.

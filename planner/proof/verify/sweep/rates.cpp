@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/plan/resources/specific_force.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/stated_values.h"
@@ -162,7 +163,7 @@ double StepChecks::specific_force(double chip_mm) const {
       std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
   // Solid mills cut with a rake, but for hardened steel.
   const bool raked = is_raked(cutter_.cutter_class) && plan_.material.iso_group != "H";
-  const double rake = raked ? 1.0 - mechanics::kForcePerDegreeOfRake * mechanics::kEndMillRakeDeg : 1.0;
+  const double rake = raked ? 1.0 - model::kForcePerDegreeOfRake * model::kEndMillRakeDeg : 1.0;
   const double kc =
       rake * plan_.material.kc11_n_mm2 * std::pow(h, -plan_.material.mc) * mechanics::kWearForceFactor;
   return cutter_.cutter_class == CutterClass::kReamer ? kc * mechanics::kReamingFrictionFactor : kc;

@@ -53,7 +53,8 @@ TEST(Import, TimeSpeedAndFeedOfAStepAreThoseOfTheLog) {
   EXPECT_EQ(drill.from.machine, "M1");
   EXPECT_EQ(drill.origin, Origin::kMeasured);
   EXPECT_DOUBLE_EQ(drill.observed.time_s->value, 10.0);
-  EXPECT_NEAR(drill.bound.fz_mm, 0.1, 1e-9);                     // 600 / 3000 / 2
+  EXPECT_NEAR(drill.bound.fz_mm, 0.1, 1e-9);  // 600 / 3000 / 2
+  EXPECT_NEAR(drill.observed.executed_fz_mm->value, 0.1, 1e-9);
   EXPECT_NEAR(drill.predicted.time_s, 10.0, 1e-9);               // 100 mm at 600 mm/min
   EXPECT_NEAR(drill.bound.vc_m_min, 94.2478, 1e-3);              // 10 mm at 3000 1/min
   EXPECT_DOUBLE_EQ(cases->back().observed.time_s->value, 20.0);  // not the two seconds of standing still

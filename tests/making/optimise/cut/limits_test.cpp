@@ -11,6 +11,7 @@
 #include "planner/making/optimise/cut.h"
 #include "planner/making/optimise/cut/cost.h"
 #include "planner/making/optimise/cut/stability.h"
+#include "planner/model/plan/resources/by_cases.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/stability.h"
@@ -179,6 +180,27 @@ TEST_F(CutLimits, KeepsOutOfTheLobesThatTheModesTell) {
   q.ae_mm = 6.0;
   const CutAnswer never = answered(q);
   EXPECT_FALSE(never.feasible);
+}
+
+// Chatter grows with the slope of a law of force, which is less than the whole: what cases say of Kienzle's
+// law allows no deeper a cut by its form.
+TEST(StableDepth, OfKienzlesLawAsCasesCorrectItIsByTheWholeForceToo) {
+  CutQuestion q = questions::roughing();
+  q.machine.modes = {{"", "x", 700.0, 0.03, 8000.0}, {"", "y", 700.0, 0.03, 8000.0}};
+  constexpr double kAe = 3.0, kFz = 0.06, kRpm = 4000.0, kFactor = 1.0;
+  q.cutter.cutter_class = model::CutterClass::kFacemill;  // without a rake, as the corrected law
+  const auto by_card = stable_depth(q, kAe, kFz, kRpm);
+  const double spread = mechanics::force_margin(q.material, q.cutter.substrate).spread;
+  const double chip = mechanics::mean_chip_thickness_mm(kFz, kAe, 10.0);
+  mechanics::SetCorrection by;
+  by.factor = kFactor;
+  by.spread = spread;
+  by.chip_mm = chip;
+  by.source.assign(model::kByCases);
+  q.material.mechanistic.push_back(mechanics::corrected_set(q.material, q.cutter.substrate, by));
+  const auto by_cases = stable_depth(q, kAe, kFz, kRpm);
+  ASSERT_TRUE(by_card && by_cases);
+  EXPECT_NEAR(*by_cases, *by_card, 1e-9 * *by_card);
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "casebase/tune/card.h"
 #include "casebase/tune/picture.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
@@ -162,8 +165,8 @@ Tree view_json(const StepAdvice& s, const tune::SettingView& v) {
   return t;
 }
 
-std::string all_json(const std::vector<StepAdvice>& steps,
-                     const std::vector<MaterialCorrections>& materials) {
+std::string all_json(const std::vector<StepAdvice>& steps, const std::vector<MaterialCorrections>& materials,
+                     const std::vector<std::string>& taken) {
   Tree list = Tree::array();
   for (const StepAdvice& s : steps) {
     Tree t;
@@ -211,6 +214,7 @@ std::string all_json(const std::vector<StepAdvice>& steps,
   Tree out;
   out["steps"] = std::move(list);
   out["models"] = std::move(models);
+  out["taken_by_planning"] = taken;
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -245,9 +249,8 @@ Result<std::vector<StepAdvice>> advise_steps(const model::Plan& plan, const case
 constexpr double kUsualOverride = 1.2;
 
 /// Corrections by material and tool class, in the order of their names.
-Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase& base) {
-  const auto materials = tooling::shipped_materials();
-  if (!materials) return tl::unexpected(materials.error());
+std::vector<MaterialCorrections> correct_models(const casebase::CaseBase& base,
+                                                const std::vector<model::WorkMaterial>& materials) {
   std::map<std::pair<std::string, std::string>, std::vector<casebase::Case>> groups;
   for (casebase::Case& c : base.cases()) {
     auto& group = groups[{c.asked.material_group, c.asked.tool_class}];
@@ -257,7 +260,7 @@ Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase
   for (const auto& [names, cases] : groups) {
     MaterialCorrections m{
         .material = names.first, .tool = names.second, .corrections = {}, .handbook = {}, .card = {}};
-    for (const model::WorkMaterial& material : *materials) {
+    for (const model::WorkMaterial& material : materials) {
       if (casebase::material_group_of(material) != names.first) continue;
       m.handbook.force = {material.kc11_n_mm2, material.mc, mechanics::kienzle_margin(material).spread};
       for (const model::ToolLifeLaw& law : material.life) {
@@ -269,6 +272,28 @@ Result<std::vector<MaterialCorrections>> correct_models(const casebase::CaseBase
     m.corrections = tune::corrections_of(cases, m.handbook);
     m.card = tune::corrected(std::move(m.card), m.corrections);
     if (!models_of(m.corrections).empty()) out.push_back(std::move(m));
+  }
+  return out;
+}
+
+/// What `plan --cases` takes of these cases on the material's card, by material and machine.
+std::vector<std::string> taken_by_planning(const casebase::CaseBase& base,
+                                           const std::vector<model::WorkMaterial>& materials) {
+  std::map<std::pair<std::string, std::string>, std::vector<casebase::Case>> groups;
+  for (casebase::Case& c : base.measured_in({}, {}, std::numeric_limits<std::size_t>::max())) {
+    auto& group = groups[{c.asked.material_group, c.asked.machine_class}];
+    group.push_back(std::move(c));
+  }
+  std::vector<std::string> out;
+  for (const auto& [names, cases] : groups) {
+    for (const model::WorkMaterial& card : materials) {
+      if (casebase::material_group_of(card) != names.first) continue;
+      const auto spread_of = [&](model::Substrate s) { return mechanics::force_margin(card, s).spread; };
+      for (const tune::CardCorrection& c : tune::card_corrections(cases, card, spread_of)) {
+        out.push_back(names.first + " on " + names.second + ": " + c.words() +
+                      (c.taken() ? "; by cases " + c.named() : "; not taken: " + c.why_not));
+      }
+    }
   }
   return out;
 }
@@ -324,8 +349,9 @@ int run_cases_tune(Session& s) {
     if (!advised) return s.end(advised.error(), kImpossible);
     steps = *std::move(advised);
   }
-  auto materials = correct_models(*base);
-  if (!materials) return s.end(materials.error(), kUnreadable);
+  const auto cards = tooling::shipped_materials();
+  if (!cards) return s.end(cards.error(), kUnreadable);
+  const std::vector<MaterialCorrections> materials = correct_models(*base, *cards);
   report_faults(s, *base);
   if (!s.options.outputs.empty()) {
     if (auto drawn = write_pictures(s.options.outputs.front(), steps, options, s.job); !drawn)
@@ -338,11 +364,16 @@ int run_cases_tune(Session& s) {
     faster += step.advice.proven.time < 1.0 && !(step.advice.proven.at == tune::Setting{}) ? 1 : 0;
     lowered += step.advice.lowered ? 1 : 0;
   }
-  for (const MaterialCorrections& m : *materials) out += corrections_text(m);
+  for (const MaterialCorrections& m : materials) out += corrections_text(m);
+  const std::vector<std::string> taken = taken_by_planning(*base, *cards);
+  if (!taken.empty()) {
+    out += "plan --cases takes of these\n";
+    for (const std::string& line : taken) out += "  " + line + "\n";
+  }
   if (out.empty()) out = "no measured case corrects anything\n";
   s.summary = counted(steps.size(), "step", "steps") + ": " + std::to_string(faster) +
               " with proven faster values, " + std::to_string(lowered) + " that cases speak against";
-  return print(s.options.json ? all_json(steps, *materials) : out) ? kDone : kImpossible;
+  return print(s.options.json ? all_json(steps, materials, taken) : out) ? kDone : kImpossible;
 }
 
 }  // namespace capstan::app

@@ -1,0 +1,215 @@
+#include "casebase/tune/card.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "casebase/planned.h"
+#include "casebase/record/failing.h"
+#include "casebase/tune/evidence.h"
+#include "casebase/tune/from_case.h"
+#include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/specific_force.h"
+
+namespace capstan::casebase::tune {
+namespace {
+
+/// Digits of an id that are enough to find a case.
+constexpr std::size_t kIdShown = 12;
+
+bool positive(double v) { return std::isfinite(v) && v > 0.0; }
+bool measured(const std::optional<Figure>& f) {
+  return f && f->origin == Origin::kMeasured && positive(f->value);
+}
+
+/// What the cases of one substrate observed, edges as numbers; ids beside the samples.
+struct Observations {
+  std::vector<ForceSample> forces;
+  std::vector<LifeSample> lives;
+  std::vector<std::string> forces_of, lives_of;
+  std::size_t unfed = 0;
+};
+
+class Collector {
+ public:
+  explicit Collector(const model::WorkMaterial& card) : card_(card), group_(material_group_of(card)) {}
+
+  void hear(const Case& c) {
+    const std::string edge = edge_of(c.from);
+    if (c.origin != Origin::kMeasured || c.asked.material_group != group_ || edge.empty()) return;
+    if (cut_short(c.observed)) return;
+    const auto substrate = model::substrate_from_text(
+        std::string_view(c.asked.tool_class).substr(0, c.asked.tool_class.find('/')));
+    if (!substrate) return;
+    const std::size_t number = edges_.emplace(edge, edges_.size()).first->second;
+    Observations& to = of_[*substrate];
+    hear_force(c, *substrate, number, to);
+    if (c.observed.wear_series_mm.origin != Origin::kMeasured) return;
+    if (const auto life = life_of(readings_of(c.observed.wear_series_mm), kWornMm)) {
+      to.lives.push_back({c.bound.vc_m_min, c.bound.fz_mm, c.bound.ap_mm, *life, number});
+      to.lives_of.push_back(c.id);
+    }
+  }
+  [[nodiscard]] const std::map<model::Substrate, Observations>& of() const { return of_; }
+
+ private:
+  /// A force is of the feed that was executed. Chips are as much thinner as the feed was less.
+  void hear_force(const Case& c, model::Substrate substrate, std::size_t edge, Observations& to) {
+    const Predicted& p = c.predicted;
+    const Bound& b = c.bound;
+    const auto &force = c.observed.peak_force_n, &fed = c.observed.executed_fz_mm;
+    if (!measured(force) || !positive(p.peak_force_n) || !(p.force_margin >= 1.0) ||
+        !positive(p.specific_force_n_mm2) || !positive(b.mean_chip_mm) || !positive(b.fz_mm))
+      return;
+    const double share = measured(fed) ? fed->value / b.fz_mm : 0.0;
+    if (!(share >= 1.0 / kMostMultiplier && share <= kMostMultiplier)) {
+      ++to.unfed;
+      return;
+    }
+    if (!heard_.emplace(force->value, p.peak_force_n, b.vc_m_min, b.fz_mm).second) return;
+    const double kc = p.specific_force_n_mm2 * force->value * p.force_margin / p.peak_force_n / share;
+    to.forces.push_back({share * b.mean_chip_mm, kc / rake_share(substrate, c.asked.tool_class), edge});
+    to.forces_of.push_back(c.id);
+  }
+
+  /// Kienzle's law is the card's for a rake of 0. What a raked mill saves is in its own force: without
+  /// it one factor holds for all mills, and is too much for raked ones rather than too little for others.
+  [[nodiscard]] double rake_share(model::Substrate substrate, std::string_view tool_class) const {
+    const auto kind = model::cutter_class_from_text(tool_class.substr(tool_class.find('/') + 1));
+    if (!kind || model::measured_set(card_, substrate) != nullptr) return 1.0;
+    model::Cutter cutter;
+    cutter.cutter_class = *kind;
+    return model::kienzle_share(card_, cutter);
+  }
+
+  const model::WorkMaterial& card_;
+  std::string group_;
+  std::map<std::string, std::size_t> edges_;
+  std::map<model::Substrate, Observations> of_;
+  std::set<std::tuple<double, double, double, double>> heard_;  // copies under other names are one
+};
+
+/// Why planning does not take a correction; empty: it does. `unsafe_up`: a factor above 1 is the unsafe way.
+/// A force that the others do not explain narrows and lowers nothing; what it raises holds, with the card's
+/// spread at least.
+void judge(CardCorrection& c, double sign, double spread_believed) {
+  const double ln_unsafe = sign * std::log(c.factor);  // above 0: more force, or less life, than the card
+  if (c.edges < kLeastEdges) {
+    c.why_not =
+        fmt::format("measured on {}, and {} are needed", counted(c.edges, "edge", "edges"), kLeastEdges);
+  } else if (!c.beyond.empty() && ln_unsafe <= 0.0) {
+    c.why_not = "nothing is lowered or narrowed against what the others do not explain";
+  } else if (ln_unsafe < -kBelievedDeviations * std::log(spread_believed)) {
+    c.why_not = fmt::format("further from the card than {} standard deviations of its spread",
+                            trimmed(kBelievedDeviations, 1));
+  }
+  if (!c.beyond.empty()) c.spread = std::max(c.spread, c.spread_before);
+}
+
+std::vector<std::string> at_places(const std::vector<std::string>& ids,
+                                   const std::vector<std::size_t>& places) {
+  std::vector<std::string> out;
+  for (const std::size_t place : places) out.push_back(ids[place]);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+std::vector<std::string> sorted(std::vector<std::string> ids) {
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+std::optional<CardCorrection> force_of(const Observations& seen, const model::WorkMaterial& card,
+                                       model::Substrate substrate, double spread) {
+  const model::MechanisticSet* set = model::measured_set(card, substrate);
+  const auto law = [&](double chip_mm) {
+    return set != nullptr ? set->ktc_n_mm2 + set->kte_n_mm / chip_mm
+                          : card.kc11_n_mm2 * std::pow(chip_mm, -card.mc);
+  };
+  CardCorrection out{.model = CardModel::kForce, .substrate = substrate, .law = {}, .why_not = {}};
+  out.spread_before = out.spread = spread;
+  out.of_what = set != nullptr ? "mills as those of its set" : "mills, as for a rake of 0";
+  out.unfed = seen.unfed;
+  const auto fit = correct_force_factor(seen.forces, law, spread);
+  if (!fit) {
+    if (seen.unfed == 0) return std::nullopt;
+    out.why_not = "no case says with which feed its force was measured (executed_fz_mm)";
+    return out;
+  }
+  out.cases = fit->cases;
+  out.edges = fit->edges;
+  out.factor = fit->factor;
+  out.spread = std::max(kLeastForceSpread, fit->spread);
+  out.chip_mm = fit->chip_mm;
+  out.ids = sorted(seen.forces_of);
+  out.beyond = at_places(seen.forces_of, fit->beyond);
+  judge(out, 1.0, spread);
+  return out;
+}
+
+std::optional<CardCorrection> life_of(const Observations& seen, const model::WorkMaterial& card,
+                                      model::Substrate substrate) {
+  const auto law = std::find_if(card.life.begin(), card.life.end(), [&](const model::ToolLifeLaw& l) {
+    return l.substrate == model::to_text(substrate) && l.life_min > 0.0;
+  });
+  if (law == card.life.end()) return std::nullopt;
+  const auto fit = correct_life(seen.lives, *law);
+  if (!fit) return std::nullopt;
+  const double scatter = law->scatter > 0.0 ? law->scatter : kLifeScatter;
+  CardCorrection out{.model = CardModel::kLife, .substrate = substrate, .law = fit->law, .why_not = {}};
+  out.of_what = "tools";
+  out.cases = fit->how.cases;
+  out.edges = fit->how.groups;
+  out.factor = fit->law.life_min / law->life_min;
+  out.spread_before = std::exp(std::hypot(kLifeSpread, scatter));
+  out.spread = std::exp(fit->law.scatter);
+  out.ids = sorted(seen.lives_of);
+  out.beyond = at_places(seen.lives_of, fit->beyond);
+  judge(out, -1.0, out.spread_before);
+  out.law.scatter = std::log(out.spread);
+  return out;
+}
+
+}  // namespace
+
+std::string CardCorrection::words() const {
+  std::string out = fmt::format("{} of {} {}", model == CardModel::kForce ? "cutting force" : "life",
+                                model::to_text(substrate), of_what);
+  if (cases > 0)
+    out += fmt::format(": {} of the card's, spread {} instead of {} ({} on {})", trimmed(factor, 2),
+                       trimmed(spread, 2), trimmed(spread_before, 2), counted(cases, "case", "cases"),
+                       counted(edges, "edge", "edges"));
+  if (!beyond.empty())
+    out += fmt::format("; {} beyond what the others explain, as {}",
+                       counted(beyond.size(), "case lies", "cases lie"), beyond.front().substr(0, kIdShown));
+  if (unfed > 0)
+    out += fmt::format("; {} not heard, without the feed that was executed or far from the planned one",
+                       counted(unfed, "force is", "forces are"));
+  return out;
+}
+
+std::string CardCorrection::named() const {
+  std::string out;
+  const std::size_t shown = std::min(ids.size(), kCasesNamed);
+  for (std::size_t i = 0; i < shown; ++i) out += (i == 0 ? "" : ", ") + ids[i].substr(0, kIdShown);
+  if (shown < ids.size()) out += fmt::format(" and {} more", ids.size() - shown);
+  return out;
+}
+
+std::vector<CardCorrection> card_corrections(std::span<const Case> cases, const model::WorkMaterial& card,
+                                             const SpreadOf& spread_of) {
+  Collector all(card);
+  for (const Case& c : cases) all.hear(c);
+  std::vector<CardCorrection> out;
+  for (const auto& [substrate, seen] : all.of()) {
+    if (auto force = force_of(seen, card, substrate, spread_of(substrate))) out.push_back(*std::move(force));
+    if (auto life = life_of(seen, card, substrate)) out.push_back(*std::move(life));
+  }
+  return out;
+}
+
+}  // namespace capstan::casebase::tune

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "casebase/record/case.h"
+#include "casebase/tune/corrections.h"
+#include "planner/model/plan/cutter/cutter.h"
+#include "planner/model/plan/resources/material.h"
+
+/// What measured cases say of a material's card: planning takes it in place of the card's own numbers.
+///
+/// Force   each case gives ln(kc observed / kc of the card) at its mean chip as it was executed: the feed of
+///         the case over the planned one, times the planned chip. kc observed is the specific force that the
+///         plan of the case used, times observed over predicted peak force without its margin, over that
+///         share of the feed. One factor is fitted to them, each edge a group of its own, with the card's
+///         spread as its prior. It is of the whole force of a mill: all six coefficients of a set, the
+///         axial edge force (kae) among them, are multiplied by it, for a peak force tells no two of them
+///         apart. Kienzle's law is taken for a rake of 0, and the rake of a case's mill is taken out of its
+///         force, so that what raked mills saved does not count for mills without a rake. A set of the card
+///         is of the rake of the mills that it was measured with, which nobody states.
+/// Life    the extended Taylor law, as `correct_life`.
+///
+/// What is unsafe is no outlier: a force above, or a life below, what the others explain forbids that
+/// anything is lowered or narrowed (`CardCorrection::beyond`).
+namespace capstan::casebase::tune {
+
+/// Named edges that were measured before planning takes what they say: fewer do not show how far edges
+/// differ. Default, unsourced: as many as the repeats that prove a start (recall/advice.h).
+inline constexpr std::size_t kLeastEdges = 3;
+/// The least factor of one standard deviation of a force that evidence may narrow to: lots of one material
+/// differ, and all cases may be of one lot. Default, unsourced.
+inline constexpr double kLeastForceSpread = 1.1;
+/// Standard deviations of what is held beforehand beyond which a smaller force, or a longer life, is not
+/// believed: 98 of 100 lie within. A larger force and a shorter life are.
+inline constexpr double kBelievedDeviations = 2.0;
+
+enum class CardModel : unsigned char { kForce, kLife };
+
+struct CardCorrection {
+  CardModel model = CardModel::kForce;
+  model::Substrate substrate = model::Substrate::kCarbide;
+  std::size_t cases = 0, edges = 0;
+  double factor = 1.0;                ///< force at `chip_mm`, or life at the law's reference, over the card's
+  double spread_before = 1.0;         ///< factor of one standard deviation: the card's,
+  double spread = 1.0;                ///< and of a further edge by these cases
+  double chip_mm = 0.0;               ///< mean of the chips observed (geometric)
+  model::ToolLifeLaw law;             ///< of kLife
+  std::string of_what = {};           ///< which cuts it holds for: "mills, as for a rake of 0"
+  std::vector<std::string> ids = {};  ///< of the cases heard, by id
+  std::vector<std::string> beyond = {};  ///< of those that the others do not explain, on the unsafe side
+  std::size_t unfed =
+      0;  ///< forces that are not heard, for their cases do not say with which feed they were cut
+  std::string why_not;  ///< why planning does not take it; empty: it does
+
+  [[nodiscard]] bool taken() const { return why_not.empty(); }
+  /// "cutting force of carbide mills, as for a rake of 0: 0.82 of the card's, spread 1.14 instead of 1.5 (18
+  /// cases on 6 edges)", and what is not heard or not explained.
+  [[nodiscard]] std::string words() const;
+  /// "1f0c53c2, 2b77a901 and 16 more".
+  [[nodiscard]] std::string named() const;
+};
+/// Cases that `CardCorrection::named` names. As kLeanedShown of recall/advice.h.
+inline constexpr std::size_t kCasesNamed = 8;
+
+/// The spread of a card's forces for milling with a substrate, as a factor (mechanics::ForceMargin::spread).
+using SpreadOf = std::function<double(model::Substrate)>;
+
+/// What these cases say of the card, in the order of substrates; nothing where none says anything. Heard are
+/// measured figures of named edges, of cases of this material whose plan says what it expected, of forces
+/// those whose executed feed was measured, too, within kMostMultiplier of the planned one; not of cuts whose
+/// tool broke or chattered. Equal figures count once. `card`: without the correction of any case.
+[[nodiscard]] std::vector<CardCorrection> card_corrections(std::span<const Case> cases,
+                                                           const model::WorkMaterial& card,
+                                                           const SpreadOf& spread_of);
+
+}  // namespace capstan::casebase::tune

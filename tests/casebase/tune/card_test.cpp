@@ -1,0 +1,261 @@
+#include "casebase/tune/card.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "casebase/casebase.h"
+#include "planner/model/plan/resources/specific_force.h"
+
+namespace capstan::casebase::tune {
+namespace {
+
+constexpr double kSpread = 1.5;    // of the card
+constexpr double kMargin = 1.7;    // of the plans that the cases are of
+constexpr double kPlannedN = 850;  // with that margin: 500 N are expected of a sharp edge
+
+model::WorkMaterial card() {
+  model::WorkMaterial m;
+  m.id = "c45";
+  m.iso_group = "P";
+  m.kc11_n_mm2 = 1800.0;
+  m.mc = 0.2;
+  model::ToolLifeLaw& law = m.life.emplace_back();
+  law.substrate = "carbide";
+  law.v0_m_min = 200.0;
+  law.life_min = 30.0;
+  law.n = 0.25;
+  law.scatter = 0.3;
+  return m;
+}
+
+model::Cutter mill(const std::string& kind) {
+  model::Cutter c;
+  c.substrate = model::Substrate::kCarbide;
+  c.cutter_class = model::cutter_class_from_text(kind).value();
+  return c;
+}
+
+/// A cut whose force was `factor` of what the card's law expects; three on each edge, 4 % from cut to cut.
+Case cut(int i, double factor) {
+  Case c;
+  c.origin = Origin::kMeasured;
+  c.asked.material_group = material_group_of(card());
+  c.asked.tool_class = "carbide/endmill";
+  c.bound.vc_m_min = 200.0 + i;
+  c.bound.fz_mm = 0.1;
+  c.bound.ap_mm = 2.0;
+  c.bound.mean_chip_mm = 0.05;
+  c.predicted.peak_force_n = kPlannedN;
+  c.predicted.force_margin = kMargin;
+  c.predicted.specific_force_n_mm2 = model::specific_force_n_mm2(card(), mill("endmill"), 0.05);
+  c.observed.peak_force_n = Figure{.value = factor * kPlannedN / kMargin * (1.0 + 0.04 * (i % 3 - 1))};
+  c.observed.executed_fz_mm = Figure{.value = c.bound.fz_mm};
+  c.from.tool_instance = "E" + std::to_string(i / 3);
+  c.from.source = "log";
+  return c;
+}
+std::vector<Case> cuts(int count, double factor) {
+  std::vector<Case> out;
+  for (int i = 0; i < count; ++i) out.push_back(cut(i, factor));
+  return out;
+}
+std::vector<CardCorrection> corrections(const std::vector<Case>& cases,
+                                        const model::WorkMaterial& of = card()) {
+  return card_corrections(cases, of, [](model::Substrate) { return kSpread; });
+}
+
+TEST(CardCorrections, FindTheFactorOfTheForceAndNarrowItsSpread) {
+  const auto found = corrections(cuts(18, 0.8));
+  ASSERT_EQ(found.size(), 1U);
+  const CardCorrection& c = found.front();
+  EXPECT_TRUE(c.taken()) << c.why_not;
+  EXPECT_EQ(c.edges, 6U);
+  EXPECT_EQ(c.cases, 18U);
+  EXPECT_NEAR(c.factor, 0.8, 0.02);
+  EXPECT_GE(c.spread, kLeastForceSpread);
+  EXPECT_LT(c.spread, 0.5 * (1.0 + kSpread));
+  EXPECT_NEAR(c.chip_mm, 0.05, 1e-9);
+}
+
+TEST(CardCorrections, AreTheSameWhateverThePlansOfTheCasesExpected) {
+  // The later half was planned with what the earlier half had corrected, at another margin.
+  auto cases = cuts(18, 0.8);
+  const double share = model::kienzle_share(card(), mill("endmill"));  // the corrected law is for no rake
+  for (std::size_t i = 9; i < cases.size(); ++i) {
+    cases[i].predicted.specific_force_n_mm2 *= 0.8 / share;
+    cases[i].predicted.force_margin = 1.3;
+    cases[i].predicted.peak_force_n = 0.8 / share * 1.3 * kPlannedN / kMargin;
+  }
+  EXPECT_NEAR(corrections(cases).front().factor, corrections(cuts(18, 0.8)).front().factor, 1e-9);
+}
+
+TEST(CardCorrections, RakedMillsSayNothingTooLittleOfMillsWithout) {
+  // Each as its own law expects: the factor is of the law, not of the rake.
+  auto cases = cuts(9, 1.0);
+  for (int i = 9; i < 18; ++i) {
+    Case c = cut(i, 1.0);
+    c.asked.tool_class = "carbide/facemill";
+    c.predicted.specific_force_n_mm2 = model::specific_force_n_mm2(card(), mill("facemill"), 0.05);
+    cases.push_back(c);
+  }
+  EXPECT_NEAR(corrections(cases).front().factor, 1.0, 0.01);
+}
+
+TEST(CardCorrections, OfTwoEdgesAreToldAndNotTaken) {
+  const auto found = corrections(cuts(6, 0.8));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_FALSE(found.front().taken());
+  EXPECT_EQ(found.front().why_not, "measured on 2 edges, and 3 are needed");
+}
+
+TEST(CardCorrections, AForceTenTimesTooLowIsNotBelievedAndOneTooHighIs) {
+  EXPECT_FALSE(corrections(cuts(30, 0.1)).front().taken());
+  const auto high = corrections(cuts(30, 10.0));
+  EXPECT_TRUE(high.front().taken());
+  EXPECT_GT(high.front().factor, 5.0);
+}
+
+TEST(CardCorrections, AThousandCopiesUnderOtherNamesAreOne) {
+  std::vector<Case> copies;
+  for (int i = 0; i < 1000; ++i) {
+    copies.push_back(cut(1, 0.7));
+    copies.back().from.tool_instance = "E" + std::to_string(i);
+  }
+  const auto found = corrections(copies);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().cases, 1U);
+  EXPECT_FALSE(found.front().taken());
+}
+
+TEST(CardCorrections, HearOnlyMeasuredForcesOfThisMaterialWhoseEdgeAndExpectationAreKnown) {
+  const auto none = [](void (*change)(Case&)) {
+    auto cases = cuts(18, 0.8);
+    for (Case& c : cases) change(c);
+    return corrections(cases).empty();
+  };
+  EXPECT_TRUE(none([](Case& c) { c.origin = Origin::kEntered; }));
+  EXPECT_TRUE(none([](Case& c) { c.observed.peak_force_n->origin = Origin::kSimulated; }));
+  EXPECT_TRUE(none([](Case& c) { c.asked.material_group = "N/6061"; }));
+  EXPECT_TRUE(none([](Case& c) { c.from.tool_instance.clear(); }));
+  EXPECT_TRUE(none([](Case& c) { c.observed.breakage = Figure{.value = 1.0}; }));
+  EXPECT_TRUE(none([](Case& c) { c.observed.chatter = Figure{.value = 1.0}; }));
+  EXPECT_TRUE(none([](Case& c) { c.predicted.force_margin = 0.0; }));
+  EXPECT_TRUE(none([](Case& c) { c.predicted.specific_force_n_mm2 = 0.0; }));
+}
+
+TEST(CardCorrections, OneSensorThatReadsATenthMovesTheFactorLittle) {
+  auto cases = cuts(30, 1.0);
+  for (int i = 0; i < 3; ++i) cases[static_cast<std::size_t>(i)] = cut(i, 0.1);  // all cuts of one edge
+  EXPECT_NEAR(corrections(cases).front().factor, 1.0, 0.1);
+}
+
+TEST(CardCorrections, OneEdgeOfMoreForceThanTheOthersForbidsToLowerAndToNarrow) {
+  // Five edges at 0.8 of the card's force, and one that a robust fit alone would not hear.
+  for (const double high : {1.3, 1.6, 3.0}) {
+    auto cases = cuts(18, 0.8);
+    for (int i = 0; i < 3; ++i) {
+      cases[static_cast<std::size_t>(i)] = cut(i, high);
+      cases[static_cast<std::size_t>(i)].id = "high" + std::to_string(i);
+    }
+    const CardCorrection c = corrections(cases).front();
+    EXPECT_EQ(c.taken(), c.factor > 1.0) << high << ": " << c.words();
+    EXPECT_GE(c.taken() ? c.factor : 1.0, 1.0);
+    EXPECT_GE(c.spread, kSpread) << high;
+    EXPECT_EQ(c.beyond.size(), 3U) << high;
+    EXPECT_NE(c.words().find("3 cases lie beyond what the others explain, as high0"), std::string::npos)
+        << c.words();
+  }
+}
+
+TEST(CardCorrections, AForceBeyondTheOthersStillRaisesAndNarrowsNothing) {
+  auto cases = cuts(18, 1.5);
+  cases[17] = cut(17, 4.0);
+  const CardCorrection c = corrections(cases).front();
+  EXPECT_TRUE(c.taken()) << c.why_not;
+  EXPECT_EQ(c.beyond.size(), 1U);
+  EXPECT_GT(c.factor, 1.5);  // heard in full
+  EXPECT_GE(c.spread, kSpread);
+}
+
+TEST(CardCorrections, AForceSomewhatAboveTheOthersIsHeardInFull) {
+  // Not beyond chance, and no less heard than the others: its share of the mean is a sixth of ln(1.25).
+  auto cases = cuts(18, 1.0);
+  for (int i = 0; i < 3; ++i) cases[static_cast<std::size_t>(i)] = cut(i, 1.25);
+  const CardCorrection c = corrections(cases).front();
+  EXPECT_TRUE(c.beyond.empty()) << c.words();
+  EXPECT_GE(std::log(c.factor), 0.9 * std::log(1.25) / 6.0);
+}
+
+TEST(CardCorrections, AForceIsOfTheFeedThatWasExecuted) {
+  // The feed was turned down to 0.7: at that feed the card expects as much less as its law says.
+  const double share = 0.7;
+  auto slow = cuts(18, 1.0);
+  const double less = std::pow(share, 1.0 - card().mc);
+  for (Case& c : slow) {
+    c.observed.executed_fz_mm->value = share * c.bound.fz_mm;
+    c.observed.peak_force_n->value *= less;
+  }
+  const CardCorrection c = corrections(slow).front();
+  EXPECT_NEAR(c.factor, corrections(cuts(18, 1.0)).front().factor, 1e-9);
+  EXPECT_NEAR(c.chip_mm, share * 0.05, 1e-9);
+  // Taken as of the planned feed it would lower the force by a quarter, and nothing would say so.
+  for (Case& one : slow) one.observed.executed_fz_mm.reset();
+  const CardCorrection unfed = corrections(slow).front();
+  EXPECT_FALSE(unfed.taken());
+  EXPECT_EQ(unfed.unfed, 18U);
+  EXPECT_EQ(unfed.cases, 0U);
+}
+
+TEST(CardCorrections, AForceOfAFeedFarFromThePlannedOneIsNotHeard) {
+  auto cases = cuts(18, 0.8);
+  for (Case& c : cases) c.observed.executed_fz_mm->value = 0.4 * c.bound.fz_mm;
+  EXPECT_EQ(corrections(cases).front().cases, 0U);
+}
+
+TEST(CardCorrections, NameWhatTheForceIsOfAndItsCases) {
+  auto cases = cuts(18, 0.8);
+  for (std::size_t i = 0; i < cases.size(); ++i) cases[i].id = std::string(1, static_cast<char>('a' + i));
+  EXPECT_NE(corrections(cases).front().words().find("carbide mills, as for a rake of 0"), std::string::npos);
+  EXPECT_EQ(corrections(cases).front().named(), "a, b, c, d, e, f, g, h and 10 more");
+  model::WorkMaterial measured = card();
+  measured.mechanistic.push_back({"carbide", 1500.0, 30.0, 500.0, 30.0, 300.0, 1.0, 0.4, "a paper"});
+  EXPECT_NE(corrections(cases, measured).front().words().find("mills as those of its set"),
+            std::string::npos);
+}
+
+/// Edges worn to 0.3 mm after so many minutes each, 5 % from edge to edge.
+std::vector<Case> worn(const std::vector<double>& lives_min) {
+  std::vector<Case> cases;
+  for (int edge = 0; edge < static_cast<int>(lives_min.size()); ++edge) {
+    Case c = cut(3 * edge, 1.0);
+    c.observed.peak_force_n.reset();
+    c.bound.vc_m_min = 200.0;
+    const double life = lives_min[static_cast<std::size_t>(edge)] * (1.0 + 0.05 * (edge - 2));
+    for (double share = 0.1; share <= 1.2; share += 0.1)
+      c.observed.wear_series_mm.samples.push_back({60.0 * share * life, 0.3 * std::pow(share, 0.7)});
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+TEST(CardCorrections, OneEdgeThatWoreFarSoonerForbidsALongerLife) {
+  const auto found = corrections(worn({40.0, 40.0, 40.0, 40.0, 4.0, 40.0, 40.0, 40.0}));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_FALSE(found.front().taken()) << found.front().words();
+  EXPECT_EQ(found.front().beyond.size(), 1U);
+}
+
+TEST(CardCorrections, FindTheLifeOfFollowedEdges) {
+  const auto found = corrections(worn({20.0, 20.0, 20.0, 20.0, 20.0}));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().model, CardModel::kLife);
+  EXPECT_TRUE(found.front().taken()) << found.front().why_not;
+  EXPECT_NEAR(found.front().factor, 20.0 / 30.0, 0.05);
+  EXPECT_LT(found.front().spread, found.front().spread_before);
+}
+
+}  // namespace
+}  // namespace capstan::casebase::tune

@@ -1,0 +1,321 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "casebase/casebase.h"
+#include "planner/door/service/reading.h"
+#include "planner/physics/motion/time.h"
+#include "tests/door/app/command/command.h"
+#include "tests/support/corpus.h"
+
+// What measured cases say of the planner's models, in the next plan: through the whole command.
+
+namespace capstan::app {
+namespace {
+
+using casebase::Case;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class CaseModels : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    ASSERT_EQ(run("plan '" + part() + "' -o plain.json").code, 0);
+    plain_ = plan("plain.json");
+    Job job;
+    planned_ = casebase::cases_of(plain_, job);
+  }
+  static std::string part() { return capstan::testing::source_dir() + "/examples/bracket.p21"; }
+  model::Plan plan(const std::string& name) {
+    Job job;
+    auto read = service::read_plan(slurp(folder_ / name), name, job);
+    EXPECT_TRUE(read) << name;
+    return read ? *std::move(read) : model::Plan{};
+  }
+  /// The milled steps of the plan as cut on so many edges, with so much of the force expected.
+  std::vector<Case> cut(int edges, double share) const {
+    std::vector<Case> out;
+    for (int edge = 0; edge < edges; ++edge) {
+      for (Case c : planned_) {
+        if (!(c.predicted.specific_force_n_mm2 > 0.0)) continue;
+        c.origin = casebase::Origin::kMeasured;
+        c.observed = {};
+        const double expected = c.predicted.peak_force_n / c.predicted.force_margin;
+        c.observed.peak_force_n = casebase::Figure{.value = share * (1.0 + 0.01 * edge) * expected};
+        c.observed.executed_fz_mm = casebase::Figure{.value = c.bound.fz_mm};
+        c.from.tool_instance = "E" + std::to_string(edge);
+        c.from.part = std::to_string(edge);
+        c.from.source = "log";
+        out.push_back(c);
+      }
+    }
+    return out;
+  }
+  /// The steps of the plan as cut on so many parts in so much of the time planned, a hundredth more each.
+  std::vector<Case> timed(int parts, double share) const {
+    std::vector<Case> out;
+    for (int part = 0; part < parts; ++part) {
+      for (Case c : planned_) {
+        c.origin = casebase::Origin::kMeasured;
+        c.observed = {};
+        c.observed.time_s = casebase::Figure{.value = (share + 0.01 * part) * c.predicted.time_s};
+        c.from.part = std::to_string(part);
+        c.from.source = "log " + std::to_string(share);
+        out.push_back(c);
+      }
+    }
+    return out;
+  }
+  /// The bores that the plan mills, on four parts, so far from the size asked.
+  std::vector<Case> bored(double off_mm) const {
+    std::vector<Case> out;
+    for (int part = 0; part < 4; ++part) {
+      for (Case c : planned_) {
+        if (!c.asked.operation.ends_with("MILLING") || !(c.asked.diameter_mm > 0.0)) continue;
+        c.origin = casebase::Origin::kMeasured;
+        c.observed = {};
+        c.observed.size_deviation_mm = casebase::Figure{.value = off_mm + 0.001 * part};
+        c.from.part = std::to_string(part);
+        c.from.source = "gauge " + std::to_string(off_mm);
+        out.push_back(c);
+      }
+    }
+    EXPECT_FALSE(out.empty()) << "the bracket mills no bore";
+    return out;
+  }
+  Ran planned_with(const std::vector<Case>& cases) {
+    Job job;
+    auto base = casebase::CaseBase::open_or_create((folder_ / "base.db").string(), job);
+    EXPECT_TRUE(base && base->add(cases));
+    tuned_case_ = base->cases().front().id;
+    return run("plan '" + part() + "' --reopen all --cases base.db -o tuned.json");
+  }
+  /// Factor of the margin in the forces of a milled step.
+  static double margin_of(const model::Plan& plan) {
+    for (const model::StepResult& s : plan.steps) {
+      if (model::step_id(plan, s) == "POCKET area_rough") return s.loads.force_margin;
+    }
+    return 0.0;
+  }
+
+  model::Plan plain_;
+  std::vector<Case> planned_;
+  std::string tuned_case_;  // the least id of those that were planned with
+};
+
+TEST_F(CaseModels, ForcesThatWereMeasuredReplaceTheCardsAndNarrowTheMargin) {
+  const Ran ran = planned_with(cut(6, 0.9));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("[CASE-MODEL]"));
+  const model::Plan tuned = plan("tuned.json");
+  ASSERT_FALSE(tuned.material.mechanistic.empty());
+  EXPECT_THAT(tuned.material.mechanistic.front().source, HasSubstr("on 6 edges"));
+  EXPECT_LT(margin_of(tuned), margin_of(plain_));
+  const Ran checked = run("check tuned.json");
+  EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+  const Ran told = run("explain tuned.json 'POCKET area_rough'");
+  EXPECT_THAT(told.out, HasSubstr("cutting force of carbide mills as those of its set: 0.9"));
+  // Which cases, and what the plan would be without them: as it was planned without.
+  const std::string all = run("explain tuned.json").out;
+  EXPECT_THAT(all, HasSubstr("cutting force of carbide mills as those of its set: 0.9"));
+  EXPECT_THAT(all, HasSubstr(tuned_case_.substr(0, 12)));
+  EXPECT_THAT(all, HasSubstr("time without cases"));
+  const auto without = motion::time_of(plain_);
+  ASSERT_TRUE(without);
+  EXPECT_THAT(all, HasSubstr(motion::duration_text(without->total_s())));
+}
+
+TEST_F(CaseModels, ACorrectedCardIsCorrectedOnceHoweverOftenThePlanIsPlannedAnew) {
+  ASSERT_EQ(planned_with(cut(6, 0.9)).code, 0);
+  ASSERT_EQ(run("plan tuned.json --reopen all --cases base.db -o again.json").code, 0);
+  EXPECT_EQ(plan("again.json").material, plan("tuned.json").material);
+}
+
+TEST_F(CaseModels, APlanThatIsPlannedAnewWithoutItsCasesHasTheCardsOwnForcesAndSaysSo) {
+  ASSERT_EQ(planned_with(cut(6, 0.9)).code, 0);
+  const Ran ran = run("plan tuned.json --reopen all -o again.json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("forces, margins and lives are the card's own again"));
+  EXPECT_EQ(plan("again.json").material, plain_.material);
+}
+
+TEST_F(CaseModels, ForcesWithoutTheFeedThatWasExecutedAreNamedAndChangeNothing) {
+  auto cases = cut(6, 0.9);
+  for (Case& c : cases) c.observed.executed_fz_mm.reset();
+  const Ran ran = planned_with(cases);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("no case says with which feed its force was measured"));
+  EXPECT_EQ(plan("tuned.json").material, plain_.material);
+}
+
+TEST_F(CaseModels, OneEdgeOfMuchMoreForceForbidsToNarrowAndIsNamed) {
+  auto cases = cut(6, 0.9);
+  for (Case& c : cases)
+    if (c.from.tool_instance == "E3") c.observed.peak_force_n->value *= 2.0;
+  const Ran ran = planned_with(cases);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("6 cases lie beyond what the others explain"));
+  const model::MechanisticSet tuned = plan("tuned.json").material.mechanistic.front(),
+                              plain = plain_.material.mechanistic.front();
+  EXPECT_GE(tuned.uncertainty, plain.uncertainty);
+  EXPECT_GE(tuned.ktc_n_mm2, plain.ktc_n_mm2);
+}
+
+TEST_F(CaseModels, LargerForcesRaiseThoseOfThePlan) {
+  const Ran ran = planned_with(cut(6, 1.4));
+  ASSERT_LE(ran.code, 1) << ran.err;
+  const model::Plan tuned = plan("tuned.json");
+  ASSERT_FALSE(tuned.material.mechanistic.empty());
+  ASSERT_FALSE(plain_.material.mechanistic.empty());
+  EXPECT_GT(tuned.material.mechanistic.front().ktc_n_mm2,
+            1.3 * plain_.material.mechanistic.front().ktc_n_mm2);
+  // A step that they make another says what it would be without.
+  ASSERT_EQ(tuned.steps.size(), plain_.steps.size());
+  std::string changed;
+  for (std::size_t i = 0; i < tuned.steps.size(); ++i) {
+    ASSERT_EQ(model::step_id(tuned, tuned.steps[i]), model::step_id(plain_, plain_.steps[i]));
+    if (tuned.steps[i].cutting_s != plain_.steps[i].cutting_s)
+      changed = model::step_id(tuned, tuned.steps[i]);
+  }
+  ASSERT_NE(changed, "");
+  EXPECT_THAT(run("explain tuned.json '" + changed + "'").out, HasSubstr("not the plan without cases: "));
+}
+
+TEST_F(CaseModels, TwoEdgesNarrowNothing) {
+  const Ran ran = planned_with(cut(2, 0.9));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("not taken: measured on 2 edges"));
+  EXPECT_EQ(plan("tuned.json").material, plain_.material);
+}
+
+TEST_F(CaseModels, AForceTenTimesTooLowIsNamedAndNotTaken) {
+  const Ran ran = planned_with(cut(6, 0.1));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("further from the card than 2 standard deviations"));
+  EXPECT_EQ(plan("tuned.json").material, plain_.material);
+}
+
+TEST_F(CaseModels, TimesOfThreePartsAreToldWithTheirIntervalAndChangeNoPath) {
+  Ran ran = planned_with(timed(2, 1.25));
+  EXPECT_THAT(ran.err, Not(HasSubstr("CASE-TIME")));
+  ran = planned_with(timed(4, 1.25));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("[CASE-TIME]"));
+  EXPECT_THAT(ran.err, HasSubstr("of 4 parts measured on this machine"));
+  EXPECT_THAT(run("explain tuned.json").out, HasSubstr("time by cases"));
+  // In the last line, too. Steps took 1.25 to 1.28 of their time; the rest of the plan is as planned.
+  const std::size_t at = ran.err.rfind(" (by cases ");
+  ASSERT_NE(at, std::string::npos) << ran.err;
+  double min = 0.0, s = 0.0;
+  ASSERT_EQ(std::sscanf(ran.err.c_str() + at, " (by cases %lf min %lf s +- ", &min, &s), 2) << ran.err;
+  double steps_s = 0.0;
+  for (const Case& c : planned_) steps_s += c.predicted.time_s;
+  const double whole_s = motion::time_of(plain_).value().total_s();
+  EXPECT_GT(60.0 * min + s, whole_s + 0.23 * steps_s);
+  EXPECT_LT(60.0 * min + s, whole_s + 0.30 * steps_s);
+  const model::Plan tuned = plan("tuned.json");
+  ASSERT_EQ(tuned.steps.size(), plain_.steps.size());
+  for (std::size_t i = 0; i < tuned.steps.size(); ++i)
+    EXPECT_EQ(tuned.steps[i].cutting_s, plain_.steps[i].cutting_s);
+}
+
+TEST_F(CaseModels, TimesOfCutsThatBrokeChatteredOrWereJudgedBadSayNothing) {
+  const auto with = [&](void (*change)(casebase::Observed&)) {
+    auto cases = timed(4, 1.25);
+    for (Case& c : cases) change(c.observed);
+    std::filesystem::remove(folder_ / "base.db");
+    return planned_with(cases).err;
+  };
+  for (const auto change : {+[](casebase::Observed& o) { o.breakage = casebase::Figure{.value = 1.0}; },
+                            +[](casebase::Observed& o) { o.chatter = casebase::Figure{.value = 1.0}; },
+                            +[](casebase::Observed& o) { o.verdict = casebase::Verdict::kBad; }})
+    EXPECT_THAT(with(change), Not(HasSubstr("CASE-TIME")));
+  EXPECT_THAT(with([](casebase::Observed&) {}), HasSubstr("CASE-TIME"));
+}
+
+TEST_F(CaseModels, TimesOfAnotherMachineSayNothing) {
+  auto cases = timed(4, 1.25);
+  for (Case& c : cases) c.asked.machine_class = "another_machine";
+  const Ran ran = planned_with(cases);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, Not(HasSubstr("CASE-TIME")));
+}
+
+TEST_F(CaseModels, APlanThatIsPlannedAgainStatesItsTimeOnce) {
+  ASSERT_EQ(planned_with(timed(4, 1.25)).code, 0);
+  ASSERT_EQ(run("plan tuned.json --reopen all --cases base.db -o again.json").code, 0);
+  int stated = 0;
+  for (const model::Provenance& p : plan("again.json").provenance) stated += p.what == "time by cases";
+  EXPECT_EQ(stated, 1);
+}
+
+TEST_F(CaseModels, ABoreThatCasesExpectBeyondItsZoneIsAWarning) {
+  const Ran ran = planned_with(bored(2.0));
+  EXPECT_THAT(ran.err, HasSubstr("warning: step 'CAP SCREW HOLE"));
+  EXPECT_THAT(ran.err, HasSubstr("[CASE-BORE]"));
+  EXPECT_THAT(run("explain tuned.json").out, HasSubstr("by cases"));
+}
+
+TEST_F(CaseModels, ABoreIsHeldAgainstItsZoneAsDrawn) {
+  // A counterbore of 11 H12, 0 to +0.18 mm, in place of 11 +-0.2: its path aims at 11.09.
+  std::string text = capstan::testing::slurp(part());
+  const std::string wide = "#133=TOLERANCED_LENGTH_MEASURE(11.,#55);";
+  ASSERT_NE(text.find(wide), std::string::npos);
+  text.replace(text.find(wide), wide.size(),
+               "#9001=PLUS_MINUS_VALUE(0.18,0.,3);\n#133=TOLERANCED_LENGTH_MEASURE(11.,#9001);");
+  std::ofstream(folder_ / "h12.p21") << text;
+  ASSERT_EQ(run("plan h12.p21 -o h12.json").code, 0);
+  Job job;
+  planned_ = casebase::cases_of(plan("h12.json"), job);
+  const auto about = [&](double off_mm) {
+    auto cases = bored(off_mm);
+    EXPECT_NEAR(cases.front().bound.aimed_over_mm, 0.09, 1e-12);
+    EXPECT_NEAR(cases.front().asked.tolerance_mm, 0.18, 1e-12);
+    std::filesystem::remove(folder_ / "base.db");
+    auto base = casebase::CaseBase::open_or_create((folder_ / "base.db").string(), job);
+    EXPECT_TRUE(base && base->add(cases));
+    return run("plan h12.p21 --reopen all --cases base.db -o tuned.json").err;
+  };
+  // Measured from the nominal size: in the middle of the zone; at the nominal size, where half of the parts
+  // are too small; and below it by as much as the middle lies above.
+  const std::string middle = about(0.09);
+  EXPECT_THAT(middle, HasSubstr("[CASE-BORE]"));
+  EXPECT_THAT(middle, HasSubstr("its bore comes out +0.09"));
+  EXPECT_THAT(middle, Not(HasSubstr("beyond its zone")));
+  EXPECT_THAT(about(0.0), HasSubstr("beyond its zone of +0.000 mm to +0.180 mm"));
+  EXPECT_THAT(about(-0.09), HasSubstr("beyond its zone of +0.000 mm to +0.180 mm"));
+}
+
+TEST_F(CaseModels, ABoreThatWasJudgedBadForItsSizeIsHeard) {
+  auto cases = bored(2.0);
+  for (Case& c : cases) c.observed.verdict = casebase::Verdict::kBad;
+  EXPECT_THAT(planned_with(cases).err, HasSubstr("[CASE-BORE]"));
+}
+
+TEST_F(CaseModels, BoresOfAnotherMaterialOrToolClassSayNothing) {
+  for (const bool material : {true, false}) {
+    auto cases = bored(2.0);
+    for (Case& c : cases)
+      (material ? c.asked.material_group : c.asked.tool_class) = material ? "K/grey_iron" : "hss/endmill";
+    std::filesystem::remove(folder_ / "base.db");
+    EXPECT_THAT(planned_with(cases).err, Not(HasSubstr("CASE-BORE"))) << material;
+  }
+}
+
+TEST_F(CaseModels, ForcesOfAnotherMachineChangeNothing) {
+  auto cases = cut(6, 0.9);
+  for (Case& c : cases) c.asked.machine_class = "another_machine";
+  const Ran ran = planned_with(cases);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, Not(HasSubstr("CASE-MODEL")));
+  EXPECT_EQ(plan("tuned.json").material, plain_.material);
+}
+
+}  // namespace
+}  // namespace capstan::app
