@@ -39,7 +39,7 @@ class Rougher {
         hatch_(std::move(hatch)),
         job_(job),
         radius_(cutter.radius()),
-        rest_(task.stock ? *task.stock : block_under(task, hatch_), task.cutter),
+        rest_(task.stock ? *task.stock : block_under(task, hatch_), task.cutter, task.may_stay),
         reach_{.task = task, .drop = drop, .cutter = cutter, .kept_out = std::move(kept_out)},
         ways_(task_, hatch_, reach_, grid_, rest_, out_.path) {
     reach_.margin_mm = std::max(task.tolerance_mm, 0.1 * task.allowance_mm);
@@ -231,7 +231,7 @@ class Rougher {
     bool any = false;
     bool on = false;
     for (std::size_t i = 1; i < line.size(); ++i) {
-      const bool material = task_.floors_z_mm.empty()
+      const bool material = task_.floors_z_mm.empty() || task_.may_stay != nullptr
                                 ? rest_.meets(line[i - 1], z) || rest_.meets(line[i], z)
                                 : stock::max_height(rest_.map, line[i - 1], line[i], radius_) > z + kNothing;
       // Two points on a border: the chord may cut the border's corner by what the margin allows.
@@ -329,8 +329,14 @@ Result<FreeformPath> rough(const FreeformJob& task, Job& job) {
     return fail("FRF-VALUE", "roughing needs a stepover above 0 and up to the cutter's diameter, not " +
                                  trimmed(task.stepover_mm, 4) + " mm");
   }
+  if (task.may_stay != nullptr && (task.stock == nullptr || task.may_stay->cells() != task.stock->cells()))
+    return fail("FRF-VALUE", "what may stay is told by the cells of another stock, or of none");
   const DropCutter drop(*task.surface);
-  const geometry::Region area = area_of(task, drop);
+  geometry::Region area = area_of(task, drop);
+  if (task.may_stay != nullptr) {
+    area = geometry::intersect(area, around_rests(*task.stock, *task.may_stay, cutter->radius()));
+    if (area.empty()) return fail(kNothingToCut, "nothing stands higher than may stay for the next step");
+  }
   geometry::Region out = kept_out(task, *cutter);
   Hatch lines =
       hatch(out.empty() ? area : geometry::subtract(area, out), task.feed_angle_rad, task.stepover_mm);
