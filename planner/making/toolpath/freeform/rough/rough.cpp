@@ -25,6 +25,10 @@ using geometry::Vec2;
 using geometry::Vec3;
 using model::MoveRole;
 
+/// Passes that end at a wall which is cut along on every level end so far from it: they do not touch all of
+/// its height. Default, unsourced.
+constexpr double kOffWallMm = 0.02;
+
 /// Passes that the cutter can reach but not enter.
 struct LeftOut {
   int passes = 0;
@@ -46,6 +50,8 @@ class Rougher {
     reach_.spacing_mm = std::min(probe_spacing(cutter.ball_mm() + task.allowance_mm, reach_.margin_mm),
                                  kProbedShare * cutter.radius());
     reach_.floor_mm = std::max(task.bottom_z_mm, rest_.map.origin.z);
+    // Walls keep to one line from level to level: the next takes no sliver off what the last one left.
+    if (!task.floors_z_mm.empty()) reach_.border_mm = 1e-5;
     reach_.beside = task.beside_is_free || ends_with(rest_.map, drop.bounds());
   }
 
@@ -113,9 +119,13 @@ class Rougher {
       }
       std::size_t end = k;
       while (end + 1 < p.z.size() && p.z[end + 1] <= z) ++end;
-      const double lo = k > 0 ? border(s, at(k), at(k - 1), z) : at(k);
-      const double hi = end + 1 < p.z.size() ? border(s, at(end), at(end + 1), z) : at(end);
-      trim({stripe, lo, hi}, s, z, out);
+      double lo = k > 0 ? border(s, at(k), at(k - 1), z) : at(k);
+      double hi = end + 1 < p.z.size() ? border(s, at(end), at(end + 1), z) : at(end);
+      if (task_.left_mm) {
+        if (k > 0) lo += kOffWallMm;
+        if (end + 1 < p.z.size()) hi -= kOffWallMm;
+      }
+      if (lo <= hi) trim({stripe, lo, hi}, s, z, out);
       k = end + 1;
     }
     return out;
@@ -233,7 +243,7 @@ class Rougher {
     for (std::size_t i = 1; i < line.size(); ++i) {
       const bool material = task_.floors_z_mm.empty() || task_.may_stay != nullptr
                                 ? rest_.meets(line[i - 1], z) || rest_.meets(line[i], z)
-                                : stock::max_height(rest_.map, line[i - 1], line[i], radius_) > z + kNothing;
+                                : stands_beside(line[i - 1], line[i], z);
       // Two points on a border: the chord may cut the border's corner by what the margin allows.
       if (!reach_.is_free(line[i - 1], line[i], z, 0.5) || (!material && !on)) {
         on = false;
@@ -246,6 +256,13 @@ class Rougher {
       on = material || i + 1 < line.size();
     }
     return any;
+  }
+
+  /// Whether a way along a wall meets what the wall is to lose. The wall itself touches the cutter: only what
+  /// reaches farther under it counts, half of what is left there or a cell and a half.
+  [[nodiscard]] bool stands_beside(Vec2 a, Vec2 b, double z) const {
+    const double within = std::min(1.5 * rest_.map.cell_mm, 0.5 * task_.left_mm.value_or(task_.allowance_mm));
+    return stock::max_height(rest_.map, a, b, radius_ - within) > z + kNothing;
   }
 
   /// A pass on the next line that can be reached from here without lifting.
