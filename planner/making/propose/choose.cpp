@@ -182,7 +182,9 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
     const model::ProposedStep step = as_opened(chain, i, tools);
     tooling::Preferences wanted = step::preferences_of(choice.piece, choice.batch, step, shape);
     wanted.used = used;
-    if (choice.thrift != Thrift::kNone) wanted.most = choice.usable.size();
+    // Of a rest on a surface the mill is known only when the one before it is.
+    const bool rest = i > 0 && step.operation == TypeId::kFreeformRoughMilling;
+    if (choice.thrift != Thrift::kNone || rest) wanted.most = choice.usable.size();
     if (i > 0) take_what_is_left(chain[i - 1], step, wanted);
     const model::StepNames names{draft::feature_name(plan.model, member.feature), step.name};
     out.why_not = ruled_out(choice, names, step);

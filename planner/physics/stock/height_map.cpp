@@ -48,6 +48,11 @@ void rasterise(HeightMap& map, const Vec3& a, const Vec3& b, const Vec3& c) {
   }
 }
 
+void cover(HeightMap& map, const geometry::Mesh& mesh) {
+  for (const auto& t : mesh.triangles)
+    rasterise(map, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+}
+
 /// A maximum over stretches of rows; several side by side, so that one need not wait for the other.
 class Highest {
  public:
@@ -124,9 +129,20 @@ HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, double cell_mm)
   box.lo.z = floor_mm;
   box.hi.z = std::max(box.hi.z, floor_mm);
   HeightMap map = empty_map(box, cell_mm);
-  for (const auto& t : mesh.triangles) {
-    rasterise(map, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  }
+  cover(map, mesh);
+  return map;
+}
+
+HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, const HeightMap& cells) {
+  HeightMap map{.origin = {cells.origin.x, cells.origin.y, floor_mm},
+                .cell_mm = cells.cell_mm,
+                .nx = cells.nx,
+                .ny = cells.ny,
+                .top = {},
+                .low = {},
+                .share = {}};
+  for (auto* column : {&map.top, &map.low, &map.share}) column->resize(map.cells() + HeightMap::kPadding);
+  cover(map, mesh);
   return map;
 }
 

@@ -73,6 +73,8 @@ inline constexpr double kMaximumCells = 16e6;
 /// The highest surface of the mesh above each cell's centre; `floor_mm` is the underside. Orientation of
 /// triangles does not matter; where no triangle lies there is nothing.
 [[nodiscard]] HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, double cell_mm);
+/// The same over the cells of another map.
+[[nodiscard]] HeightMap from_mesh(const geometry::Mesh& mesh, double floor_mm, const HeightMap& cells);
 
 /// The columns of a rectangle of cells before a cut, to undo it.
 struct Patch {

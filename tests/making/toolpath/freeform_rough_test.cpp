@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "planner/making/toolpath/freeform/freeform.h"
+#include "planner/making/toolpath/freeform/rough/level_contour.h"
 #include "planner/making/toolpath/freeform/rough/levels.h"
+#include "planner/making/toolpath/path_job.h"
 #include "planner/physics/stock/sweep.h"
 
 namespace capstan::toolpath::freeform {
@@ -133,6 +135,113 @@ TEST(Rough, GoesDownIntoEveryPit) {
   // The allowance is 0.5 of some 4 mm, terraces and the margin as much at most, half of it on the whole.
   EXPECT_GT(1.0 - left / whole, 1.0 - (0.5 + 0.05 + 0.25) / 4.0 - 0.03);
   EXPECT_LT(plunged, 0.001 * whole) << "it comes in from the side, or on a ramp";
+}
+
+/// Up to so much over the surface, told vertically, may stay.
+stock::HeightMap up_to(const Mesh& mesh, double over_mm, const stock::HeightMap& cells) {
+  stock::HeightMap out = stock::from_mesh(mesh, cells.origin.z, cells);
+  for (std::size_t i = 0; i < out.cells(); ++i) out.top[i] += static_cast<float>(over_mm);
+  return out;
+}
+
+// A mill of 20 mm leaves the pits. A ball of 10 mm roughs these and nothing else: it cut the whole surface
+// again before, for it meets terraces everywhere.
+TEST(Rough, OfARestCutsOnlyWhereMoreStandsThanMayStay) {
+  const Mesh mesh = surface(waves);
+  FreeformJob first = job_on(mesh, bull(20.0, 4.0), -2.0);
+  first.terrace_mm = 0.7;
+  auto map = block(-2.0);
+  Job job;
+  const auto coarse = rough(first, job);
+  ASSERT_TRUE(coarse) << coarse.error().message;
+  stock::cut(map, model::profile_of(first.cutter), coarse->path);
+  // What may stay square to the surface, 1.2 mm, on the steepest of its slopes, 4 mm 0.16/mm = 33 degrees.
+  const double most = 1.2 / std::cos(std::atan(4.0 * 0.16));
+  const auto may_stay = up_to(mesh, most, map);
+  const auto rest_of = [&](const stock::HeightMap& m) {
+    double mm3 = 0.0;
+    for (std::size_t i = 0; i < m.cells(); ++i)
+      mm3 += std::max(0.0, static_cast<double>(m.at(i).mean() - may_stay.top[i])) * m.cell_mm * m.cell_mm;
+    return mm3;
+  };
+  FreeformJob second = job_on(mesh, bull(10.0, 5.0), -2.0);
+  second.terrace_mm = 0.7;
+  second.stepover_mm = 3.5;
+  second.stock = &map;
+  second.may_stay = &may_stay;
+  const auto fine = rough(second, job);
+  ASSERT_TRUE(fine) << fine.error().message;
+  auto after = map;
+  const auto profile = model::profile_of(second.cutter);
+  double air_mm = 0.0, cut_mm = 0.0;
+  const model::CutterPath& path = fine->path;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    // A piece of 2 cells at a time: of a long move the whole may lie in air but for its end.
+    const auto from = path.point(i - 1), to = path.point(i);
+    const int n = std::max(1, static_cast<int>(norm(to - from) / 0.2));
+    for (int k = 1; k <= n; ++k) {
+      model::CutterPath piece;
+      piece.start(from + (static_cast<double>(k - 1) / n) * (to - from));
+      piece.line(from + (static_cast<double>(k) / n) * (to - from), path.role[i]);
+      const double removed = stock::cut(after, profile, piece, 1);
+      EXPECT_TRUE(path.kind[i] != model::MoveKind::kRapid || removed == 0.0) << i;
+      if (path.role[i] == MoveRole::kCut) (removed > 0.0 ? cut_mm : air_mm) += norm(to - from) / n;
+    }
+  }
+  const double before = rest_of(map), left = rest_of(after);
+  std::printf("[ figures  ] rest: %.0f mm3 before, %.1f after; %.0f mm cut, %.0f mm of it in air\n", before,
+              left, cut_mm + air_mm, air_mm);
+  ASSERT_GT(before, 50.0);
+  EXPECT_LT(left, 0.1 * before);
+  EXPECT_LT(air_mm, 0.1 * (air_mm + cut_mm));
+  // Nothing is touched farther from a rest than the axis goes beside it and the cutter reaches from there:
+  // a radius each, half a radius of a block of that area, and the run-in of a pass.
+  const double reach = 3.0 * 5.0;
+  for (int iy = 0; iy < map.ny; iy += 4) {
+    for (int ix = 0; ix < map.nx; ix += 4) {
+      if (!(after.at(ix, iy).top_mm < map.at(ix, iy).top_mm - 1e-3F)) continue;
+      const int n = static_cast<int>(reach / map.cell_mm);
+      bool near = false;
+      for (int y = std::max(0, iy - n); y <= std::min(map.ny - 1, iy + n) && !near; ++y) {
+        for (int x = std::max(0, ix - n); x <= std::min(map.nx - 1, ix + n) && !near; ++x)
+          near = map.at(x, y).mean() > may_stay.at(x, y).top_mm;
+      }
+      EXPECT_TRUE(near) << map.x_of(ix) << ' ' << map.y_of(iy);
+    }
+  }
+  // Where nothing stands too high there is nothing to rough.
+  second.stock = &after;
+  const auto high = up_to(mesh, 10.0, map);
+  second.may_stay = &high;
+  const auto none = rough(second, job);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, kNothingToCut);
+  // Heights of other cells tell nothing.
+  const auto coarser = stock::from_mesh(mesh, map.origin.z, 2.0 * map.cell_mm);
+  second.may_stay = &coarser;
+  const auto other = rough(second, job);
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().code, "FRF-VALUE");
+}
+
+// A chord across a square inside corner was taken for the border: both its ends lay a little off it, and the
+// place looked at beyond its middle was still free. Where the line began at another corner on the next level,
+// the mill met all of the height above in one cut.
+TEST(Border, IsFollowedIntoSquareCorners) {
+  constexpr double kOff = 7e-4, kWithin = 0.0025, kFound = 1e-3;
+  const auto is_free = [](geometry::Vec2 p) { return p.x >= 0.0 && p.y >= 0.0; };
+  const auto border = [&](geometry::Vec2 free, geometry::Vec2 blocked) {
+    while (norm(blocked - free) > kFound) {
+      const geometry::Vec2 middle = 0.5 * (free + blocked);
+      (is_free(middle) ? free : blocked) = middle;
+    }
+    return free;
+  };
+  // Free ground on the left.
+  const auto line = refined({{kOff, 5.0}, {kOff, 0.24}, {0.24, kOff}, {5.0, kOff}}, kWithin, is_free, border);
+  double nearest = 1e300;
+  for (const geometry::Vec2 p : line) nearest = std::min(nearest, norm(p));
+  EXPECT_LT(nearest, kWithin + kFound + std::sqrt(2.0) * kOff);
 }
 
 TEST(Levels, AreAsFewAsTerracesNeedAndEndOnFlats) {

@@ -22,6 +22,7 @@
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/progress.h"
 #include "planner/making/step/path/stocks.h"
+#include "planner/making/step/path/surface_rest.h"
 #include "planner/making/step/record/from_cases.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/making/step/record/grouped_reasons.h"
@@ -196,10 +197,15 @@ class PathMaker {
     step::rank_by_path(plan_, steps_, step, used_,
                        [&](std::size_t i) { return cutter_.seconds_with(step, i); });
     if (step.proposed && plan_.target_mesh &&
-        plan_.model.holds<model::FreeformRoughMilling>(step.operation) && step::left_by_next_mm(p_, step))
-      step::rank_by_rest(
-          plan_, steps_, step, used_, [&](std::size_t i) { return cutter_.roughed_with(step, i); },
-          [&] { cutter_.keep_last(); });
+        plan_.model.holds<model::FreeformRoughMilling>(step.operation) && step::left_by_next_mm(p_, step)) {
+      if (roughs_again(step)) {
+        if (!take_for_rest(step)) return {};
+      } else if (step.candidates.size() > 1) {
+        (void)step::rank_by_rest(
+            plan_, steps_, step, used_, false, [&](std::size_t i) { return cutter_.roughed_with(step, i); },
+            [&] { cutter_.keep_last(); });
+      }
+    }
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     step::GroupedReasons why_not;
     bool gone = step.proposed;                            // true: every cutter finds no material to cut
@@ -225,9 +231,77 @@ class PathMaker {
       if (tried) return accept(step, *std::move(tried), least->first);
     }
     if (gone && left_out(step, why_not.text())) return {};
+    if (roughs_again(step)) {
+      leave_rest(step);
+      return {};
+    }
     give_up(step,
             why_not.text() + (least ? "; a smaller or shorter cutter or a stronger spindle would do" : ""));
     return {};
+  }
+
+  /// Whether a step roughs the same surface as another, in the same chain.
+  [[nodiscard]] bool roughs_with(const StepDraft& s, const StepDraft& step) const {
+    return s.proposed && s.member == step.member && s.chain == step.chain &&
+           plan_.model.holds<model::FreeformRoughMilling>(s.operation);
+  }
+  [[nodiscard]] bool roughs_again(const StepDraft& step) const {
+    return std::any_of(steps_.begin(), steps_.end(), [&](const StepDraft& s) {
+      return roughs_with(s, step) && s.in_chain < step.in_chain;
+    });
+  }
+  [[nodiscard]] bool roughed_later(const StepDraft& step) const {
+    const auto at =
+        std::find_if(steps_.begin(), steps_.end(), [&](const StepDraft& s) { return s.step == step.step; });
+    return std::any_of(at, steps_.end(), [&](const StepDraft& s) {
+      const bool with = step.proposed ? roughs_with(s, step)
+                                      : s.feature == step.feature &&
+                                            plan_.model.holds<model::FreeformRoughMilling>(s.operation);
+      return with && s.step != step.step;
+    });
+  }
+
+  /// Ranks mills narrower than the one before for what that left too much of. False: there is too little of
+  /// it, or none takes most of it, and the step is left out.
+  bool take_for_rest(StepDraft& step) {
+    constexpr double kMostStays = 0.75;  // of the rest, for a mill to be worth its change; default, unsourced
+    constexpr double kSame = 1e-6;
+    const model::Cutter* before = step::roughed_before(p_, step);
+    const auto rest = before != nullptr ? step::surface_rest(p_, step, stocks_.of(step.setup)) : std::nullopt;
+    if (rest && rest->mm3 > 0.0) {
+      const auto dropped = step.candidates.drop_if([&](const model::Candidate& c) {
+        return c.cutter.cutting_diameter_mm > before->cutting_diameter_mm - kSame;
+      });
+      for (const auto& c : dropped)
+        step.rejected_tools.push_back({c->cutter.id, "no narrower than " + before->id + ", which left this"});
+      if (!step.candidates.empty()) {
+        step.cutter = step.candidates.front().cutter;
+        step::take_cutter(plan_, steps_, step, step.candidates.front());
+      }
+      const auto worth = [&](std::size_t i) {
+        auto t = cutter_.roughed_with(step, i);
+        if (t && t->too_much_mm3 > kMostStays * rest->mm3) t.reset();
+        return t;
+      };
+      if (step::rank_by_rest(plan_, steps_, step, used_, true, worth, [&] { cutter_.keep_last(); }))
+        return true;
+    }
+    leave_rest(step);
+    return false;
+  }
+
+  void leave_rest(const StepDraft& step) {
+    step::take_out(plan_.model, step);
+    left_out_.insert(step.step);
+    if (roughed_later(step)) return;
+    // Nothing is cut since the last step that roughed, and nothing was said of what that left.
+    const StepDraft* last = nullptr;
+    for (const StepDraft& s : steps_) {
+      const bool kept = std::any_of(plan_.steps.begin(), plan_.steps.end(),
+                                    [&](const model::StepResult& r) { return r.step == s.step; });
+      if (kept && roughs_with(s, step) && s.in_chain < step.in_chain) last = &s;
+    }
+    if (last != nullptr) tell_too_much(*last);
   }
 
   /// Why nobody would run the step: a proposed cut of one prismatic feature that lasts longer than a shift.
@@ -262,7 +336,7 @@ class PathMaker {
     step::record_cut(plan_, steps_, step, made.answer, made.depth_open, made.width_open, made.cases);
     tell_thicker(step, made);
     progress_.done(step);
-    tell_too_much(step);
+    if (!roughed_later(step)) tell_too_much(step);
     const auto& feeds = tried.feeds;
     model::StepResult& r = tried.result;
     if (tried.asked.adapt || step.open_technology) step::keep_excess(plan_.model, step, feeds, r, job_);

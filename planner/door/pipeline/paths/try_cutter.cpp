@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/step/cut/ranking.h"
 #include "planner/making/step/path/freeform.h"
+#include "planner/making/step/path/surface_rest.h"
 #include "planner/making/step/record/results.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
@@ -96,7 +97,13 @@ std::optional<step::Roughed> TryCutter::roughed_with(StepDraft& step, std::size_
   last_ = in_passing(step, i, [&](const step::MeasuredCut& t) {
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
     if (!seconds || !t.removed_mm3) return;
-    const auto left = step::too_much_for_next(p_, step, means_.stocks.of(step.setup));
+    const stock::HeightMap& map = means_.stocks.of(step.setup);
+    if (step::roughed_before(p_, step) != nullptr) {
+      const auto left = step::surface_rest(p_, step, map);
+      if (left) out = step::Roughed{*seconds, *t.removed_mm3, left->mm3};
+      return;
+    }
+    const auto left = step::too_much_for_next(p_, step, map);
     if (left) out = step::Roughed{*seconds, *t.removed_mm3, left->mm3};
   });
   return out;

@@ -170,53 +170,66 @@ void rank_by_path(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& s
 namespace {
 
 /// Of each diameter the mill with the roundest corner up to a quarter of it, which leaves the lowest cusps
-/// between levels; from the first candidate's diameter down.
-std::vector<std::size_t> one_of_each_diameter(const draft::Candidates& all) {
+/// between levels; from the first candidate's diameter down. `balls`: before it the one that is rounder
+/// still, which goes down into pits.
+std::vector<std::size_t> of_each_diameter(const draft::Candidates& all, bool balls) {
   constexpr double kSame = 1e-6;
   constexpr double kRoundest =
       0.25;  // of the diameter: the rest is level and clears floors; default, unsourced
-  std::map<double, std::size_t, std::greater<>> best;
-  const auto corner = [&](std::size_t i) {
-    const model::Cutter& c = all[i].cutter;
-    return c.corner_radius_mm > kRoundest * c.cutting_diameter_mm + kSame ? -1.0 : c.corner_radius_mm;
+  struct Best {
+    std::optional<std::size_t> ball, level;
   };
+  std::map<double, Best, std::greater<>> best;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double d = all[i].cutter.cutting_diameter_mm;
+    const model::Cutter& c = all[i].cutter;
+    const double d = c.cutting_diameter_mm;
     if (d > all.front().cutter.cutting_diameter_mm + kSame) continue;
-    const auto [at, is_new] = best.emplace(d, i);
-    if (!is_new && corner(i) > corner(at->second) + kSame) at->second = i;
+    Best& of = best[d];
+    const bool round = model::end_radius_mm(c) > kRoundest * d + kSame;
+    std::optional<std::size_t>& at = round ? of.ball : of.level;
+    if (!at || model::end_radius_mm(c) > model::end_radius_mm(all[*at].cutter) + kSame) at = i;
   }
   std::vector<std::size_t> out;
-  for (const auto& [d, i] : best) out.push_back(i);
+  for (const auto& [d, of] : best) {
+    if (of.ball && (balls || !of.level)) out.push_back(*of.ball);
+    if (of.level) out.push_back(*of.level);
+  }
   if (out.size() > kCompared) out.resize(kCompared);
   return out;
 }
 
 }  // namespace
 
-void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
-                  const std::vector<std::string>& used,
+bool rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
+                  const std::vector<std::string>& used, bool rest,
                   const std::function<std::optional<Roughed>(std::size_t)>& roughed,
                   const std::function<void()>& best) {
   // What a wider mill cannot reach a smaller one takes at this share of its rate. Default, unsourced.
   constexpr double kRestRate = 0.25;
   constexpr double kNothingLeft = 0.002;  // of what was taken; default, unsourced
-  if (step.candidates.size() < 2) return;
+  if (step.candidates.empty()) return false;
   std::vector<std::pair<double, std::size_t>> times;
-  const std::vector<std::size_t> compared = one_of_each_diameter(step.candidates);
+  const std::vector<std::size_t> compared = of_each_diameter(step.candidates, rest);
+  double diameter = 1e300, of_diameter = kNever, of_wider = kNever;  // s, the quickest of each
   for (const std::size_t i : compared) {
     const auto t = roughed(i);
     if (!t || !(t->taken_mm3 > 0.0)) continue;
     const bool even = t->too_much_mm3 <= kNothingLeft * t->taken_mm3;
     double s = t->seconds + (is_used(used, step.candidates[i].cutter) ? 0.0 : plan.machine.tool_change_s);
     if (!even) s += t->seconds * t->too_much_mm3 / (kRestRate * t->taken_mm3) + plan.machine.tool_change_s;
-    const bool slower = !times.empty() && s > times.back().first;
+    const double d = step.candidates[i].cutter.cutting_diameter_mm;
+    if (d < diameter) {  // a smaller one takes longer still
+      if (of_diameter > of_wider) break;
+      of_wider = std::exchange(of_diameter, kNever);
+      diameter = d;
+    }
+    of_diameter = std::min(of_diameter, s);
     const auto quickest = std::min_element(times.begin(), times.end());
     if (times.empty() || std::pair(s, i) < *quickest) best();
     times.emplace_back(s, i);
-    if (even || slower) break;  // a smaller one takes longer still
+    if (even || (!rest && of_diameter > of_wider)) break;
   }
-  if (times.empty()) return;
+  if (times.empty()) return false;
   std::vector<model::Rejected> lost;
   std::stable_sort(times.begin(), times.end());
   std::vector<std::size_t> order;
@@ -233,6 +246,7 @@ void rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& s
                ? std::string("fits, but has no path within the limits that takes anything")
                : "fits, but of its diameter " + step.candidates[compared.front()].cutter.id +
                      " was compared, whose corner suits levels better");
+  return true;
 }
 
 }  // namespace capstan::step

@@ -37,11 +37,12 @@ struct Roughed {
 /// Ranks the mills that rough a surface by the time of their paths and of what they leave too much. `roughed`
 /// tries a candidate; nothing if it has no path within the limits. `best` is called after the try of each
 /// that is the best so far. Of the diameters down from that which comes first, one mill each is tried, with
-/// the roundest corner, until one leaves next to nothing or takes longer than the one before.
-void rank_by_rest(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft::StepDraft& step,
-                  const std::vector<std::string>& used,
-                  const std::function<std::optional<Roughed>(std::size_t)>& roughed,
-                  const std::function<void()>& best);
+/// the roundest corner, until one leaves next to nothing or takes longer than the one before; of a `rest`
+/// also a ball of each. False: none takes anything.
+[[nodiscard]] bool rank_by_rest(model::Plan& plan, std::vector<draft::StepDraft>& steps,
+                                draft::StepDraft& step, const std::vector<std::string>& used, bool rest,
+                                const std::function<std::optional<Roughed>(std::size_t)>& roughed,
+                                const std::function<void()>& best);
 
 /// Drops the cutters of a step for which the magazine has no pocket beside the tools of the other steps. One
 /// pocket is the spindle itself, and tools are changed by hand.

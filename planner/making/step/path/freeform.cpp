@@ -6,6 +6,7 @@
 
 #include "planner/making/piece/mesh/rim.h"
 #include "planner/making/piece/mesh/surface_form.h"
+#include "planner/making/step/path/surface_rest.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 
 namespace capstan::step {
@@ -32,12 +33,6 @@ double scallop_of(const model::Model& m, model::AnyRef operation) {
   return t != nullptr ? t->scallop_height.value_or(kScallopMm) : kScallopMm;
 }
 
-geometry::Mesh mesh_in_setup(const PlanSoFar& p, std::size_t setup) {
-  geometry::Mesh out = *p.plan.target_mesh;
-  for (geometry::Vec3& v : out.vertices) v = p.setups[setup].workpiece.to_parent(v);
-  return out;
-}
-
 /// Where the axis of a finishing cutter may go: as far beyond the mesh as a slope that falls to its rim
 /// needs, on those sides where no material of the raw piece stands, or it has been cut away.
 geometry::Region over_its_rim(const geometry::Mesh& mesh, const model::Cutter& c, const geometry::Box3& raw,
@@ -53,6 +48,14 @@ geometry::Region over_its_rim(const geometry::Mesh& mesh, const model::Cutter& c
     if (raw.hi.y > own.hi.y + kSameMm) out.hi.y = own.hi.y;
   }
   return geometry::rectangle(out.lo, out.hi);
+}
+
+/// Distance between passes over level ground of a mill with a corner that leaves cusps no higher than this.
+/// Source  derived: two equal circles, as scallop_stepover.
+double low_cusps_mm(const model::Cutter& c, double cusp_mm) {
+  const double r = model::end_radius_mm(c);
+  const double h = std::min(cusp_mm, r);
+  return c.cutting_diameter_mm - 2.0 * r + 2.0 * std::sqrt(h * (2.0 * r - h));
 }
 
 /// The first finish of the same feature after a step that `f` holds for; null: there is none.
@@ -86,6 +89,18 @@ std::optional<double> left_by_next_mm(const PlanSoFar& p, const StepDraft& step)
   const auto* next = finish_after(m, p.steps, step, [](const StepDraft&) { return true; });
   if (next == nullptr) return std::nullopt;
   return freeform_allowance(m, p.steps, *next);
+}
+
+geometry::Mesh mesh_in_setup(const PlanSoFar& p, std::size_t setup) {
+  geometry::Mesh out = *p.plan.target_mesh;
+  for (geometry::Vec3& v : out.vertices) v = p.setups[setup].workpiece.to_parent(v);
+  return out;
+}
+
+std::optional<double> most_for_next_mm(const PlanSoFar& p, const StepDraft& step) {
+  const auto next = left_by_next_mm(p, step);
+  if (!next) return std::nullopt;
+  return kMostBite * freeform_allowance(p.plan.model, p.steps, step) + *next;
 }
 
 std::optional<TooMuch> too_much_for_next(const PlanSoFar& p, const StepDraft& step,
@@ -181,6 +196,13 @@ Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const StepDraf
     f.axial_depth_mm = cut.ap_mm;
     f.stepover_mm = kLevelStep * step.cutter.cutting_diameter_mm;
     f.left_mm = kRoughAllowanceMm;
+  }
+  std::optional<SurfaceRest> rest;
+  if (roughed_before(p, step) != nullptr) rest = surface_rest(p, step, map);
+  if (rest) {
+    f.may_stay = &rest->may_stay;
+    f.stepover_mm = std::min(f.stepover_mm, low_cusps_mm(step.cutter, 0.5 * f.terrace_mm));
+    if (f.area.empty()) f.area = over_its_rim(mesh, step.cutter, raw, form.walls, f.scallop_mm);
   }
   auto made = rough || levels ? toolpath::freeform::rough(f, job) : toolpath::freeform::finish(f, job);
   if (!made) return tl::unexpected(made.error());

@@ -18,6 +18,11 @@ namespace capstan::step {
                                         const draft::StepDraft& step);
 /// What the finish of the same feature after a step leaves; nothing: no finish follows.
 [[nodiscard]] std::optional<double> left_by_next_mm(const PlanSoFar& p, const draft::StepDraft& step);
+/// How high, square to the surface, material may stand after a step so that the next over it bites no deeper
+/// than twice what this one is to leave; nothing: no finish follows.
+[[nodiscard]] std::optional<double> most_for_next_mm(const PlanSoFar& p, const draft::StepDraft& step);
+/// The plan's mesh in a set-up's frame. Needs a mesh.
+[[nodiscard]] geometry::Mesh mesh_in_setup(const PlanSoFar& p, std::size_t setup);
 /// Gives a freeform feature the extent of the plan's mesh; leaves others alone.
 void shape_from_mesh(const PlanSoFar& p, const draft::StepDraft& step, toolpath::PathJob& job);
 /// What stands on the plan's mesh where the next step over it would bite too deep: more than twice what

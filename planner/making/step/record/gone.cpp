@@ -166,13 +166,17 @@ bool leave_out(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, con
     if (std::find(made.items.begin(), made.items.end(), step.feature) == made.items.end())
       made.push_back(Ref<model::ManufacturingFeature>(step.feature));
   }
+  take_out(m, step);
+  job.note("PIP-GONE", "step '" + draft::name_of(m, step) + "' is left out: its material is removed already" +
+                           with + "; " + why);
+  return true;
+}
+
+void take_out(model::Model& m, const StepDraft& step) {
   for (const AnyRef w : m.all(model::TypeId::kWorkplan))
     std::erase(m.get<model::Workplan>(w)->its_elements.items, AnyRef(step.step));
   if (auto* f = m.get<model::MachiningFeature>(step.feature))
     std::erase(f->its_operations.items, step.operation);
-  job.note("PIP-GONE", "step '" + draft::name_of(m, step) + "' is left out: its material is removed already" +
-                           with + "; " + why);
-  return true;
 }
 
 }  // namespace capstan::step

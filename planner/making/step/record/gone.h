@@ -25,4 +25,7 @@ namespace capstan::step {
 [[nodiscard]] bool leave_out(model::Plan& plan, const PlanSoFar& p, const draft::StepDraft& step,
                              const std::string& why, Job& job);
 
+/// Takes a proposed step out of the workplan and of its feature.
+void take_out(model::Model& m, const draft::StepDraft& step);
+
 }  // namespace capstan::step

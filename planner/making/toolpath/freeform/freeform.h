@@ -27,7 +27,10 @@ struct FreeformJob {
   bool beside_is_free = false;
   geometry::Region avoid;  ///< the cutter keeps out of it, at all heights at which it cuts
   const stock::HeightMap* stock =
-      nullptr;                  ///< the stock before the path; null: solid up to top_z under the area
+      nullptr;  ///< the stock before the path; null: solid up to top_z under the area
+  /// Rough: heights up to which material may stay, of the stock's cells above its floor; only what stands
+  /// higher is cut, where a mill before left it. Null: all is cut.
+  const stock::HeightMap* may_stay = nullptr;
   double top_z_mm = 0.0;        ///< of the material
   double bottom_z_mm = -1e300;  ///< the tip goes no lower
   double security_z_mm = 0.0;   ///< rapids in XY happen here

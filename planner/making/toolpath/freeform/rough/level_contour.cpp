@@ -174,7 +174,8 @@ struct Refiner {
     const double length = norm(b - a);
     if (length > within_mm && halvings < kMostHalvings) {
       const Vec2 d = b - a;
-      const Vec2 right = (0.5 + 1e-3) * Vec2{d.y, -d.x};
+      // A square corner lies half a chord away, and both ends of the chord may lie off the border.
+      const Vec2 right = (0.5 + within_mm / length) * Vec2{d.y, -d.x};
       const Vec2 m = 0.5 * (a + b);
       // The border lies to the right of a chord through free ground, to its left where that is blocked.
       const bool free = is_free(m);

@@ -23,7 +23,7 @@ double Reach::at(Vec2 p, std::uint32_t& hint, double share) const {
 
 Vec2 Reach::border(Vec2 free, Vec2 blocked, double z) const {
   std::uint32_t hint = 0;
-  while (norm(blocked - free) > 1e-3) {
+  while (norm(blocked - free) > border_mm) {
     const Vec2 middle = 0.5 * (free + blocked);
     (at(middle, hint) <= z ? free : blocked) = middle;
   }

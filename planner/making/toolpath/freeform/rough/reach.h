@@ -34,11 +34,12 @@ struct Reach {
   double margin_mm = 0.0;
   double spacing_mm = 0.0;  ///< of probes between which a cutter that is clear at them is clear
   double floor_mm = 0.0;    ///< no deeper, also beside the mesh
+  double border_mm = 1e-3;  ///< how far within the free side a border is found
   bool beside = false;      ///< beside the mesh the tip may go down to the floor
 
   /// The lowest height of the tip at p with `share` of the margin; `hint` as that of DropCutter::drop.
   [[nodiscard]] double at(geometry::Vec2 p, std::uint32_t& hint, double share = 1.0) const;
-  /// The last free place at a level from `free` towards `blocked`, to a micrometre.
+  /// The last free place at a level from `free` towards `blocked`.
   [[nodiscard]] geometry::Vec2 border(geometry::Vec2 free, geometry::Vec2 blocked, double z) const;
   /// Whether a straight way at this level is clear with `share` of the margin, between the probes too.
   [[nodiscard]] bool is_free(geometry::Vec2 a, geometry::Vec2 b, double z, double share = 1.0) const;

@@ -25,6 +25,10 @@ using geometry::Vec2;
 using geometry::Vec3;
 using model::MoveRole;
 
+/// Passes that end at a wall which is cut along on every level end so far from it: they do not touch all of
+/// its height. Default, unsourced.
+constexpr double kOffWallMm = 0.02;
+
 /// Passes that the cutter can reach but not enter.
 struct LeftOut {
   int passes = 0;
@@ -39,13 +43,15 @@ class Rougher {
         hatch_(std::move(hatch)),
         job_(job),
         radius_(cutter.radius()),
-        rest_(task.stock ? *task.stock : block_under(task, hatch_), task.cutter),
+        rest_(task.stock ? *task.stock : block_under(task, hatch_), task.cutter, task.may_stay),
         reach_{.task = task, .drop = drop, .cutter = cutter, .kept_out = std::move(kept_out)},
         ways_(task_, hatch_, reach_, grid_, rest_, out_.path) {
     reach_.margin_mm = std::max(task.tolerance_mm, 0.1 * task.allowance_mm);
     reach_.spacing_mm = std::min(probe_spacing(cutter.ball_mm() + task.allowance_mm, reach_.margin_mm),
                                  kProbedShare * cutter.radius());
     reach_.floor_mm = std::max(task.bottom_z_mm, rest_.map.origin.z);
+    // Walls keep to one line from level to level: the next takes no sliver off what the last one left.
+    if (!task.floors_z_mm.empty()) reach_.border_mm = 1e-5;
     reach_.beside = task.beside_is_free || ends_with(rest_.map, drop.bounds());
   }
 
@@ -113,9 +119,13 @@ class Rougher {
       }
       std::size_t end = k;
       while (end + 1 < p.z.size() && p.z[end + 1] <= z) ++end;
-      const double lo = k > 0 ? border(s, at(k), at(k - 1), z) : at(k);
-      const double hi = end + 1 < p.z.size() ? border(s, at(end), at(end + 1), z) : at(end);
-      trim({stripe, lo, hi}, s, z, out);
+      double lo = k > 0 ? border(s, at(k), at(k - 1), z) : at(k);
+      double hi = end + 1 < p.z.size() ? border(s, at(end), at(end + 1), z) : at(end);
+      if (task_.left_mm) {
+        if (k > 0) lo += kOffWallMm;
+        if (end + 1 < p.z.size()) hi -= kOffWallMm;
+      }
+      if (lo <= hi) trim({stripe, lo, hi}, s, z, out);
       k = end + 1;
     }
     return out;
@@ -231,9 +241,9 @@ class Rougher {
     bool any = false;
     bool on = false;
     for (std::size_t i = 1; i < line.size(); ++i) {
-      const bool material = task_.floors_z_mm.empty()
+      const bool material = task_.floors_z_mm.empty() || task_.may_stay != nullptr
                                 ? rest_.meets(line[i - 1], z) || rest_.meets(line[i], z)
-                                : stock::max_height(rest_.map, line[i - 1], line[i], radius_) > z + kNothing;
+                                : stands_beside(line[i - 1], line[i], z);
       // Two points on a border: the chord may cut the border's corner by what the margin allows.
       if (!reach_.is_free(line[i - 1], line[i], z, 0.5) || (!material && !on)) {
         on = false;
@@ -246,6 +256,13 @@ class Rougher {
       on = material || i + 1 < line.size();
     }
     return any;
+  }
+
+  /// Whether a way along a wall meets what the wall is to lose. The wall itself touches the cutter: only what
+  /// reaches farther under it counts, half of what is left there or a cell and a half.
+  [[nodiscard]] bool stands_beside(Vec2 a, Vec2 b, double z) const {
+    const double within = std::min(1.5 * rest_.map.cell_mm, 0.5 * task_.left_mm.value_or(task_.allowance_mm));
+    return stock::max_height(rest_.map, a, b, radius_ - within) > z + kNothing;
   }
 
   /// A pass on the next line that can be reached from here without lifting.
@@ -329,8 +346,14 @@ Result<FreeformPath> rough(const FreeformJob& task, Job& job) {
     return fail("FRF-VALUE", "roughing needs a stepover above 0 and up to the cutter's diameter, not " +
                                  trimmed(task.stepover_mm, 4) + " mm");
   }
+  if (task.may_stay != nullptr && (task.stock == nullptr || task.may_stay->cells() != task.stock->cells()))
+    return fail("FRF-VALUE", "what may stay is told by the cells of another stock, or of none");
   const DropCutter drop(*task.surface);
-  const geometry::Region area = area_of(task, drop);
+  geometry::Region area = area_of(task, drop);
+  if (task.may_stay != nullptr) {
+    area = geometry::intersect(area, around_rests(*task.stock, *task.may_stay, cutter->radius()));
+    if (area.empty()) return fail(kNothingToCut, "nothing stands higher than may stay for the next step");
+  }
   geometry::Region out = kept_out(task, *cutter);
   Hatch lines =
       hatch(out.empty() ? area : geometry::subtract(area, out), task.feed_angle_rad, task.stepover_mm);
