@@ -84,11 +84,12 @@ struct FreeformPath {
 
 /// freeform_finish_milling: parallel passes that follow the surface. Points as far apart as the tolerance
 /// allows; the cut lies between surface + allowance and tolerance above it, never below. Neighbouring passes
-/// are joined along the surface, others over the security plane.
+/// are joined along the surface, others over the security plane. Where the surface slopes so much across the
+/// passes that ridges and tolerance come out higher than asked, passes are put between them, there only.
 ///
 /// Needs  a cutter without a corner (MillEnd::ball_mm above 0); stepover or scallop > 0.
 /// Fails  as rough.
-/// Warns  FRF-SCALLOP  how much of the surface slopes so much across the passes that ridges exceed scallop_mm
+/// Notes  FRF-SCALLOP  along how much of the passes the surface is steeper across them than 88 degrees
 [[nodiscard]] Result<FreeformPath> finish(const FreeformJob& task, Job& job);
 
 }  // namespace capstan::toolpath::freeform
