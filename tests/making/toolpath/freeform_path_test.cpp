@@ -196,21 +196,47 @@ TEST(Finish, ClimbsAnUprightStepWithoutAGouge) {
   }
 }
 
-TEST(Finish, WarnsOfRidgesOnASlopeAcrossThePassesAndNotAlongThem) {
-  const Mesh mesh = surface(4, 50.0, [](double, double y) { return -10.0 + 0.15 * y; });
-  FreeformJob task = job_on(mesh, cutter(CutterClass::kBallEndmill, 6.0, 3.0));
+/// The highest place over a plane z = -20 + slope y, square to it, after a finish of it; mm.
+double highest_over(double slope, const FreeformPath& finished, const model::Cutter& ball) {
+  auto map = stock::from_box({{0, 0, -21}, {20, 20, 20}}, 0.05);
+  stock::cut(map, model::profile_of(ball), finished.path);
+  double highest = 0.0;
+  for (double y = 6.0; y < 14.0; y += 0.05) {
+    for (const double x : {8.0, 10.0, 12.0}) {
+      const double over = stock::height_at(map, {x, y}) - (-20.0 + slope * y) - 0.025 * slope;
+      highest = std::max(highest, over / std::hypot(1.0, slope));
+    }
+  }
+  return highest;
+}
+
+// Across a slope of angle t passes lie 1 / cos t farther apart along it, and their ridges are 1 / cos^2 t
+// times as high: 4 times on 60 degrees.
+TEST(Finish, PutsPassesBetweenOthersWhereTheSurfaceSlopesAcrossThem) {
+  const double slope = std::tan(std::numbers::pi / 3.0);
+  const Mesh mesh = surface(4, 20.0, [&](double, double y) { return -20.0 + slope * y; });
+  const auto ball = cutter(CutterClass::kBallEndmill, 6.0, 3.0);
+  FreeformJob task = job_on(mesh, ball);
+  task.top_z_mm = 20.0;
+  task.security_z_mm = 30.0;
   task.stepover_mm = 0.0;
   task.scallop_mm = 0.05;
-  task.feed_angle_rad = 0.5 * std::numbers::pi;
-  Job along;
-  ASSERT_TRUE(finish(task, along));
-  EXPECT_EQ(along.count(Severity::kWarning), 0U);
-  const Mesh steep = surface(4, 50.0, [](double, double y) { return -20.0 + 0.4 * y; });
-  task.surface = &steep;
   task.feed_angle_rad = 0.0;
-  Job across;
-  ASSERT_TRUE(finish(task, across));
-  EXPECT_EQ(across.count(Severity::kWarning), 1U);
+  Job job;
+  const auto across = finish(task, job);
+  ASSERT_TRUE(across) << across.error().message;
+  // A cell of the map stands for places up to half of it higher up the slope.
+  EXPECT_LE(highest_over(slope, *across, ball), 0.05 + task.tolerance_mm + 0.005);
+  EXPECT_EQ(job.count(Severity::kWarning), 0U);
+  // Along the slope they are as far apart as on a level surface, and none lies between.
+  task.feed_angle_rad = 0.5 * std::numbers::pi;
+  const auto along = finish(task, job);
+  ASSERT_TRUE(along) << along.error().message;
+  task.scallop_mm = 0.0;
+  task.stepover_mm = along->stepover_mm;
+  const auto given = finish(task, job);
+  ASSERT_TRUE(given);
+  EXPECT_EQ(along->path, given->path);
 }
 
 TEST(Finish, ScallopsOnAPlaneHaveTheHeightAskedFor) {

@@ -44,7 +44,10 @@ struct FreeformJob {
   double terrace_mm = 0.0;
   double stepover_mm = 0.0;  ///< between passes; finish: 0 takes it from scallop_mm
   double scallop_mm = 0.0;   ///< finish: height of the ridges between passes
-  bool to_and_fro = true;    ///< finish: else all passes in one direction
+  /// Finish: a wider ball that finished the surface before: only where it left more than scallop and
+  /// tolerance is finished, in layers where it left much.
+  std::optional<model::Cutter> after;
+  bool to_and_fro = true;  ///< finish: else all passes in one direction
   /// Rough: heights of the level floors of a surface with walls; the cut goes down to each of them, too, and
   /// follows the borders of levels to a quarter of the margin.
   std::vector<double> floors_z_mm;
@@ -87,11 +90,14 @@ struct FreeformPath {
 
 /// freeform_finish_milling: parallel passes that follow the surface. Points as far apart as the tolerance
 /// allows; the cut lies between surface + allowance and tolerance above it, never below. Neighbouring passes
-/// are joined along the surface, others over the security plane.
+/// are joined along the surface, others over the security plane. Where the surface slopes so much across the
+/// passes that ridges and tolerance come out higher than asked, passes are put between them, there only.
+///
+/// Where that is shorter, what is steeper than 45 degrees is cut at constant heights, from above.
 ///
 /// Needs  a cutter without a corner (MillEnd::ball_mm above 0); stepover or scallop > 0.
-/// Fails  as rough.
-/// Warns  FRF-SCALLOP  how much of the surface slopes so much across the passes that ridges exceed scallop_mm
+/// Fails  as rough; TPA-NOTHING if the wider ball before it left no more than it may.
+/// Notes  FRF-SCALLOP  along how much of the passes the surface is steeper across them than 88 degrees
 [[nodiscard]] Result<FreeformPath> finish(const FreeformJob& task, Job& job);
 
 }  // namespace capstan::toolpath::freeform

@@ -24,13 +24,6 @@
 // only; rest material of a blunter one there has a finding of its own (CHK-LEFT-POINT). A through hole that
 // ends within another feature that the plan makes is done there. Crests of threads and what heights do not
 // hold are not looked at, nor what is narrower than two cells: a note says so.
-//
-// In the sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a
-// step.
-//
-// On a freeform surface the distance is measured square to it: from the top of what stands to the nearest of
-// the columns that the finished part fills. It may be the tolerance, and what the finishing step states as
-// the height of its ridges and of its chords.
 
 namespace capstan::verify {
 
@@ -170,7 +163,9 @@ void add_asked(const model::Plan& plan, std::size_t steps, const std::set<model:
         }
         it->ridges_mm = std::min(it->ridges_mm, stated);
       }
-      if (!mills(cutter->cutter_class)) continue;
+      // What a rough leaves on a surface is its terraces, not its radius.
+      if (!mills(cutter->cutter_class) || plan.model.holds<model::FreeformRoughMilling>(ws->its_operation))
+        continue;
       it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);
       it->widest_mm = std::max(it->widest_mm, 0.5 * cutter->cutting_diameter_mm);
       it->corner_mm = std::min(it->corner_mm, end_radius_of(*cutter));
@@ -352,88 +347,6 @@ void Target::left_in_point(const Cavity& c, const Grid& grid, const Asked& a, do
     out.warn(36, "CHK-LEFT-POINT", a.where, text + ", whose tip has a stated radius", worst);
   else
     out.note(36, "CHK-LEFT-POINT", a.where, text + ", whose angle has no tolerance");
-}
-
-void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {
-  const PartShapes::Entry* e = part_.find(a.feature);
-  if (e == nullptr || e->shapes.empty() || e->shapes.front().kind != ShapeKind::kFreeform) return;
-  geometry::Mesh in_setup = *plan_.target_mesh;
-  for (geometry::Vec3& v : in_setup.vertices) v = frame_.to_parent(v);
-  below_mesh(in_setup, a, out);
-  const double limit = allowed() + a.bottom_mm + a.ridges_mm;
-  const double slack = 0.71 * grid.cell();  // a column may stand anywhere in its cell
-  // Inside corners of a solid's walls that no mill makes.
-  const std::vector<geometry::MeshCorner> corners =
-      sheet_ ? std::vector<geometry::MeshCorner>{} : geometry::sharp_corners(in_setup, inside_out_);
-  const auto in_corner = [&](Vec2 p, double z) {
-    return std::any_of(corners.begin(), corners.end(), [&](const geometry::MeshCorner& c) {
-      const double may_stay = volumes::unstated_corner_mm(c.high - c.low);
-      return z <= c.high + limit && c.keeps(p, may_stay, limit + slack);
-    });
-  };
-  // How far columns are aside, by their steps along x and y: asked of each pair of columns, made once.
-  const int most = std::max(grid.nx(), grid.ny());
-  std::vector<double> asides;
-  int known = 0, along_x = 0;
-  const auto aside = [&](int dx, int dy) {
-    if (const int far = std::max(dx, dy); far >= known) {
-      known = std::min(most, 2 * far + 16);
-      along_x = std::min(known, grid.nx());
-      asides.clear();
-      for (int y = 0; y < std::min(known, grid.ny()); ++y) {
-        poll();
-        for (int x = 0; x < along_x; ++x)
-          asides.push_back(std::max(0.0, std::hypot(x, y) * grid.cell() - slack));
-      }
-    }
-    return asides[static_cast<std::size_t>(dy) * static_cast<std::size_t>(along_x) +
-                  static_cast<std::size_t>(dx)];
-  };
-  double worst = 0.0, top = 0.0;
-  std::size_t cells = 0, all = 0;
-  Vec2 where;
-  for (int iy = 0; iy < grid.ny(); ++iy) {
-    poll();
-    for (int ix = 0; ix < grid.nx(); ++ix) {
-      const std::size_t i = grid.index(ix, iy);
-      const double z = grid.stock[i];
-      if (z <= Grid::kNothing / 2) continue;
-      ++all;
-      // What has no column under it must go down to the underside.
-      const double own = std::max(grid.part[i], grid.base[i]);
-      double near = z - own;
-      if (near <= limit) continue;
-      // Rings of columns around, until they are farther away than the nearest found.
-      for (int n = 1; n < most && near > limit; ++n) {
-        if ((n * grid.cell()) - slack >= near) break;
-        for (int dy = -n; dy <= n; ++dy) {
-          const int stride = std::abs(dy) == n ? 1 : 2 * n;
-          for (int dx = -n; dx <= n; dx += stride) {
-            const int jx = ix + dx, jy = iy + dy;
-            if (jx < 0 || jy < 0 || jx >= grid.nx() || jy >= grid.ny()) continue;
-            const double column = grid.part[grid.index(jx, jy)];
-            if (column <= Grid::kNothing / 2) continue;
-            const double beside = aside(std::abs(dx), std::abs(dy)), above = std::max(0.0, z - column);
-            if (beside * beside + above * above < near * near) near = std::hypot(beside, above);
-          }
-        }
-      }
-      if (near <= limit || in_corner(grid.centre(ix, iy), z)) continue;
-      ++cells;
-      if (near <= worst) continue;
-      worst = near;
-      where = grid.centre(ix, iy);
-      top = z;
-    }
-  }
-  if (worst <= 0.0) return;
-  out.error(36, "CHK-LEFT", a.where,
-            "after the last step " + mm(worst) + ", square to the surface, still stand at " +
-                place(where, top) + ", and more than is allowed on " +
-                plain(100.0 * static_cast<double>(cells) / static_cast<double>(all)) +
-                " % of what lies there; allowed " + mm(limit) + " (cells of " + mm(grid.cell()) +
-                "); no cutter of the plan reached it",
-            worst);
 }
 
 }  // namespace capstan::verify

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/ground/geometry/vec.h"
+#include "planner/making/toolpath/freeform/between.h"
+#include "planner/making/toolpath/freeform/drop_cutter.h"
+#include "planner/making/toolpath/freeform/rough/level_contour.h"
+
+namespace capstan::toolpath::freeform {
+
+/// Which places of a grid belong to an area of a surface: steep, shallow, rest. A place between grid points
+/// belongs to the nearest of them.
+struct Mask {
+  geometry::Vec2 origin;
+  double step_mm = 0.0;
+  int nx = 0, ny = 0;
+  std::vector<char> on;  ///< iy * nx + ix
+  [[nodiscard]] bool at(geometry::Vec2 p) const;
+  [[nodiscard]] bool any() const;
+};
+
+/// No place of the grid.
+[[nodiscard]] Mask empty_mask(const DropGrid& grid);
+/// Places of the mask and those at most so many grid points beside them.
+[[nodiscard]] Mask grown(const Mask& mask, int points);
+/// Places that are in both.
+[[nodiscard]] Mask both(const Mask& a, const Mask& b);
+[[nodiscard]] Mask inverse(const Mask& mask);
+
+/// Where the places of the tip of a cutter rise more steeply than an angle, and are no upright step, which
+/// is an edge of the surface and no slope. `grid`: those places, 1e300 and NaN where there are none.
+[[nodiscard]] Mask steep_of(const DropGrid& grid, const DropCutter& drop, const MillEnd& cutter,
+                            double allowance_mm, double angle_rad);
+/// Whether the tip's way from a to b has an upright step: found by halving.
+[[nodiscard]] bool has_upright_step(const DropCutter& drop, const MillEnd& cutter, double allowance_mm,
+                                    geometry::Vec2 a, geometry::Vec2 b);
+
+/// The pieces of a run that lie in the mask.
+[[nodiscard]] std::vector<Run> within(const Run& run, const Mask& mask);
+
+}  // namespace capstan::toolpath::freeform

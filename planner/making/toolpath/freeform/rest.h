@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/ground/base/job.h"
+#include "planner/making/toolpath/freeform/drop_cutter.h"
+#include "planner/making/toolpath/freeform/mask.h"
+
+namespace capstan::toolpath::freeform {
+
+/// What a wider ball leaves for a smaller one, square to the surface, at each place of the tip of the smaller
+/// one: 0 where the wider one touches the surface at the same point. It is at least what stays there.
+/// Shape  of `grid`, in mm; 0 where the grid has no place.
+[[nodiscard]] std::vector<double> left_by_wider(const DropGrid& grid, const DropCutter& drop,
+                                                const MillEnd& cutter, const MillEnd& wider, Job& job);
+
+/// Where more than `limit_mm` is left.
+[[nodiscard]] Mask more_than(const DropGrid& grid, const std::vector<double>& left_mm, double limit_mm);
+
+}  // namespace capstan::toolpath::freeform
