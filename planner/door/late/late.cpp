@@ -22,10 +22,11 @@
 #include "planner/model/plan/decision/fresh_edits.h"
 
 // A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
-// takes; then an improvement on the rest of the time. Each answer passes the same four questions: is anything
-// open, is every cutter in the magazine, may it be decided here, does the check condemn it. Where an
-// operation finds no loaded cutter, and planning chose all operations, they are chosen once more from what is
-// loaded: another chain may do without.
+// takes; then an improvement on the rest of the time, where the small budget of the fallback ended a search:
+// else a larger one comes to the same plan. Each answer passes the same four questions: is anything open, is
+// every cutter in the magazine, may it be decided here, does the check condemn it. Where an operation finds
+// no loaded cutter, and planning chose all operations, they are chosen once more from what is loaded: another
+// chain may do without.
 
 namespace capstan::late {
 namespace {
@@ -146,6 +147,12 @@ void tell_late(LateOutcome& out, const LatePolicy& policy, TimePoint began, Job&
              "the deadline of " + ms(*policy.deadline) + " is past: a checked plan took " + ms(passed));
 }
 
+/// What the improvement goes by.
+struct Spent {
+  Duration checking{};     ///< what both checks took
+  bool same_plan = false;  ///< a larger budget comes to the fallback again
+};
+
 /// What comes of a plan that is checked, with its program; a fault where it is condemned. `checking` is what
 /// both checks took.
 Result<LateOutcome> judged(pipeline::Checked made, const Case& c, bool allow_findings, Duration& checking,
@@ -194,15 +201,16 @@ std::optional<LateOutcome> still_holds(const Case& c, Duration& checking, Job& j
 }
 
 /// The fallback: everything, on a small budget, and checked. Steps that the check condemns are planned again
-/// while half of the time is left. `checking` is what one check takes. A stop leaves it.
-Result<LateOutcome> fallback(const Case& c, pipeline::Reopen reopen, Duration& checking, Job& job) {
+/// while half of the time is left. A stop leaves it.
+Result<LateOutcome> fallback(const Case& c, pipeline::Reopen reopen, Spent& spent, Job& job) {
   std::optional<TimePoint> half;
   if (c.policy.deadline) half = c.began + *c.policy.deadline / 2;
   const std::uint32_t budget = std::exchange(job.evaluation_budget, c.policy.fallback_budget);
   auto made = pipeline::bind_checked(c.plan, c.inputs, c.how(reopen), job, {half, c.acceptable});
   job.evaluation_budget = budget;
   if (!made) return tl::unexpected(made.error());
-  return judged(*std::move(made), c, c.policy.allow_findings, checking, job);
+  spent.same_plan = !made->budget_spent;
+  return judged(*std::move(made), c, c.policy.allow_findings, spent.checking, job);
 }
 
 /// Plans again with the whole budget; takes the plan into `out` if it is whole, checked, in time and faster.
@@ -278,11 +286,11 @@ Diagnostic as_stopped(const Diagnostic& why, const LatePolicy& policy, TimePoint
 }
 
 /// The improvement: only in the time left, with twice the time of one check in reserve.
-void improve_in_time(LateOutcome& out, const Case& c, pipeline::Reopen reopen, Duration checking, Job& job) {
+void improve_in_time(LateOutcome& out, const Case& c, pipeline::Reopen reopen, const Spent& spent, Job& job) {
   std::optional<TimePoint> until;
-  if (c.policy.deadline) until = c.began + *c.policy.deadline - 2 * checking;
-  const bool more =
-      !job.stop_requested() && c.policy.budget > c.policy.fallback_budget && !(until && job.now() >= *until);
+  if (c.policy.deadline) until = c.began + *c.policy.deadline - 2 * spent.checking;
+  const bool more = !job.stop_requested() && !spent.same_plan && c.policy.budget > c.policy.fallback_budget &&
+                    !(until && job.now() >= *until);
   if (!more) return;
   Job trial;
   trial.threads = job.threads;
@@ -357,11 +365,11 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
                  return within_policy(brought, made, policy.may, window.has_value());
                },
                began};
-  Duration checking{};
+  Spent spent;
   auto reopen = pipeline::Reopen::kNothing;
   const auto fallen_back = [&] {
     auto made = stoppable(
-        job, [&] { return fallback(c, reopen, checking, job); },
+        job, [&] { return fallback(c, reopen, spent, job); },
         [&]() -> Result<LateOutcome> { return tl::unexpected(pipeline::stopped_planning(plan)); });
     if (!made) made = tl::unexpected(as_stopped(made.error(), policy, began, job));
     return made;
@@ -370,7 +378,8 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
   const auto as_brought = [&]() -> std::optional<LateOutcome> {
     if (!reopened->empty()) return std::nullopt;
     return stoppable(
-        job, [&] { return still_holds(c, checking, job); }, [] { return std::optional<LateOutcome>(); });
+        job, [&] { return still_holds(c, spent.checking, job); },
+        [] { return std::optional<LateOutcome>(); });
   };
   if (auto holds = as_brought()) {
     finish(*holds, brought, c, why, job);
@@ -407,7 +416,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
     }
   }
   if (!out) return out;
-  improve_in_time(*out, c, reopen, checking, job);
+  improve_in_time(*out, c, reopen, spent, job);
   finish(*out, brought, c, why, job);
   return out;
 }

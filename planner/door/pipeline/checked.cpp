@@ -13,6 +13,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/vec.h"
+#include "planner/making/optimise/solver/spent_budget.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/edit/provenance.h"
@@ -266,14 +267,17 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
 
 Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                              const Anew& anew) {
+  const bool edited = !inputs.edits.empty() || model::edits_are_all(inputs.provenance);
+  const optimise::SpentBudgetScope budget;
   auto out = stoppable(
       job,
       [&] {
-        return inputs.edits.empty() && !model::edits_are_all(inputs.provenance)
-                   ? bind_anew(plan, inputs, policy, job, anew)
-                   : bind_edited(plan, inputs, policy, job, anew);
+        return edited ? bind_edited(plan, inputs, policy, job, anew)
+                      : bind_anew(plan, inputs, policy, job, anew);
       },
       [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });
+  // What is edited is planned twice, and a plan that is condemned anew.
+  if (out) out->budget_spent = budget.spent() || edited || out->replanned > 0;
   tell_altered_cases(inputs, job);
   return out;
 }

@@ -132,6 +132,7 @@ struct Checked {
   std::vector<model::Finding> findings;  ///< of the plan; those of a program are the caller's to ask for
   int replanned = 0;                     ///< which of the tries this is; 0: the first
   std::chrono::steady_clock::duration checking{};  ///< what checking it took
+  bool budget_spent = true;  ///< false: planned with a larger evaluation budget it comes out the same
 };
 
 /// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a

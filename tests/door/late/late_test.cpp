@@ -246,6 +246,26 @@ TEST(Late, TakesAnImprovementThatIsCheckedInTime) {
   EXPECT_EQ(clock.checks(), 4);  // two plans, each with its program
 }
 
+/// How often the paths of a plan are begun.
+int plannings(const LatePolicy& policy) {
+  Job job;
+  int out = 0;
+  job.set_progress([&](std::string_view stage, double fraction) {
+    if (stage == "paths" && fraction == 0.0) ++out;
+  });
+  const auto bound = bind(plate(), shop(kMagazine), policy, job);
+  EXPECT_TRUE(bound) << to_text(bound.error());
+  return out;
+}
+
+TEST(Late, PlansOnceWhereNoSearchEndedForTheFallbacksBudget) {
+  const int once = plannings({.deadline = {}, .fallback_budget = 60, .budget = 60});
+  EXPECT_GT(once, 0);
+  EXPECT_EQ(plannings({.deadline = {}}), once)
+      << "the usual budget of a fallback ends none of these searches";
+  EXPECT_GT(plannings({.deadline = {}, .fallback_budget = 1}), once);
+}
+
 TEST(Late, RefusesAnImprovementWhoseCheckWasStopped) {
   Job job;
   StagedClock clock(job);

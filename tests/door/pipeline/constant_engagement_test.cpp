@@ -10,6 +10,7 @@
 #include "planner/ground/memo/memo.h"
 #include "planner/model/nouns/all.h"
 #include "tests/support/corpus.h"
+#include "tests/support/plate.h"
 #include "tests/support/shop.h"
 
 // Rings outwards or inwards, or constant engagement: the quickest is planned, the others stand beside it, and
@@ -270,6 +271,40 @@ TEST(ConstantEngagementPlanned, DoesNotReplaceAStrategyThatAFileStates) {
   const auto* o = kept.model.get<model::Two5dMillingOperation>(roughing(kept));
   ASSERT_NE(o, nullptr);
   EXPECT_TRUE(kept.model.holds<model::ContourParallel>(o->its_machining_strategy));
+}
+
+/// The ways that lost of each pocket of a plate, and how many paths were made that no step has.
+struct Compared {
+  std::vector<std::vector<model::Rejected>> lost;
+  std::size_t in_vain = 0;
+};
+Compared compared(std::size_t features) {
+  Inputs in = shop(strong());
+  in.memo = std::make_shared<memo::Memo>();
+  Job job;
+  const auto plan = bind(read(testing::plate(features).text), in, {}, job);
+  EXPECT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  Compared out;
+  if (!plan) return out;
+  for (const model::StepResult& s : plan->steps) {
+    const auto* ws = plan->model.get<model::MachiningWorkingstep>(s.step);
+    const auto* d = plan->ledger.find(ws->its_operation, "its_machining_strategy");
+    if (d != nullptr && !d->rejected.empty()) out.lost.push_back(d->rejected);
+  }
+  const std::size_t paths = in.memo->counts(memo::Stage::kPath).made;
+  EXPECT_GE(paths, plan->steps.size());
+  out.in_vain = paths - plan->steps.size();
+  return out;
+}
+
+TEST(Strategy, OfEqualPocketsTheOtherWaysAreTriedForTheFirstAlone) {
+  // Every fourth feature of the plate is a pocket; all of them are equal, in two rows of equal surroundings.
+  const Compared one = compared(4), many = compared(33);
+  ASSERT_EQ(one.lost.size(), 1U);
+  ASSERT_GT(one.in_vain, 0U);
+  ASSERT_EQ(many.lost.size(), 8U);
+  for (const auto& lost : many.lost) EXPECT_EQ(lost, one.lost.front());
+  EXPECT_LE(many.in_vain, 2 * one.in_vain);
 }
 
 }  // namespace

@@ -154,6 +154,27 @@ TEST(RememberedSections, OfAnEqualPathThroughOtherMaterialAreOthers) {
   EXPECT_LT(holed->removed_mm3, whole->removed_mm3);
 }
 
+TEST(RememberedSections, OfAHoleAreFoundAgainNearTheSidesOfThePiece) {
+  const model::Cutter mill = cutter(6.0);
+  const auto hole = [](geometry::Vec2 at) {
+    model::CutterPath path;
+    path.start({at.x, at.y, 5.0});
+    path.line({at.x, at.y, -7.0}, model::MoveRole::kPlunge);
+    return path;
+  };
+  memo::Memo memo;
+  auto kept = stock::PlanarStock::from_box(kPlate), whole = kept;
+  // 40 mm and 5 mm from a side, that is more than a radius and a step, less than a diameter; and through it.
+  for (const geometry::Vec2 at : {geometry::Vec2{0, 0}, geometry::Vec2{-35, 20}, geometry::Vec2{-39, 50}}) {
+    const auto got = measure_again(kept, hole(at), mill, kSteps, &memo);
+    const auto want = engagement::measure(hole(at), mill, whole, kSteps);
+    ASSERT_TRUE(got && want);
+    EXPECT_TRUE(same(*got, *want)) << "at " << at.x << ", " << at.y;
+  }
+  EXPECT_EQ(memo.counts(memo::Stage::kSections).found, 1U);
+  EXPECT_EQ(memo.counts(memo::Stage::kSections).made, 2U);
+}
+
 // A rounding of 1.3e-9 mm moves an area by as much times its outline; floors that slope are read in strips,
 // to 1e-3 of diameter times depth (planar.h), and their strips begin where the rounding says.
 TEST(RememberedSections, AreThoseOfTheWholeStockToTheRoundingOfTheOwnFrame) {

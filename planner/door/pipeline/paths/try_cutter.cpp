@@ -161,6 +161,28 @@ Result<step::MeasuredCut> TryCutter::quickest_way(StepDraft& step, std::size_t i
     choice.lost.push_back({step::words_of(t.way, cut), std::move(why)});
   };
   (void)means_.job.take_diagnostics();
+  const auto accepted = [&](Tried&& best) {
+    take(best.way);
+    means_.stocks.put_in(step.setup, std::move(best.removed));
+    for (Diagnostic& d : best.said) means_.job.report(std::move(d));
+    if (!best.cut) return std::move(best.cut);
+    choice.way = best.way;
+    if (best.seconds)
+      choice.taken =
+          step::words_of(best.way, best.cut->made.answer) + ": " + motion::duration_text(*best.seconds);
+    best.cut->strategy = std::move(choice);
+    return std::move(best.cut);
+  };
+  const model::Candidate* candidate = i < step.candidates.size() ? &step.candidates[i] : nullptr;
+  const bool thinner = bans_.thinner(step.member, step.chain, step.in_chain) != nullptr;
+  const auto area = thinner ? std::nullopt : step::key_of_area(p_, step, candidate, inwards, other, means_);
+  if (const auto* known = area ? areas_.find(*area) : nullptr) {
+    Tried again = tried(known->way);
+    if (again.seconds && step::EqualAreas::same(*known, *again.cut, again.seconds)) {
+      choice.lost = known->lost;
+      return accepted(std::move(again));
+    }
+  }
   Tried best = tried(Clearing::kOutwards);
   const auto challenge = [&](Clearing way) {
     Tried next = tried(way);
@@ -179,16 +201,9 @@ Result<step::MeasuredCut> TryCutter::quickest_way(StepDraft& step, std::size_t i
       challenge(Clearing::kConstantEngagement);
     }
   }
-  take(best.way);
-  means_.stocks.put_in(step.setup, std::move(best.removed));
-  for (Diagnostic& d : best.said) means_.job.report(std::move(d));
-  if (!best.cut) return std::move(best.cut);
-  choice.way = best.way;
-  if (best.seconds)
-    choice.taken =
-        step::words_of(best.way, best.cut->made.answer) + ": " + motion::duration_text(*best.seconds);
-  best.cut->strategy = std::move(choice);
-  return std::move(best.cut);
+  if (area && best.seconds)
+    areas_.keep(*area, {best.way, *best.seconds, step::EqualAreas::key_of_path(*best.cut), choice.lost});
+  return accepted(std::move(best));
 }
 
 Result<step::MeasuredCut> TryCutter::with_strategy(StepDraft& step, std::size_t i) {

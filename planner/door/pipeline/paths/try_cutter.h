@@ -10,6 +10,7 @@
 #include "planner/making/draft/draft.h"
 #include "planner/making/step/cut/ranking.h"
 #include "planner/making/step/path/attempt.h"
+#include "planner/making/step/path/equal_areas.h"
 #include "planner/making/step/plan_so_far.h"
 
 // One step with one cutter: which strategy, how thick a cut; only planner/door/pipeline/*.cpp include this.
@@ -58,6 +59,8 @@ class TryCutter {
   std::optional<Passed> in_passing(draft::StepDraft& step, std::size_t i, const F& look);
   Result<step::MeasuredCut> made_with(draft::StepDraft& step, std::size_t i);
   /// Rings, or constant engagement where that is worthwhile; of the others, it reports only what is recorded.
+  /// Of an area that is equal to an earlier one the way that was chosen there is tried first, and taken where
+  /// it comes out the same.
   Result<step::MeasuredCut> quickest_way(draft::StepDraft& step, std::size_t i, bool inwards,
                                          const std::optional<step::ConstantCut>& other);
   /// Tries one of the candidates, which the step has, with the strategy that it has: with a thinner cut, up
@@ -70,6 +73,7 @@ class TryCutter {
   const draft::Bans& bans_;
   const step::Means& means_;
   std::optional<Passed> last_, kept_;
+  step::EqualAreas areas_;
 };
 
 }  // namespace capstan::pipeline

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "planner/making/optimise/solver/multipliers.h"
+#include "planner/making/optimise/solver/spent_budget.h"
 
 namespace capstan::optimise {
 namespace {
+
+thread_local SpentBudgetScope* told = nullptr;
 
 /// Close enough to a limit to be held by it, in constraint ratios and parts of a variable's range.
 constexpr double kActiveTolerance = 1e-5;
@@ -135,6 +139,7 @@ class Search {
         return fail(cut.error());
       }
       cut_short = *cut;
+      spent_ = spent_ || cut_short;
       if (best_ && best_->optimal) break;
       if (evaluator_.exhausted() && evaluator_.evaluations() >= budget_) break;
     }
@@ -188,6 +193,7 @@ class Search {
 
   Result<Solution> finish(bool cut_short) {
     const std::uint32_t spent = evaluator_.evaluations();
+    if (spent_ || spent >= budget_) tell_budget_spent();
     if (!best_) {
       return fail("OPT-MODEL", "the model gives no finite value at any point that was tried");
     }
@@ -229,6 +235,7 @@ class Search {
   const Options& options_;
   Evaluator evaluator_;
   std::uint32_t budget_;
+  bool spent_ = false;  ///< the budget ended a run, or kept one from beginning
   std::optional<Candidate> best_;
 };
 
@@ -246,6 +253,13 @@ const char* to_text(Outcome outcome) {
       return "limit reached";
   }
   return "";
+}
+
+SpentBudgetScope::SpentBudgetScope() : around_(std::exchange(told, this)) {}
+SpentBudgetScope::~SpentBudgetScope() { told = around_; }
+
+void tell_budget_spent() {
+  for (SpentBudgetScope* s = told; s != nullptr; s = s->around_) s->spent_ = true;
 }
 
 Result<Solution> solve(const Problem& problem, const Options& options, Job& job) {

@@ -7,12 +7,15 @@
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/step/path/remembered/cells.h"
 #include "planner/making/step/path/remembered/planar.h"
+#include "planner/model/plan/path/own_frame.h"
 #include "planner/model/plan/resources/setup_position.h"
 #include "planner/physics/stock/sweep.h"
 #include "planner/physics/stock/turned.h"
 
 namespace capstan::step {
 namespace {
+
+using geometry::Vec2;
 
 constexpr double kCellsPerDiameter = 30.0;  // of the stock map, for the smallest cutter of the set-up
 constexpr double kMaximumCells = 600e3;     // keeps a set-up's map near 7 MB
@@ -24,6 +27,13 @@ constexpr double kTraceMm3 = 1.0;       // the same of next to nothing
 SameSetup same_setup(const draft::SetupDraft& s) {
   const geometry::Placement& at = s.workpiece;
   return {s.setup, {at.origin.x, at.origin.y, at.origin.z, at.x.x, at.x.y, at.x.z, at.z.x, at.z.y, at.z.z}};
+}
+
+/// How far apart sections are, mm. On a large piece the cells are coarse; the sections stay as close as the
+/// shortest piece that has a feed.
+double step_of(const stock::HeightMap& map, const model::Cutter& cutter) {
+  const double step_mm = std::min(2.0 * map.cell_mm, optimise::kLeastPiece * cutter.cutting_diameter_mm);
+  return std::max(model::profile_of(cutter).radius_mm / 20.0, step_mm);
 }
 
 /// Empties the columns beside a box that is turned about Z; a column that it may touch stays.
@@ -89,12 +99,14 @@ stock::HeightMap& Stocks::of(std::size_t setup) {
   if (setup != last_) {
     // Another clamping: what the others took away is gone here, too.
     last_ = setup;
-    const double before = stock::volume(*map);
+    std::optional<double> before;  // summing a map is as much work as making it
     for (std::size_t i = 0; i < maps_.size(); ++i) {
-      if (i != setup && maps_[i])
-        stock::take_over(*map, setups_[setup].workpiece, *maps_[i], setups_[i].workpiece);
+      if (i == setup || !maps_[i]) continue;
+      if (!before) before = stock::volume(*map);
+      stock::take_over(*map, setups_[setup].workpiece, *maps_[i], setups_[i].workpiece);
     }
-    if (exact_[setup] && stock::volume(*map) != before) exact_[setup]->lose("cut in another clamping");
+    if (exact_[setup] && before && stock::volume(*map) != *before)
+      exact_[setup]->lose("cut in another clamping");
   }
   return *map;
 }
@@ -155,9 +167,7 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     }
     return cells;
   }
-  // On a large piece the cells are coarse; the sections stay as close as the shortest piece that has a feed.
-  const double step_mm = std::min(2.0 * map.cell_mm, optimise::kLeastPiece * cutter.cutting_diameter_mm);
-  const engagement::Options options{.step_mm = std::max(profile.radius_mm / 20.0, step_mm)};
+  const engagement::Options options{.step_mm = step_of(map, cutter)};
   auto measured = measure_again(*exact, path, cutter, options, memo_);
   if (!measured) {
     if (exact->lost().empty()) exact->lose(measured.error().message);
@@ -174,6 +184,18 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     return measure_again(map, path, cutter, memo_);
   }
   return measured;
+}
+
+std::optional<stock::PlanarPart> Stocks::part(std::size_t setup, const geometry::Box3& cut, Vec2 origin,
+                                              const model::Cutter& cutter) {
+  const stock::HeightMap& map = of(setup);
+  const auto& exact = exact_[setup];
+  if (!exact || !exact->lost().empty()) return std::nullopt;
+  // As far beyond its path as remembered/planar.cpp looks, which ends a radius before what is cut.
+  const double radius = model::profile_of(cutter).radius_mm, beyond = radius + step_of(map, cutter);
+  const Vec2 more{beyond, beyond};
+  return exact->part(model::on_own_grid(xy(cut.lo) - origin - more),
+                     model::on_own_grid(xy(cut.hi) - origin + more), origin);
 }
 
 void Stocks::cut(std::size_t setup, const model::CutterPath& path, const model::Cutter& cutter) {

@@ -92,6 +92,10 @@ class Stocks {
   /// Fails  as engagement::measure; then nothing was cut.
   [[nodiscard]] Result<engagement::Measurement> measure(std::size_t setup, const model::CutterPath& path,
                                                         const model::Cutter& cutter);
+  /// What of the exact stock the sections of a flat cutter depend on that stays within a box, which is the
+  /// set-up's, seen from `origin`; nothing where the exact stock is lost.
+  [[nodiscard]] std::optional<stock::PlanarPart> part(std::size_t setup, const geometry::Box3& cut,
+                                                      geometry::Vec2 origin, const model::Cutter& cutter);
   /// Removes a cut that nobody asks anything of.
   void cut(std::size_t setup, const model::CutterPath& path, const model::Cutter& cutter);
 

@@ -233,22 +233,27 @@ Contact Prober::inside(Vec2 at, Vec2 ahead, double z_mm, double advance_mm) {
   const Vec2 along{ahead.y, -ahead.x};
   double last_height = -1.0;
   double last_reach = 0.0;
+  const bool flat = geometry::is_flat(profile_);  // its height is 0 wherever it is asked
+  const auto outline = [&](double x, double y) { return flat ? 0.0 : profile_.height(std::hypot(x, y)); };
   const auto on_line = [&](double x, double from, double to, double h, Contact& c) {
     if (!(to - from > stock::kTouch)) return;
     for (std::size_t i = 0; i < kNodes.size(); ++i) {
       for (const double side : {-1.0, 1.0}) {
         const double y = 0.5 * (from + to) + side * 0.5 * (to - from) * kNodes[i];
-        const double base = std::max(bottom, profile_.height(std::hypot(x, y)));
+        const double base = std::max(bottom, outline(x, y));
         const double w = kWeights[i] * 0.5 * (to - from) * (h - base);
         c.amount += w;
         c.moment_x += w * x;
         c.moment_y += w * 0.5 * (h + base);
       }
     }
-    const double far = std::max(std::hypot(x, from), std::hypot(x, to));
-    const double rim = far > 0.99 * radius ? radius : far;
-    const double low = std::max(bottom, profile_.height(std::min(std::abs(x), radius)));
-    c.high = std::max({c.high, low, std::min(h, profile_.height(rim) + advance_mm)});
+    double at_rim = 0.0;
+    if (!flat) {
+      const double far = std::max(std::hypot(x, from), std::hypot(x, to));
+      at_rim = profile_.height(far > 0.99 * radius ? radius : far);
+    }
+    const double low = std::max(bottom, outline(std::min(std::abs(x), radius), 0.0));
+    c.high = std::max({c.high, low, std::min(h, at_rim + advance_mm)});
     c.low = std::min(c.low, low);
     const double to_edge = std::abs(x) > 0.99 * radius ? std::copysign(radius, x) : x;
     c.left = std::min(c.left, to_edge);

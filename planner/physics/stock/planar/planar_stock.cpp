@@ -432,10 +432,11 @@ void PlanarStock::heights(const Probe& probe, Nearby& near, double above_mm, Hei
   constexpr std::size_t kCircles = 4;
   std::array<Vec2, kCircles> about;
   std::array<double, kCircles> reach{};
-  Heights::Piece left{};
+  Heights::Piece left{1e300, -1e300, 0.0};  // none yet
   const auto look_again = [&] {
-    left = out.standing(above_mm);
+    const Heights::Piece was = std::exchange(left, out.standing(above_mm));
     if (left.x0 > left.x1) return false;
+    if (left.x0 == was.x0 && left.x1 == was.x1) return true;  // within the same circles
     Vec2 from = probe.at(left.x0);
     for (std::size_t i = 0; i < kCircles; ++i) {
       const double step = (left.x1 - left.x0) / kCircles;

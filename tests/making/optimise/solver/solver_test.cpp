@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
-#include "planner/making/optimise/solver/solvers.h"
 #include "planner/making/optimise/solver/multipliers.h"
+#include "planner/making/optimise/solver/solvers.h"
+#include "planner/making/optimise/solver/spent_budget.h"
 #include "tests/making/optimise/examples.h"
 
 namespace capstan::optimise {
@@ -66,6 +69,47 @@ TEST(Solve, TheDefaultBudgetIsEnoughForTheLargestExample) {
   ASSERT_TRUE(s);
   EXPECT_EQ(s->outcome, Outcome::kOptimal);
   EXPECT_NEAR(s->objective, -2.6702, 1e-4 * 2.6702);
+}
+
+TEST(Solve, WhereNoBudgetIsToldSpentALargerOneComesToTheSame) {
+  if (!has_nlopt()) GTEST_SKIP() << "NLopt is absent";
+  const Problem problem = examples::tolouei_rad_milling().problem;
+  const auto with = [&](std::uint32_t budget, bool& spent) {
+    Job job;
+    job.evaluation_budget = budget;
+    const SpentBudgetScope scope;
+    const auto s = solve(problem, {}, job);
+    spent = scope.spent();
+    return s ? std::pair(s->x, s->evaluations) : std::pair(std::vector<double>{}, 0U);
+  };
+  bool spent = false;
+  constexpr std::uint32_t kEnough = 100'000;
+  const auto whole = with(kEnough, spent);
+  EXPECT_FALSE(spent);
+  int told = 0, same = 0;
+  for (std::uint32_t budget = 1; budget <= 4 * whole.second; budget += 1 + budget / 8) {
+    const auto some = with(budget, spent);
+    told += spent ? 1 : 0;
+    if (spent) continue;
+    ++same;
+    EXPECT_EQ(some, whole) << "budget " << budget;
+  }
+  EXPECT_GT(told, 0);
+  EXPECT_GT(same, 0);
+}
+
+TEST(Solve, ASpentBudgetIsToldToTheScopesAroundAndToNoLaterOne) {
+  if (!has_nlopt()) GTEST_SKIP() << "NLopt is absent";
+  const SpentBudgetScope outer;
+  {
+    const SpentBudgetScope inner;
+    Job job;
+    job.evaluation_budget = 2;
+    EXPECT_TRUE(solve(examples::tolouei_rad_milling().problem, {}, job));
+    EXPECT_TRUE(inner.spent());
+  }
+  EXPECT_TRUE(outer.spent());
+  EXPECT_FALSE(SpentBudgetScope().spent());
 }
 
 TEST(Solve, AgreesWithAnEvolutionStrategyThatKnowsNoSlopes) {

@@ -11,6 +11,7 @@
 #include "planner/ground/base/loading/library.h"
 #include "planner/making/optimise/solver/backend.h"
 #include "planner/making/optimise/solver/ipopt/library.h"
+#include "planner/making/optimise/solver/spent_budget.h"
 
 // Ipopt through its C interface. Its library is opened when a problem first comes here: with what it needs
 // itself (MUMPS, LAPACK, the Fortran runtime) it would take a sixth of the start of every command.
@@ -218,6 +219,8 @@ Result<std::vector<double>> solve_with_ipopt_of(const std::string& library, Eval
   bridge.rethrow();
   const char* const why = never_ran(end, bridge.asked());
   if (why != nullptr) return no_run(why + (end ? " (status " + std::to_string(*end) + ")" : std::string()));
+  // max_iter follows the points that are allowed, and an iteration may need none that is new.
+  if (end == Maximum_Iterations_Exceeded) tell_budget_spent();
   return u;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planner/making/optimise/solver/backend.h"
+#include "planner/making/optimise/solver/spent_budget.h"
 
 namespace capstan::optimise {
 namespace {
@@ -99,7 +100,7 @@ Result<std::vector<double>> solve_with_nlopt(Evaluator& evaluator, const Attempt
     if (attempt.algorithm == Algorithm::kCobyla) opt.set_initial_step(0.1);
     if (attempt.algorithm == Algorithm::kIsres) nlopt::srand(kSeed);
     double value = 0.0;
-    opt.optimize(u, value);
+    if (opt.optimize(u, value) == nlopt::MAXEVAL_REACHED) tell_budget_spent();
   } catch (const std::exception&) {
     // roundoff_limited, forced_stop (our budget, or what the model threw), NLOPT_FAILURE: NLopt leaves
     // the point it reached in u, usable or not; the caller measures it.

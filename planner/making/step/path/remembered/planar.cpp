@@ -26,8 +26,10 @@ Result<Measurement> measure_again(stock::PlanarStock& exact, const model::Cutter
   const Vec2 origin = model::own_origin(path);
   const model::CutterPath own = model::in_own_frame(path, origin);
   const auto around = model::bounds(own);
-  // Beyond the disc a look goes as far as half the piece of an arc that it is about: a radius, or a step.
-  const double beyond = 2.0 * profile.radius_mm + options.step_mm;
+  // Beyond the disc a look goes as far as half the piece of an arc that it is about: a radius, or a step. Of
+  // plunges alone it looks at the disc, so that holes are equal however near they are to the piece's sides.
+  const bool plunges = around.lo.x == around.hi.x && around.lo.y == around.hi.y;
+  const double beyond = (plunges ? 1.0 : 2.0) * profile.radius_mm + options.step_mm;
   const stock::PlanarPart part =
       exact.part(xy(around.lo) - Vec2{beyond, beyond}, xy(around.hi) + Vec2{beyond, beyond}, origin);
   const auto key = memo::key_of(memo::Stage::kSections, std::string("planar"), own, profile,
