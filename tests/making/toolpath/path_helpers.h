@@ -18,6 +18,7 @@ class HeightMap {
   struct Report {
     std::vector<std::string> faults;  ///< moves in the air that touch, plunges that must not be
     double cut_mm = 0.0;
+    double deepest_mm = 0.0;  ///< the most that a cutting move took off at one place of the cutter
   };
   /// Runs the path with a flat cutter. Air moves (rapids, approach, link, retract) must touch nothing.
   Report run(const GeneratedPath& g, const model::Cutter& cutter);
@@ -28,7 +29,8 @@ class HeightMap {
 
  private:
   [[nodiscard]] geometry::Vec2 centre(std::size_t i) const;
-  bool stamp(geometry::Vec3 p, double radius, bool cuts);
+  /// The most that the cutter takes there, mm; 0: it touches nothing.
+  double stamp(geometry::Vec3 p, double radius, bool cuts);
   geometry::Vec2 lo_;
   double cell_;
   std::size_t nx_, ny_;

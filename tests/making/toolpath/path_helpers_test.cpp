@@ -43,10 +43,10 @@ void HeightMap::set_top(const Region& region, double z_mm) {
   }
 }
 
-bool HeightMap::stamp(Vec3 p, double radius, bool cuts) {
-  bool touched = false;
+double HeightMap::stamp(Vec3 p, double radius, bool cuts) {
+  float most = 0.0F;
   const double r = cuts ? radius : radius - 1.5 * cell_;
-  if (r <= 0.0) return false;
+  if (r <= 0.0) return 0.0;
   const auto index = [&](double v, double lo, std::size_t n) {
     return static_cast<std::size_t>(std::clamp((v - lo) / cell_, 0.0, static_cast<double>(n)));
   };
@@ -61,11 +61,11 @@ bool HeightMap::stamp(Vec3 p, double radius, bool cuts) {
       if (z <= tip + 1e-4F) continue;
       const double dx = lo_.x + (static_cast<double>(x) + 0.5) * cell_ - p.x;
       if (dx * dx + dy * dy > r * r) continue;
-      touched = true;
+      most = std::max(most, z - tip);
       if (cuts) z = tip;
     }
   }
-  return touched;
+  return static_cast<double>(most);
 }
 
 HeightMap::Report HeightMap::run(const GeneratedPath& g, const model::Cutter& cutter) {
@@ -80,7 +80,9 @@ HeightMap::Report HeightMap::run(const GeneratedPath& g, const model::Cutter& cu
     const int n = std::max(1, static_cast<int>(std::ceil(length / (0.7 * cell_))));
     bool touched = false;
     for (int k = air ? 1 : 0; k <= n; ++k) {
-      touched = stamp(model::point_on_move(g.path, i, static_cast<double>(k) / n), radius, !air) || touched;
+      const double taken = stamp(model::point_on_move(g.path, i, static_cast<double>(k) / n), radius, !air);
+      touched = touched || taken > 0.0;
+      if (!air) out.deepest_mm = std::max(out.deepest_mm, taken);
     }
     if (!air) out.cut_mm += length;
     if (touched && (air || (role == MoveRole::kPlunge && !cutter.centre_cutting))) {

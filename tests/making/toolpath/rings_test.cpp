@@ -160,6 +160,22 @@ TEST(RingsInwards, RampAlongTheWallOnceForAllLevelsThatChipsAllow) {
   }
 }
 
+// The loads of a step are those of its depth: a ramp over a long ring falls by more than a level where its
+// angle allows, and would cut all of that at once.
+TEST(RingsInwards, RampThroughSeveralLevelsCutNoDeeperThanALevelAtOnce) {
+  PathJob t = inwards();
+  t.ramp_depth_mm = 20.0;
+  Job job;
+  for (const double level_mm : {2.0, 4.0, 8.0}) {
+    t.axial_depth_mm = level_mm;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    HeightMap map({-5, -5}, {65, 45}, 0.25, 0.0);
+    EXPECT_LE(map.run(*g, t.cutter).deepest_mm, level_mm + 1e-3);  // heights are in single precision
+    EXPECT_NEAR(map.highest(geometry::rounded_rectangle({0.3, 0.3}, {59.7, 39.7}, 5.7)), -16.0, 1e-4);
+  }
+}
+
 // The slot down to the last level is cut round once; the levels above it begin with the next ring.
 TEST(RingsInwards, CutTheWallsRingOnceForAllLevels) {
   PathJob t = inwards();

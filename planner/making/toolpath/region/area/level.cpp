@@ -328,6 +328,23 @@ std::optional<Track> LevelCutter::by_helix(const Level& level, const Track& trac
   return track.closed ? begun_at(track, spot) : track;
 }
 
+// The loads of a step are reckoned for the depth of a level. Each round of a ramp through several levels
+// takes what it falls by over the round before, and so does the round that closes it: none falls by more than
+// the deepest of these levels.
+Descent LevelCutter::round_by_round(const Level& level, const Track& track, double angle_rad,
+                                    double floor) const {
+  const Descent steepest(angle_rad, task.digit_mm);
+  double most = level.from_mm - level.z_mm, above = level.z_mm;
+  for (const double z : floors) {
+    if (z >= level.z_mm - kSameHeight || z < floor - kSameHeight) continue;
+    most = std::max(most, above - z);
+    above = z;
+  }
+  const double falls = steepest.of(track);
+  if (falls <= most) return steepest;
+  return {std::atan(std::tan(angle_rad) * most / falls), task.digit_mm};
+}
+
 std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track) {
   const double angle = ramp_angle();
   const double length = length_of(track);
@@ -340,7 +357,8 @@ std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track
   }
   const bool zigzag = !track.closed || task.approach.kind == Approach::Kind::kZigzag;
   const double floor = zigzag ? level.z_mm : slot_floor(level);
-  const Descent descent(angle, task.digit_mm);
+  const bool deeper = floor < level.z_mm - kSameHeight;
+  const Descent descent = deeper ? round_by_round(level, track, angle, floor) : Descent(angle, task.digit_mm);
   const double depth = level.from_mm + gap(level) - floor;
   const double round_mm = descent.of(track);
   if (depth > kMostTurns * round_mm) return std::nullopt;
@@ -371,7 +389,7 @@ std::optional<Track> LevelCutter::by_ramp(const Level& level, const Track& track
   const Track last = part_of(track, 0.0, rest);
   if (rest > 1e-6 && !last.segments.empty()) writer.follow_down(last, floor, descent, MoveRole::kRamp);
   const Track round = begun_at(track, at_length(track, rest));
-  if (floor < level.z_mm - kSameHeight) {
+  if (deeper) {
     writer.follow(round, floor, MoveRole::kCut);
     slots_.push_back({track, floor});
     const Vec2 here = xy(writer.at());

@@ -44,8 +44,8 @@ class LevelCutter {
   /// Brings the cutter onto the track at the level's height, by the best legal way: from outside, along a
   /// helix or through the bore of one that went deeper, along a ramp on the track, or straight down. Returns
   /// the track turned so that it begins where the cutter is. `leaf`: the area inside the track, for a helix.
-  /// A ramp along a closed track goes down to several levels at once, as a helix does; then the track is cut
-  /// to the lowest of them at once, and is `slotted` after that.
+  /// A ramp along a closed track goes down through several levels, as a helix does, by no more than a level a
+  /// round; the track is cut down to the lowest of them, and is `slotted` after that.
   /// Fails  TPA-ENTRY.
   Result<Track> enter(const Level& level, const Track& track, const geometry::Region* leaf);
   /// How long the way down through the level's material is, mm: along a helix or ramp, else straight.
@@ -91,6 +91,9 @@ class LevelCutter {
   /// Whether one way in may go from the level's material down to z: chips come out, the cutter reaches.
   [[nodiscard]] bool may_go_down_to(const Level& level, double z) const;
   std::optional<Track> by_ramp(const Level& level, const Track& track);
+  /// Of a ramp round a closed track down to `floor`, no round of which cuts deeper than a level.
+  [[nodiscard]] Descent round_by_round(const Level& level, const Track& track, double angle_rad,
+                                       double floor) const;
   [[nodiscard]] double steepest() const;  ///< ramp that is asked for and allowed, rad; 0: none
   [[nodiscard]] double ramp_angle();      ///< the same, to be cut: says so where less is allowed than asked
   /// Height of the cutter's end over the level's material where it begins to ramp.
