@@ -73,6 +73,9 @@ struct PlanOptions {
   /// feed override, %, at most 100. 0: as the machine has it.
   double spindle_power_kw = 0.0;
   unsigned feed_override = 0;
+  /// Where its axes may be, "X=0:350,Z=-200:-5", and where the work offset lies, "X=120,Y=80,Z=-310", mm in
+  /// machine coordinates: a program that leaves the limits is not given.
+  std::string axis_limits = {}, work_offset = {};
   std::string shop = {};  ///< a file of the shop's settings (`capstan shop init` writes one); what is empty
                           ///< here is as it says
   std::string without = {};  ///< "sections": plans without the cross sections along their paths

@@ -24,8 +24,9 @@ typedef struct capstan_late capstan_late;
 
 /* Counts what was added to this interface; what was there stays. 2: options by name, progress, stop, formats
  * by name. 3: capstan_late_changes; options "may" and "time". 4: capstan_late_take, capstan_late_bind_next,
- * capstan_late_steps; option "stop-at-deadline". 5: options "spindle-power", "feed-override". */
-#define CAPSTAN_LATE_INTERFACE 5
+ * capstan_late_steps; option "stop-at-deadline". 5: options "spindle-power", "feed-override".
+ * 6: options "axis-limits", "work-offset". */
+#define CAPSTAN_LATE_INTERFACE 6
 /* Of the library that is linked. */
 CAPSTAN_LATE_API unsigned capstan_late_interface(void);
 

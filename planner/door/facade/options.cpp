@@ -75,6 +75,8 @@ constexpr std::array kFields = {
     Field{"stop-at-deadline", [](const PlanOptions& o) { return flag(o.stop_at_deadline); }},
     Field{"measured", [](const PlanOptions& o) { return o.measured; }},
     Field{"spindle-power", [](const PlanOptions& o) { return unless_zero(o.spindle_power_kw); }},
+    Field{"axis-limits", [](const PlanOptions& o) { return o.axis_limits; }},
+    Field{"work-offset", [](const PlanOptions& o) { return o.work_offset; }},
     Field{"feed-override",
           [](const PlanOptions& o) { return o.feed_override == 0 ? "" : std::to_string(o.feed_override); }},
     Field{"strict", [](const PlanOptions& o) { return flag(o.strict); }},

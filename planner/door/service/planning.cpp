@@ -13,6 +13,7 @@
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/door/service/state/axis_limits.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/stopping.h"
@@ -240,6 +241,9 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
   if (request.next || request.from) policy.next = late::Next{request.next.value_or(1), request.from};
   auto outcome = late::bind(std::move(plan), std::move(inputs), policy, job);
   if (!outcome) return failed(outcome.error(), code_of(outcome.error(), Code::kImpossible));
+  if (auto left = leaves_limits(request.state, outcome->part ? *outcome->part : outcome->plan,
+                                outcome->program.text, outcome->program.tool_table))
+    return failed(*std::move(left), Code::kImpossible);
   for (const std::string& what : outcome->reopened) job.note("LATE-REOPENED", what, "");
   return Planned{std::move(outcome->plan),
                  std::move(outcome->of_plan),
@@ -294,6 +298,10 @@ namespace {
 Result<Verdict> judged(const Request& request, const Planned& planned, std::vector<Output>& outputs,
                        Job& job) {
   const model::Plan& made = planned.part ? *planned.part : planned.plan;
+  const auto other = std::find_if(outputs.begin(), outputs.end(), [&](const Output& o) {
+    return is_program(o) && !request.state.axis_limits.empty() && is_of_other_control(*o.format, made);
+  });
+  if (other != outputs.end()) return fail(not_held(*other->format, made));
   Verdict v;
   for (const auto& f : planned.findings) v.findings.push_back({made.file_name, f, false});
   const auto held = model::held_steps(made);

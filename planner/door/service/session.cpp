@@ -12,6 +12,7 @@
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/door/service/shop_file/shop_file.h"
+#include "planner/door/service/state/axis_limits.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/listed_steps.h"
 
@@ -228,6 +229,9 @@ const std::string* Session::output(std::string_view name) {
   if (of_machine && !checked.text.empty() && !text.empty()) return &text;
   const std::string* made = nullptr;
   guarded([&] {
+    if (format->holds == Holds::kProgram && !request_.state.axis_limits.empty() &&
+        is_of_other_control(*format, bound_->plan))
+      return end(Code::kImpossible, to_text(not_held(*format, bound_->plan)));
     Job job;
     auto written = write(plan_for(*bound_, *format), *format, job, {.sections = request_.sections});
     if (!written) return end(Code::kImpossible, to_text(written.error()));

@@ -1,6 +1,7 @@
 #include "planner/ground/geometry/region.h"
 
 #include <algorithm>
+#include <array>
 #include <clipper.hpp>
 #include <cmath>
 #include <cstring>
@@ -354,15 +355,45 @@ Box2 bounds(const Region& a) {
 
 Region rectangle(Vec2 lo, Vec2 hi) { return {{{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}}}; }
 
+namespace {
+
+/// Directions of the points of an arc, from its start on. Holes of one size and corners of pockets ask for
+/// the same ones by the thousand, and sine and cosine are most of what an arc costs: a thread keeps the last
+/// few.
+const std::vector<Vec2>& directions(double from_rad, double sweep_rad, int steps) {
+  struct Known {
+    double from_rad = 0.0, sweep_rad = 0.0;
+    std::vector<Vec2> at;
+  };
+  constexpr std::size_t kKept = 16;  // corners of a few sizes
+  constexpr int kMostSteps = 4096;   // more are made in a place of their own
+  thread_local std::array<Known, kKept> known;
+  thread_local Known long_one;
+  thread_local std::size_t next = 0;
+  for (const Known& k : known) {
+    if (k.from_rad == from_rad && k.sweep_rad == sweep_rad && k.at.size() == static_cast<std::size_t>(steps))
+      return k.at;
+  }
+  Known& made = steps > kMostSteps ? long_one : known[next++ % kKept];
+  made = {from_rad, sweep_rad, {}};
+  made.at.reserve(static_cast<std::size_t>(steps));
+  for (int i = 1; i <= steps; ++i) {
+    const double a = from_rad + sweep_rad * i / steps;
+    made.at.push_back({std::cos(a), std::sin(a)});
+  }
+  return made.at;
+}
+
+}  // namespace
+
 void append_arc(Loop& out, Vec2 centre, Vec2 start, double sweep_rad, double tolerance_mm) {
   const Vec2 r = start - centre;
   const double radius = norm(r);
   const double a0 = std::atan2(r.y, r.x);
   const int steps = arc_steps(radius, sweep_rad, tolerance_mm);
-  for (int i = 1; i <= steps; ++i) {
-    const double a = a0 + sweep_rad * i / steps;
-    out.push_back({centre.x + radius * std::cos(a), centre.y + radius * std::sin(a)});
-  }
+  out.reserve(out.size() + static_cast<std::size_t>(steps));
+  for (const Vec2 d : directions(a0, sweep_rad, steps))
+    out.push_back({centre.x + radius * d.x, centre.y + radius * d.y});
 }
 
 Region rounded_rectangle(Vec2 lo, Vec2 hi, double corner_radius_mm, double tolerance_mm) {

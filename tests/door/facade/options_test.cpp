@@ -66,6 +66,8 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.stop_at_deadline = true;
   o.spindle_power_kw = 5.5;
   o.feed_override = 80;
+  o.axis_limits = "X=0:350";
+  o.work_offset = "X=1,Y=2,Z=3";
   o.threads = 3;
   const service::Request r = request(o);
   EXPECT_EQ(r.machine, "a machine");
@@ -96,6 +98,10 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_TRUE(r.stop_at_deadline);
   EXPECT_EQ(r.state.spindle_power_kw, 5.5);
   EXPECT_EQ(r.state.feed_override, 80U);
+  ASSERT_EQ(r.state.axis_limits.size(), 1U);
+  EXPECT_EQ(r.state.axis_limits[0].most_mm, 350.0);
+  ASSERT_EQ(r.state.work_offsets.size(), 1U);
+  EXPECT_EQ(r.state.work_offsets[0].at_mm, (geometry::Vec3{1.0, 2.0, 3.0}));
   EXPECT_FALSE(r.allow_findings);
   EXPECT_EQ(r.threads, 3U);
   PlanOptions edited;

@@ -35,7 +35,7 @@ TEST(LateInterface, AJsonPlanMayBeginWithAByteOrderMark) {
 }
 
 TEST(LateInterface, TakesOptionsByTheirNames) {
-  EXPECT_EQ(capstan_late_interface(), 5U);
+  EXPECT_EQ(capstan_late_interface(), 6U);
   capstan_late* session = capstan_late_create();
   ASSERT_NE(session, nullptr);
   EXPECT_EQ(capstan_late_set(session, "machine", "generic_vmc"), CAPSTAN_LATE_OK);

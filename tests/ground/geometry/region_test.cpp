@@ -109,5 +109,24 @@ TEST(CutterProfile, HeightFollowsTheClosedForms) {
   EXPECT_TRUE(std::isinf(drill.height(5.001)));
 }
 
+TEST(AppendArc, GivesTheSamePointsHoweverManyArcsComeBetween) {
+  // More sizes than are kept, each asked for twice, in an order that comes back to all of them.
+  constexpr int kSizes = 23, kPrime = 7;
+  for (int k = 0; k < 2 * kSizes; ++k) {
+    const double radius = 0.5 + 0.3 * (k * kPrime % kSizes),
+                 sweep = k % 2 == 0 ? 1.25 : -2.0 * std::numbers::pi;
+    const Vec2 centre{0.1 * k, -3.0};
+    Loop got;
+    append_arc(got, centre, centre + Vec2{0.0, -radius}, sweep, 1e-3);
+    ASSERT_GT(got.size(), 3U);
+    const double from = std::atan2((centre + Vec2{0.0, -radius} - centre).y, 0.0);
+    const double r = norm(centre + Vec2{0.0, -radius} - centre);
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      const double a = from + sweep * static_cast<double>(i + 1) / static_cast<double>(got.size());
+      EXPECT_EQ(got[i], (Vec2{centre.x + r * std::cos(a), centre.y + r * std::sin(a)})) << k << ", " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace capstan::geometry

@@ -16,6 +16,23 @@ std::string set_power(Request& r, const std::string& text) {
   return {};
 }
 
+/// What is wrong with a text, in one sentence.
+std::string fault_of(const Diagnostic& d) { return d.message + "; expected " + d.expected; }
+
+std::string set_limits(Request& r, const std::string& text) {
+  auto limits = parse_axis_limits(text);
+  if (!limits) return fault_of(limits.error());
+  r.state.axis_limits = *std::move(limits);
+  return {};
+}
+
+std::string set_offsets(Request& r, const std::string& text) {
+  auto offsets = parse_work_offsets(text);
+  if (!offsets) return fault_of(offsets.error());
+  r.state.work_offsets = *std::move(offsets);
+  return {};
+}
+
 }  // namespace
 
 std::vector<Option> state_options() {
@@ -27,6 +44,20 @@ std::vector<Option> state_options() {
                 "steps are cut with that",
                 nullptr},
        .set = &set_power},
+      {.name = "axis-limits",
+       .value = Value::kText,
+       .help = {nullptr,
+                "where the axes may be now, mm in machine coordinates: X=0:350,Z=-200:-5 (Z of the spindle's "
+                "gage line); a program that leaves them is not given; needs --work-offset",
+                nullptr},
+       .set = &set_limits},
+      {.name = "work-offset",
+       .value = Value::kText,
+       .help = {nullptr,
+                "where the work offset lies, mm in machine coordinates: X=120,Y=80,Z=-310; of several "
+                "G54:X=120,Y=80,Z=-310;G55:X=300,Y=80,Z=-310; for --axis-limits, it moves nothing",
+                nullptr},
+       .set = &set_offsets},
       {.name = "feed-override",
        .value = Value::kWhole,
        .help = {nullptr,

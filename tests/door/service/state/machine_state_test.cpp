@@ -77,8 +77,7 @@ TEST(MachineState, OfASpindleThatStatesTorqueAloneThePowerOfThatIsCapped) {
 }
 
 TEST(MachineState, SaidAgainChangesNothingMore) {
-  for (const auto& [option, value] :
-       {std::pair{"spindle-power", "3.3"}, {"feed-override", "80"}}) {
+  for (const auto& [option, value] : {std::pair{"spindle-power", "3.3"}, {"feed-override", "80"}}) {
     const Request r = with(option, value);
     const Taken once = taken(r);
     EXPECT_EQ(taken(r, once.machine).machine, once.machine) << option;
@@ -103,6 +102,28 @@ TEST(MachineState, WhatIsNoPowerAndNoRangeIsRefused) {
     Request r;
     EXPECT_FALSE(set(r, option, value)) << option << " " << value;
   }
+}
+
+TEST(MachineState, LimitsOfAxesAndWorkOffsetsAreRecordedAndMoveNothing) {
+  Request r = with("axis-limits", "X=-50:350,Z=-200:-5.5");
+  ASSERT_TRUE(set(r, "work-offset", "G54:X=120,Y=80,Z=-310;G55:Z=1,Y=2,X=3"));
+  const Taken out = taken(r);
+  EXPECT_EQ(out.machine, machine());
+  ASSERT_EQ(out.rows.size(), 2U);
+  EXPECT_EQ(out.rows[0].value, "X=-50:350,Z=-200:-5.5");
+  EXPECT_EQ(out.rows[1].value, "G54:X=120,Y=80,Z=-310;G55:X=3,Y=2,Z=1");
+}
+
+TEST(MachineState, WhatIsNoRangeOrNoPlaceIsNoValue) {
+  Request r;
+  for (const char* text : {"X", "X=", "X=1", "X=1:", "X=:1", "=0:1", "X=2:1", "X=1:1", "X=0:nan", "X=0:1e999",
+                           "X=0:1,", "X=0:1,X=0:2", "X=0:1;Y=0:1"})
+    EXPECT_FALSE(set(r, "axis-limits", text)) << text;
+  for (const char* text : {"X=1", "X=1,Y=2", "X=1,Y=2,Z=", "X=1,Y=2,Z=3,", "X=1,Y=2,Z=3,X=4", "X=1,Y=2,W=3",
+                           "X=1,Y=2,Z=inf", ":X=1,Y=2,Z=3", "G54:X=1,Y=2,Z=3;G54:X=1,Y=2,Z=3", "X1,Y2,Z3"})
+    EXPECT_FALSE(set(r, "work-offset", text)) << text;
+  EXPECT_TRUE(r.state.axis_limits.empty());
+  EXPECT_TRUE(r.state.work_offsets.empty());
 }
 
 }  // namespace
