@@ -278,15 +278,18 @@ TEST(Surfaces, AreRoughedEvenedOutAndFinishedByABallThatFitsTheirCreases) {
   for (const ShapeKind kind : {ShapeKind::kFreeform, ShapeKind::kSphericalCap}) {
     s.kind = kind;
     const auto p = proposed(s, c);
-    EXPECT_THAT(first(p), ElementsAre(TypeId::kFreeformRoughMilling, TypeId::kFreeformFinishMilling,
+    EXPECT_THAT(first(p), ElementsAre(TypeId::kFreeformRoughMilling, TypeId::kFreeformRoughMilling,
+                                      TypeId::kFreeformRoughMilling, TypeId::kFreeformFinishMilling,
                                       TypeId::kFreeformFinishMilling));
-    const auto& semi = p.chains.at(0).at(1);
+    const double left_mm = p.chains.at(0).at(0).allowance_side_mm;
+    for (const std::size_t rest : {1U, 2U}) EXPECT_EQ(p.chains.at(0).at(rest).allowance_side_mm, left_mm);
+    const auto& semi = p.chains.at(0).at(3);
     EXPECT_DOUBLE_EQ(semi.allowance_side_mm, 0.2);  // of the row
     EXPECT_DOUBLE_EQ(semi.tool.diameter_max_mm, 0.0) << "it leaves material: any ball will do";
-    const auto& last = p.chains.at(0).at(2);
+    const auto& last = p.chains.at(0).at(4);
     EXPECT_DOUBLE_EQ(last.allowance_side_mm, 0.0);
     EXPECT_DOUBLE_EQ(last.tool.diameter_max_mm, 8.0);
-    EXPECT_EQ(p.chains.at(1).size(), 2U) << "where no ball bears the terraces, finished at once";
+    EXPECT_EQ(p.chains.at(1).size(), 4U) << "where no ball bears the terraces, finished at once";
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ground/geometry/region.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/freeform/rough/level_contour.h"
 #include "planner/making/toolpath/freeform/rough/levels.h"
@@ -222,6 +223,78 @@ TEST(Rough, OfARestCutsOnlyWhereMoreStandsThanMayStay) {
   const auto other = rough(second, job);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, "FRF-VALUE");
+}
+
+/// A block of 40 x 30 x 12 mm with a pocket of 24 x 14 x 6 mm in its middle, all walls upright.
+Mesh block_with_pocket() {
+  Mesh m;
+  const auto quad = [&](geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c, geometry::Vec3 d) {
+    const auto n = static_cast<std::uint32_t>(m.vertices.size());
+    m.vertices.insert(m.vertices.end(), {a, b, c, d});
+    m.triangles.push_back({n, n + 1, n + 2});
+    m.triangles.push_back({n, n + 2, n + 3});
+  };
+  const geometry::Vec2 out[] = {{0, 0}, {40, 0}, {40, 30}, {0, 30}},
+                       in[] = {{8, 8}, {32, 8}, {32, 22}, {8, 22}};
+  const auto at = [](geometry::Vec2 p, double z) { return geometry::Vec3{p.x, p.y, z}; };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) % 4;
+    quad(at(out[i], -12), at(out[j], -12), at(out[j], 0), at(out[i], 0));
+    quad(at(out[i], 0), at(out[j], 0), at(in[j], 0), at(in[i], 0));
+    quad(at(in[i], 0), at(in[j], 0), at(in[j], -6), at(in[i], -6));
+  }
+  quad(at(in[0], -6), at(in[1], -6), at(in[2], -6), at(in[3], -6));
+  quad(at(out[3], -12), at(out[2], -12), at(out[1], -12), at(out[0], -12));
+  return m;
+}
+
+// The walls around were followed on every level, although the raw piece ends with them: nine tenths of the
+// path of a pocket's walls lay in air.
+TEST(Rough, OfWallsGoesOnlyWhereTheyAreToLoseSomething) {
+  const Mesh mesh = block_with_pocket();
+  FreeformJob task = job_on(mesh, bull(6.0, 0.0), 0.0);
+  task.cutter.cutter_class = model::CutterClass::kEndmill;
+  task.cutter.centre_cutting = true;
+  task.allowance_mm = 0.0;
+  task.axial_depth_mm = 2.0;
+  task.stepover_mm = 3.0;
+  task.left_mm = 0.5;
+  task.bottom_z_mm = -12.0;
+  task.floors_z_mm = {-6.0};
+  task.beside_is_free = true;
+  task.area = geometry::rectangle({-4, -4}, {44, 34});
+  auto map = stock::from_box({{0, 0, -12}, {40, 30, 0}}, 0.1);
+  const double left = *task.left_mm;
+  for (int iy = 0; iy < map.ny; ++iy) {
+    for (int ix = 0; ix < map.nx; ++ix) {
+      const double x = map.x_of(ix), y = map.y_of(iy);
+      if (x < 8.0 + left || x > 32.0 - left || y < 8.0 + left || y > 22.0 - left) continue;
+      const auto height = static_cast<float>(-6.0 + left + 12.0);
+      map.set(ix, iy, {height, height, 0.0F});
+    }
+  }
+  task.stock = &map;
+  Job job;
+  const auto made = rough(task, job);
+  ASSERT_TRUE(made) << made.error().message;
+  int within = 0;
+  for (std::size_t i = 1; i < made->path.size(); ++i) {
+    if (made->path.role[i] != MoveRole::kCut) continue;
+    const auto p = made->path.point(i);
+    EXPECT_TRUE(p.x > 8.0 && p.x < 32.0 && p.y > 8.0 && p.y < 22.0) << p.x << ' ' << p.y << ' ' << p.z;
+    ++within;
+  }
+  EXPECT_GT(within, 0);
+  // All that was to go is gone: what stays lies in the pocket's corners and within a cell of its walls.
+  stock::cut(map, model::profile_of(task.cutter), made->path);
+  for (double x = 8.2; x < 31.9; x += 0.1) {
+    for (double y = 8.2; y < 21.9; y += 0.1) {
+      const bool corner = std::min(x - 8.0, 32.0 - x) < 3.0 && std::min(y - 8.0, 22.0 - y) < 3.0;
+      if (!corner) {
+        EXPECT_LT(stock::height_at(map, {x, y}), -6.0 + 2.0 * task.tolerance_mm + 1e-3) << x << ' ' << y;
+      }
+    }
+  }
 }
 
 // A chord across a square inside corner was taken for the border: both its ends lay a little off it, and the
