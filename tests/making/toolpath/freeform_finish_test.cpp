@@ -21,14 +21,14 @@ using model::MoveRole;
 constexpr double kSize = 30.0, kMiddle = 0.5 * kSize;
 
 template <class F>
-Mesh height_field(int n, const F& f) {
+Mesh height_field(int n, int rows, const F& f) {
   Mesh m;
-  for (int j = 0; j <= n; ++j) {
+  for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= n; ++i)
-      m.vertices.push_back({kSize * i / n, kSize * j / n, f(kSize * i / n, kSize * j / n)});
+      m.vertices.push_back({kSize * i / n, kSize * j / rows, f(kSize * i / n, kSize * j / rows)});
   }
   const auto at = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
-  for (int j = 0; j < n; ++j) {
+  for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < n; ++i) {
       m.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       m.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
@@ -105,7 +105,7 @@ double highest(const stock::HeightMap& map, const F& f, const Where& where) {
 }
 
 TEST(Waterline, CutsASteepWallAtConstantHeightsWithTheWallOnItsRight) {
-  const Mesh mesh = height_field(60, cavity);
+  const Mesh mesh = height_field(60, 60, cavity);
   const auto c = ball(6.0);
   FreeformJob task = job_on(mesh, c, 0.5);
   Job job;
@@ -133,8 +133,8 @@ TEST(Waterline, CutsASteepWallAtConstantHeightsWithTheWallOnItsRight) {
 }
 
 TEST(RestFinish, CutsWhereTheWiderBallLeftAndNowhereElse) {
-  const Mesh mesh = height_field(75, trough);
-  const auto wide = ball(10.0), narrow = ball(4.0);
+  const Mesh mesh = height_field(300, 1, trough);
+  const auto wide = ball(10.0), narrow = ball(3.0);
   auto map = stock::from_box({{8, 8, -3}, {22, 22, 6}}, 0.1);
   FreeformJob first = job_on(mesh, wide, 14.0);
   first.area = geometry::rectangle({5, 8}, {25, 22});
@@ -168,7 +168,7 @@ TEST(RestFinish, CutsWhereTheWiderBallLeftAndNowhereElse) {
 
 // Of a plane the wider ball leaves nothing.
 TEST(RestFinish, HasNothingToCutWhereTheWiderBallReachesAll) {
-  const Mesh mesh = height_field(4, [](double x, double) { return 0.2 * x; });
+  const Mesh mesh = height_field(4, 4, [](double x, double) { return 0.2 * x; });
   FreeformJob task = job_on(mesh, ball(4.0), 8.0);
   task.after = ball(10.0);
   Job job;

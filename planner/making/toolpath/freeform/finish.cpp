@@ -34,9 +34,9 @@ using geometry::Vec3;
 constexpr double kShareOfLeft = 0.2;
 /// Passes lie between two others at most 2^5 times as close: as ridges on a slope of 88 degrees need.
 constexpr int kMostHalvings = 5;
-/// From this slope on ways at constant heights are the shorter ones: across a slope passes are 1 / cos t as
-/// many, levels 1 / sin t. Derived.
-constexpr double kSteepRad = 0.25 * std::numbers::pi;
+/// From about 45 degrees on ways at constant heights are the shorter ones: across a slope passes are
+/// 1 / cos t as many, levels 1 / sin t. Derived; a little more, for many a chamfer and cone has just 45.
+constexpr double kSteepRad = 47.0 / 180.0 * std::numbers::pi;
 /// What a ball that finishes what a wider one left takes at once, square to the surface, mm: as much as a
 /// last ball meets after a semi-finish. Default, unsourced.
 constexpr double kLayerMm = 0.4;
@@ -98,7 +98,10 @@ class Finisher {
       job_.progress("freeform finish", 1.0 - static_cast<double>(k + 1) / layers);
       FreeformJob layer = task_;
       layer.allowance_mm = task_.allowance_mm + k * kLayerMm;
-      if (k > 0) layer.scallop_mm = std::max(task_.scallop_mm, 0.25 * kLayerMm);
+      if (k > 0) {  // not the last: as coarse as the next bears
+        layer.scallop_mm = std::max(task_.scallop_mm, 0.25 * kLayerMm);
+        layer.tolerance_mm = std::max(task_.tolerance_mm, 0.1 * kLayerMm);
+      }
       const Mask rest = grown(more_than(places, left, k * kLayerMm + limit), 1);
       if (!rest.any()) continue;
       const Reach reach = reach_of(layer);
@@ -243,6 +246,7 @@ class Finisher {
         return has_upright_step(drop_, cutter_, follow.allowance_mm, hatch_.place(u, below.first),
                                 hatch_.place(u, above.first));
       });
+    if (task_.after) add_hollows(follow, below, above, wide);
     if (wide.empty()) return;
     if (halvings == 0) {
       for (const auto& [lo, hi] : wide) steep += hi - lo;
@@ -256,6 +260,48 @@ class Finisher {
     fill(follow, apart, below, middle, halvings - 1, out, steep);
     for (const Run& run : middle.second) out.push_back({middle.first, run});
     fill(follow, apart, middle, above, halvings - 1, out, steep);
+  }
+
+  /// What a wider ball left is hollow: places where a ball between two passes would go deeper than the line
+  /// from one to the other. The ridge is higher by that depth than that of a plane.
+  void add_hollows(const Follower& follow, const Line& below, const Line& above,
+                   std::vector<std::pair<double, double>>& wide) const {
+    const double most = task_.scallop_mm + 1.5 * task_.tolerance_mm + kShareOfLeft * task_.allowance_mm;
+    const double step = 0.5 * cutter_.radius(), v = 0.5 * (below.first + above.first);
+    const double dv = above.first - below.first;
+    const auto ends = [&](const Run& run) {
+      return std::pair(dot(xy(run.front()), hatch_.u_axis), dot(xy(run.back()), hatch_.u_axis));
+    };
+    std::uint32_t hint = 0;
+    const auto z = [&](double u, double at_v) {
+      const Vec2 p = hatch_.place(u, at_v);
+      return drop_.drop(cutter_, p.x, p.y, follow.allowance_mm, hint);
+    };
+    const std::size_t before = wide.size();
+    for (const Run& one : below.second) {
+      for (const Run& other : above.second) {
+        const double lo = std::max(ends(one).first, ends(other).first);
+        const double hi = std::min(ends(one).second, ends(other).second);
+        for (double u = lo + 0.5 * step; u < hi; u += step) {
+          const double a = z(u, below.first), m = z(u, v), b = z(u, above.first);
+          if (a == DropCutter::kNoContact || m == DropCutter::kNoContact || b == DropCutter::kNoContact)
+            continue;
+          const double apart = std::hypot(dv, b - a), depth = (0.5 * (a + b) - m) * dv / apart;
+          if (depth <= 0.0 || ridge_mm(cutter_.ball_mm(), apart) + depth <= most) continue;
+          wide.emplace_back(std::max(lo, u - step), std::min(hi, u + step));
+        }
+      }
+    }
+    if (wide.size() == before) return;
+    std::sort(wide.begin(), wide.end());
+    std::vector<std::pair<double, double>> joined;
+    for (const auto& gap : wide) {
+      if (!joined.empty() && gap.first <= joined.back().second)
+        joined.back().second = std::max(joined.back().second, gap.second);
+      else
+        joined.push_back(gap);
+    }
+    wide = std::move(joined);
   }
 
   const FreeformJob& task_;

@@ -57,48 +57,74 @@ std::vector<double> heights(const DropGrid& grid, const Mask& where, double apar
   return out;
 }
 
+/// The parts of a border that lie in the mask or within a point of it; a closed one that lies in it whole
+/// stays closed, and of another none begins in the midst of a part.
+std::vector<std::vector<Vec2>> parts_within(std::vector<Vec2> line, const Mask& where) {
+  std::vector<std::vector<Vec2>> out;
+  const auto outside = std::find_if(line.begin(), line.end(), [&](Vec2 p) { return !where.at(p); });
+  if (outside == line.end()) {
+    out.push_back(std::move(line));
+    return out;
+  }
+  if (line.front() == line.back()) {
+    line.pop_back();
+    std::rotate(line.begin(), outside, line.end());
+    line.push_back(line.front());
+  }
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (!where.at(line[k])) continue;
+    std::vector<Vec2> part;
+    if (k > 0) part.push_back(line[k - 1]);
+    for (; k < line.size() && where.at(line[k]); ++k) part.push_back(line[k]);
+    if (k < line.size()) part.push_back(line[k]);
+    if (part.size() > 1) out.push_back(std::move(part));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Level> waterlines(const Reach& reach, const DropGrid& grid, const Mask& where, double apart_mm,
                               Job& job) {
   const std::vector<double> at = heights(grid, where, apart_mm);
   std::vector<Level> out(at.size());
+  const double step = 0.5 * where.step_mm;
+  // Follows a border, where the mask has it and the surface is at its height: the border of a level also runs
+  // along the rim of the surface, far above it.
+  const auto follow = [&](const std::vector<Vec2>& part, Level& level) {
+    const double z = level.z_mm;
+    std::uint32_t hint = 0;
+    const auto line = refined(
+        part, kRefined * reach.margin_mm, [&](Vec2 p) { return reach.at(p, hint) <= z; },
+        [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z); });
+    Run run;
+    const auto close = [&] {
+      if (run.size() > 1) level.runs.push_back(run);
+      run.clear();
+    };
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      const Vec2 a = line[k - 1], b = line[k];
+      const int n = std::max(1, static_cast<int>(std::ceil(norm(b - a) / step)));
+      const auto at_share = [&](int m) { return a + (static_cast<double>(m) / n) * (b - a); };
+      for (int m = 0; m < n; ++m) {
+        const Vec2 from = at_share(m), to = m + 1 == n ? b : at_share(m + 1), middle = 0.5 * (from + to);
+        if (!where.at(middle) || reach.at(middle, hint) <= z - apart_mm || !reach.is_free(from, to, z, 0.5)) {
+          close();
+          continue;
+        }
+        if (run.empty()) run.push_back({from.x, from.y, z});
+        if (m > 0 && run.size() > 1) run.pop_back();
+        run.push_back({to.x, to.y, z});
+      }
+    }
+    close();
+  };
   parallel_for(job, at.size(), [&](std::size_t i) {
     if (job.stop_requested()) return;
     const double z = out[i].z_mm = at[i];
     const auto border = [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z); };
     for (const auto& rough : level_contour(grid, z, border)) {
-      // Most of a level's border may lie elsewhere.
-      if (std::none_of(rough.begin(), rough.end(), [&](Vec2 p) { return where.at(p); })) continue;
-      std::uint32_t hint = 0;
-      const auto line = refined(
-          rough, kRefined * reach.margin_mm, [&](Vec2 p) { return reach.at(p, hint) <= z; }, border);
-      Run run;
-      const auto close = [&] {
-        if (run.size() > 1) out[i].runs.push_back(run);
-        run.clear();
-      };
-      for (std::size_t k = 1; k < line.size(); ++k) {
-        const Vec2 middle = 0.5 * (line[k - 1] + line[k]);
-        // The border of a level also runs along the rim of the surface, far above it.
-        const bool in = where.at(middle) && reach.at(middle, hint) > z - apart_mm;
-        if (!in || !reach.is_free(line[k - 1], line[k], z, 0.5)) {
-          close();
-          continue;
-        }
-        if (run.empty()) run.push_back({line[k - 1].x, line[k - 1].y, z});
-        run.push_back({line[k].x, line[k].y, z});
-      }
-      const bool whole = run.size() == line.size();
-      // A closed border that is cut at its first point goes on over it.
-      if (!whole && !run.empty() && line.front() == line.back() && !out[i].runs.empty() &&
-          xy(out[i].runs.front().front()) == line.front()) {
-        Run& first = out[i].runs.front();
-        run.insert(run.end(), first.begin() + 1, first.end());
-        first = std::move(run);
-        run.clear();
-      }
-      close();
+      for (const auto& part : parts_within(rough, where)) follow(part, out[i]);
     }
   });
   return out;
