@@ -57,6 +57,8 @@ struct PlanOptions {
   std::string cache = {};  ///< a folder that keeps results of stages from call to call
   std::string may = {};    ///< what a control may decide at the machine: "all", "none", "tools,feeds", ...
   std::string mesh_unit = {};  ///< of an STL mesh, which does not state it: "mm" (the default), "inch"
+  std::string body = {};       ///< of a CAD file: the number from 1 or the name of the body that is the part
+  bool features_only = false;  ///< of a CAD file: its features and tolerances are written, nothing is planned
   std::string time = {};       ///< of `bind_...`: when, for the plan's record; any text
   std::string control =
       {};  ///< in place of the machine's own: "fanuc", "grbl", "haas", "heidenhain", "linuxcnc", "siemens"

@@ -49,6 +49,8 @@ constexpr std::array kFields = {
             return "block:+" + number(o.stock_allowance_mm);
           }},
     Field{"mesh-unit", [](const PlanOptions& o) { return o.mesh_unit; }},
+    Field{"body", [](const PlanOptions& o) { return o.body; }},
+    Field{"features-only", [](const PlanOptions& o) { return flag(o.features_only); }},
     Field{"objective", [](const PlanOptions& o) { return o.objective; }},
     Field{"margin", [](const PlanOptions& o) { return o.margin; }},
     Field{"revenue", [](const PlanOptions& o) { return above_zero(o.revenue); }},

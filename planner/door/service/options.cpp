@@ -26,7 +26,7 @@ namespace {
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
-// In alphabetical order: help texts and messages list them so.
+// In alphabetical order, as help texts list them.
 const Named<pipeline::Reopen>& reopen_words() {
   static const Named<pipeline::Reopen> kWords = {{"all", pipeline::Reopen::kAll},
                                                  {"operations", pipeline::Reopen::kOperations},
@@ -165,6 +165,8 @@ constexpr const char* kStrict = "write nothing when there are findings";
 
 /// The same help for `plan` and `bind`.
 constexpr std::array<const char*, kVerbs> both(const char* text) { return {text, text, nullptr}; }
+constexpr std::array<const char*, kVerbs> of_plan(const char* text) { return {text, nullptr, nullptr}; }
+constexpr std::array<const char*, kVerbs> of_bind(const char* text) { return {nullptr, text, nullptr}; }
 
 std::vector<Option> table() {
   constexpr const char* kShop =
@@ -191,8 +193,7 @@ std::vector<Option> table() {
       {"tools",
        Value::kText,
        {"tool library: a file, or `generic` (the default)",
-        "the tools that are loaded: a tool table or library; without it the plan's own count as loaded, in "
-        "its tool numbers",
+        "the loaded tools: a tool table or library; without it the plan's own, in its tool numbers",
         "tool library with the programs' tools"},
        [](Request& r, Text t) { return r.tools = t, std::string(); },
        {}},
@@ -208,10 +209,19 @@ std::vector<Option> table() {
        {}},
       {"mesh-unit",
        Value::kWord,
-       {"what the numbers of an STL mesh are, which does not say: mm (the default) or inch", nullptr,
-        nullptr},
+       of_plan("unit of an STL mesh, which does not say it: mm (the default) or inch"),
        [](Request& r, Text t) { return r.mesh_unit = t, std::string(); },
        {"inch", "mm"}},
+      {"body",
+       Value::kText,
+       of_plan("body of a CAD file that is the part: its number or name (capstan inspect)"),
+       [](Request& r, Text t) { return r.body = t, std::string(); },
+       {}},
+      {"features-only",
+       Value::kFlag,
+       of_plan("of a CAD file write the features with their tolerances, and plan nothing"),
+       [](Request& r, Text t) { return r.features_only = t == "yes", std::string(); },
+       {}},
       {"objective", Value::kWord,
        both("what is made least or most: time, cost, or profit per time (needs --revenue)"),
        [](Request& r, Text t) { return r.objective = value_of(objective_words(), t), std::string(); },
@@ -268,50 +278,42 @@ std::vector<Option> table() {
        1,
        1000000},
       {"edges", Value::kText, both("chamfer edges that the part leaves sharp, mm"), &set_edges, {}},
-      {"bind",
-       Value::kWord,
-       {"how far decisions are closed: none, strategy, tools or all", nullptr, nullptr},
+      {"bind", Value::kWord, of_plan("how far decisions are closed: none, strategy, tools or all"),
        [](Request& r, Text t) { return r.bind = value_of(bind_words(), t), std::string(); },
        names(bind_words())},
-      {"reopen",
-       Value::kWord,
-       {"what to plan anew although the file has it", nullptr, nullptr},
+      {"reopen", Value::kWord, of_plan("what to plan anew although the file has it"),
        [](Request& r, Text t) { return r.reopen = value_of(reopen_words(), t), std::string(); },
        names(reopen_words())},
       {"deadline",
        Value::kText,
-       {nullptr, "e.g. 200ms or 2s; a plan that comes later ends with 5", nullptr},
+       of_bind("e.g. 200ms or 2s; a plan that comes later ends with 5"),
        &set_deadline,
        {}},
       {"next",
        Value::kWhole,
-       {nullptr,
-        "bind so many workingsteps only: the first of which something is open, or those from --from on",
-        nullptr},
+       of_bind(
+           "bind so many workingsteps only: the first of which something is open, or those from --from on"),
        [](Request& r, Text t) { return r.next = std::stoul(t), std::string(); },
        {},
        1,
        1000000},
       {"from",
        Value::kWhole,
-       {nullptr, "the first workingstep that is bound, as the workplan counts them; those before are cut",
-        nullptr},
+       of_bind("the first workingstep that is bound, as the workplan counts them; those before are cut"),
        [](Request& r, Text t) { return r.from = std::stoul(t), std::string(); },
        {},
        1,
        1000000},
       {"stop-at-deadline",
        Value::kFlag,
-       {nullptr,
-        "give nothing, in time, where nothing is checked by the deadline; without it the plan comes late",
-        nullptr},
+       of_bind(
+           "give nothing, in time, where nothing is checked by the deadline; without it the plan comes late"),
        [](Request& r, Text t) { return r.stop_at_deadline = t == "yes", std::string(); },
        {}},
       {"measured",
        Value::kText,
-       {nullptr,
-        "what was measured, by names of NC variables: wall=0.04,floor=-0.01; decides if and while statements",
-        nullptr},
+       of_bind("what was measured, by names of NC variables: wall=0.04,floor=-0.01; decides if and while "
+               "statements"),
        &set_measured,
        {}},
       {"may",
@@ -327,7 +329,7 @@ std::vector<Option> table() {
        {}},
       {"time",
        Value::kText,
-       {nullptr, "when this is, for the plan's record of late bindings", nullptr},
+       of_bind("when this is, for the plan's record of late bindings"),
        [](Request& r, Text t) { return r.time = t, std::string(); },
        {}},
       {"strict",
@@ -345,8 +347,7 @@ std::vector<Option> table() {
        "strict"},
       {"without",
        Value::kWord,
-       both("sections: plans are written without the cross sections along their paths; the peak of each step "
-            "stays"),
+       both("sections: plans are written without the cross sections along paths; each step's peak stays"),
        [](Request& r, Text /*t*/) { return r.sections = false, std::string(); },
        {"sections"}},
       {"profile",
@@ -450,6 +451,8 @@ std::string contradiction(const Request& r) {
     return r.sign + "revenue: only " + r.sign + "objective profit asks what a piece brings";
   if (r.strict && r.allow_findings)
     return r.sign + "strict: excludes " + r.sign + "allow-findings, which writes in spite of findings";
+  if (r.features_only && r.bind != pipeline::Bind::kAll)
+    return r.sign + "features-only: plans nothing, so that " + r.sign + "bind has nothing to say";
   return {};
 }
 

@@ -116,8 +116,18 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     if (!bytes) return failed(bytes.error(), code_of(bytes.error(), Code::kUnreadable));
     const from_cad::RawPiece raw{request.stock, request.stock_allowance_mm.value_or(0.0)};
     const auto unit = mesh_unit(request.mesh_unit, request.sign + "mesh-unit");
-    auto read_part = service::read_part(*std::move(bytes), name, raw, job, request.strict, unit);
+    auto read_part =
+        service::read_part(*std::move(bytes), name, raw, job, request.strict, unit, request.body);
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
+    if (request.features_only && read_part->shape == nullptr) {
+      return failed(
+          {.code = "READ-FEATURES",
+           .message = request.sign + "features-only is for CAD parts, and the file is none",
+           .file = name,
+           .expected = "a CAD part in STEP (AP203, AP214 or AP242)",
+           .hint = "its features are in the file; " + request.sign + "bind none binds no decision of it"},
+          Code::kUsage);
+    }
     auto inputs = gather(request, read_part->plan, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
     // The raw piece of a CAD part was made with the allowance; its features begin there.
@@ -128,7 +138,7 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     }
     pipeline::Policy policy;
     policy.reopen = request.reopen;
-    policy.bind = request.bind;
+    policy.bind = request.features_only ? pipeline::Bind::kNone : request.bind;
     auto bound = pipeline::bind_checked(read_part->plan, *inputs, policy, job);
     if (!bound) return failed(bound.error(), code_of(bound.error(), Code::kImpossible));
     pipeline::tell_without_cases(bound->plan, read_part->plan, *inputs, policy, job);

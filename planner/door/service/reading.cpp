@@ -6,6 +6,7 @@
 
 #include "planner/door/service/foreign/foreign_file.h"
 #include "planner/door/service/formats.h"
+#include "planner/files/exchange/brep/one_body.h"
 #include "planner/files/exchange/brep/read_brep.h"
 #include "planner/files/exchange/cad/stl.h"
 #include "planner/files/exchange/common/standard.h"
@@ -112,14 +113,25 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& j
 }
 
 Result<PartRead> read_part(std::string bytes, const std::string& name, const from_cad::RawPiece& raw,
-                           Job& job, bool strict, const std::optional<exchange::MeshUnit>& unit) {
+                           Job& job, bool strict, const std::optional<exchange::MeshUnit>& unit,
+                           const std::optional<std::string>& body) {
   if (unit || !is_cad_model(bytes)) {
+    if (body)
+      return fail({.code = "READ-BODY",
+                   .message = "body '" + *body + "' is to be planned, but the file is no CAD model",
+                   .file = name,
+                   .expected = "a CAD part in STEP (AP203, AP214 or AP242)",
+                   .hint = "leave the body out"});
     auto plan = read_with(std::move(bytes), name, job, strict, unit);
     if (!plan) return tl::unexpected(plan.error());
     return PartRead{*std::move(plan), nullptr};
   }
   auto shape = exchange::read_brep_bytes(std::move(bytes), name, {}, job);
   if (!shape) return tl::unexpected(shape.error());
+  if (body) {
+    shape = exchange::one_body(*shape, *body, name);
+    if (!shape) return tl::unexpected(shape.error());
+  }
   auto plan = from_cad::plan_of_part(*shape, name, raw, job);
   if (!plan) return tl::unexpected(plan.error());
   return PartRead{*std::move(plan), asked_shape(from_cad::straightened(*std::move(shape)), name)};

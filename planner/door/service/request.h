@@ -25,6 +25,8 @@ struct Request {
   std::optional<double> stock_allowance_mm;
   std::string stock_text;                ///< as given
   std::optional<std::string> mesh_unit;  ///< "mm" or "inch", of an STL mesh
+  std::optional<std::string> body;       ///< of a CAD file: the number or the name of the part's
+  bool features_only = false;            ///< of a CAD file: features and tolerances, nothing planned
   std::optional<pipeline::Objective> objective;
   std::optional<optimise::Solver> solver;
   std::optional<std::string> general_tolerance, workholding;

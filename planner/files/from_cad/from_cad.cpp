@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "planner/files/exchange/brep/one_body.h"
 #include "planner/files/from_cad/areas.h"
 #include "planner/files/from_cad/cover.h"
 #include "planner/files/from_cad/holes.h"
@@ -352,10 +353,11 @@ Result<std::size_t> only_solid(const Brep& brep, const std::string& name) {
   return fail({.code = "CAD-BODIES",
                .message = "the file holds " + counted(solids.size(), "solid", "solids") +
                           (sheets > 0 ? " and " + counted(sheets, "sheet", "sheets") : std::string()) +
-                          ": which of them is the part is not known",
+                          ": which of them is the part is not known; there are: " +
+                          exchange::bodies_in_words(brep),
                .file = name,
                .expected = "one solid",
-               .hint = "save the part alone; capstan inspect " + name + " lists the bodies"});
+               .hint = "name it by its number or name (--body), or save the part alone"});
 }
 
 }  // namespace

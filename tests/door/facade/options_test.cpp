@@ -46,6 +46,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.general_tolerance = "ISO 2768-m";
   o.workholding = "auto";
   o.mesh_unit = "inch";
+  o.body = "2";
   o.feeds = "constant";
   o.margin = "bold";
   o.objective = "profit";
@@ -78,6 +79,8 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.general_tolerance, "ISO 2768-m");
   EXPECT_EQ(r.workholding, "auto");
   EXPECT_EQ(r.mesh_unit, "inch");
+  EXPECT_EQ(r.body, "2");
+  EXPECT_FALSE(r.features_only);
   EXPECT_EQ(r.feeds, "constant");
   EXPECT_EQ(r.margin, "bold");
   EXPECT_EQ(r.objective, pipeline::Objective::kProfit);
@@ -118,6 +121,9 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   PlanOptions all_the_same;
   all_the_same.allow_findings = true;
   EXPECT_TRUE(request(all_the_same).allow_findings);
+  PlanOptions features;
+  features.features_only = true;
+  EXPECT_TRUE(request(features).features_only);
 }
 
 TEST(RequestOf, AnAllowanceOfZeroIsOneAndTheStocksTextIsTakenBeforeIt) {

@@ -218,6 +218,7 @@ TEST_F(FromCad, SeveralSolidsAreRefused) {
   const auto plan = planned(step.text());
   ASSERT_FALSE(plan);
   EXPECT_EQ(plan.error().code, "CAD-BODIES");
+  EXPECT_TRUE(plan.error().message.ends_with("1 (solid, 6 faces); 2 (solid, 6 faces)"));
 }
 
 TEST_F(FromCad, TheExampleHasTheFeaturesThatItsProgramMadeIt) {

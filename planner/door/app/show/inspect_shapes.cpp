@@ -33,6 +33,8 @@ std::string bodies_of(const Brep& shapes) {
                     counted(b.face_count, "face", "faces"),
                     b.solid ? trimmed(b.volume, 3) + " mm3" : "no volume", trimmed(b.area, 3) + " mm2",
                     b.name.empty() ? "" : "'" + b.name + "'"});
+    // As `--body` takes it, where there is a choice.
+    if (shapes.bodies.size() > 1) rows.back().insert(rows.back().begin(), std::to_string(rows.size()));
   }
   return "\nBodies (" + std::to_string(shapes.bodies.size()) + ")\n" + table(rows);
 }

@@ -12,6 +12,7 @@ namespace {
 
 using exchange::testing::StepPart;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -135,6 +136,53 @@ TEST_F(CadModel, TheAllowanceGrowsTheRawPieceOnce) {
     }
   }
   EXPECT_GT(cuts, 0U) << r.err << r.out;
+}
+
+TEST_F(CadModel, OneBodyOfSeveralIsPlannedWhereItIsNamed) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
+  StepPart part;
+  part.product({part.box({0, 0, 0}, {10, 10, 10}), part.box({100, 0, 0}, {140, 30, 20})}, part.context());
+  put("two.step", part.text());
+  const Ran which = run("plan two.step --material 6061 --features-only -o two.json");
+  EXPECT_EQ(which.code, 3);
+  EXPECT_THAT(which.err, AllOf(HasSubstr("[CAD-BODIES]"), HasSubstr("1 (solid, 6 faces); 2 (solid, 6 faces)"),
+                               HasSubstr("--body")));
+  const std::string listed = run("inspect two.step").out;
+  EXPECT_THAT(listed,
+              AllOf(ContainsRegex("\n *1  +#[0-9]+  +solid"), ContainsRegex("\n *2  +#[0-9]+  +solid")));
+  const Ran none = run("plan two.step --material 6061 --body 3 --features-only -o two.json");
+  EXPECT_THAT(none.err, HasSubstr("no body has the number or the name '3'"));
+  const Ran second = run("plan two.step --material 6061 --body 2 --features-only -o two.json");
+  Job job;
+  const auto plan = json::read_json(slurp(folder_ / "two.json"), "two.json", job);
+  ASSERT_TRUE(plan) << second.err << second.out;
+  EXPECT_EQ(plan->stock.box.lo, (geometry::Vec3{100, 0, 0}));
+  EXPECT_EQ(plan->stock.box.hi, (geometry::Vec3{140, 30, 20}));
+  const Ran other = run("plan two.json --body 1 -o again.json");
+  EXPECT_THAT(other.err, HasSubstr("the file is no CAD model"));
+}
+
+TEST_F(CadModel, FeaturesAloneAreWrittenAndPlannedFromThere) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
+  put("cover.step", slurp(capstan::testing::source_dir() + "/examples/cover.step"));
+  const Ran r = run("plan cover.step --material 6061 --features-only -o cover.p21 -o cover.json");
+  ASSERT_EQ(r.code, 0) << r.err << r.out;
+  Job job;
+  const auto features = json::read_json(slurp(folder_ / "cover.json"), "cover.json", job);
+  ASSERT_TRUE(features) << r.err << r.out;
+  EXPECT_TRUE(features->model.all(model::TypeId::kMachiningWorkingstep).empty());
+  EXPECT_TRUE(features->steps.empty());
+  const std::string p21 = slurp(folder_ / "cover.p21");
+  EXPECT_THAT(p21, AllOf(HasSubstr("COUNTERBORE_HOLE"), HasSubstr("LIMITS_AND_FITS"),
+                         Not(HasSubstr("MACHINING_WORKINGSTEP")), Not(HasSubstr("_MILLING"))));
+  // Planned from there, the part is that of the CAD file, fit included.
+  const Ran whole = run("plan cover.p21 --material 6061 -o whole.json");
+  EXPECT_THAT(whole.err + whole.out,
+              AllOf(HasSubstr("step 'HOLE 9 ream'"), HasSubstr("Safe"), Not(HasSubstr("not planned;"))));
+  const Ran not_cad = run("plan cover.p21 --features-only -o again.p21");
+  EXPECT_EQ(not_cad.code, 2);
+  EXPECT_THAT(not_cad.err, HasSubstr("[READ-FEATURES]"));
+  EXPECT_EQ(run("plan cover.step --features-only --bind none -o again.p21").code, 2);
 }
 
 TEST_F(CadModel, OtherCommandsSayWhatDoesIt) {
