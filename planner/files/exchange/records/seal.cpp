@@ -201,6 +201,7 @@ void hash_each(std::span<Seals::Text> texts) {
     static_assert(kLanes == 4);
     std::uint64_t a = hash[0], b = hash[1], c = hash[2], d = hash[3];
     const char *const p = text(0), *const q = text(1), *const r = text(2), *const s = text(3);
+#pragma GCC unroll 8
     for (std::size_t i = 0; i < all_have; ++i) {
       a = (a ^ static_cast<unsigned char>(p[i])) * kPrime;
       b = (b ^ static_cast<unsigned char>(q[i])) * kPrime;

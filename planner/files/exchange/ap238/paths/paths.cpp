@@ -53,9 +53,8 @@ model::Ref<model::CartesianPoint> add_point(model::Model& m, std::span<const dou
   const AnyRef at = m.add_object(Point::kType);
   auto& p = *static_cast<Point*>(m.object(at));  // made in its place: there may be millions
   p.name.emplace();
-  p.coordinates.items.resize(coordinates.size());
-  std::transform(coordinates.begin(), coordinates.end(), p.coordinates.items.begin(),
-                 [](double c) { return c + 0.0; });
+  p.coordinates.items.assign(coordinates.begin(), coordinates.end());
+  for (double& c : p.coordinates.items) c += 0.0;  // no -0
   p.coordinates.given = true;
   return model::Ref<model::CartesianPoint>(at);
 }

@@ -50,6 +50,14 @@ std::string unescaped(std::string_view s) {
   return out;
 }
 
+/// Whether an object of this kind refers to others: a point, of which there are millions, does not.
+bool leads_on(TypeId t) {
+  const auto& all = model::noun_type(t).attributes;
+  return std::any_of(all.begin(), all.end(), [](const Attribute& a) {
+    return a.storage == Storage::kRef || a.storage == Storage::kRefList;
+  });
+}
+
 bool has_a_name(TypeId t) {
   return model::is_a(t, TypeId::kExecutable) || model::is_a(t, TypeId::kManufacturingFeature) ||
          model::is_a(t, TypeId::kWorkpiece);
@@ -129,7 +137,8 @@ void Addresses::place_from(AnyRef base) {
     std::vector<AnyRef> next;
     for (const AnyRef from : level) {
       for_each_way(from, [&](Way way, AnyRef to) {
-        if (!has_a_name(to.type) && put(to, {.base = base, .from = from, .way = way})) next.push_back(to);
+        if (!has_a_name(to.type) && put(to, {.base = base, .from = from, .way = way}) && leads_on(to.type))
+          next.push_back(to);
       });
     }
     level = std::move(next);
