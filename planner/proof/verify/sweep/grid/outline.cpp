@@ -107,8 +107,6 @@ double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot,
   const auto f = [&](double v) { return z_foot - fall * v + o.height(std::sqrt(square + v * v)); };
   if (end <= 0.0) return f(end);
   const double first = std::max(begin, 0.0);
-  if (const ProfilePiece* ball = o.ball())  // of one sphere the place is known
-    return f(std::clamp(lowest_of(*ball, o, fall, d, first, end), first, std::max(first, end)));
   double best = f(end);
   for (const ProfilePiece& p : o.profile().pieces) {
     const double lo = std::max(first, std::sqrt(std::max(0.0, p.r0_mm * p.r0_mm - d * d)));

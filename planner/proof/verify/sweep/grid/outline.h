@@ -67,8 +67,9 @@ class CutterOutline {
   std::array<Floor, 2> floors_;
 };
 
-/// Lowest height of the cutter over a point while it runs along a line; `d` is the distance of the point
-/// from the line, `foot` where its foot lies along it, `length` the line's in XY, `dz` its rise.
+/// Lowest height of a cutter whose end is not one sphere over a point while it runs along a line; `d` is the
+/// distance of the point from the line, `foot` where its foot lies along it, `length` the line's in XY, `dz`
+/// its rise.
 [[nodiscard]] double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot, double d,
                                     double length);
 

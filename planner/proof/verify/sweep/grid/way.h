@@ -97,6 +97,7 @@ class LineWay : public Way {
         length_(norm(d_)),
         dz_(m.to.z - m.from.z),
         way_(std::hypot(length_, dz_)),
+        fall_(std::abs(dz_) / length_),
         cells_(o, a_, d_, m.from.z, m.to.z) {
     zmin_ = std::min(m.from.z, m.to.z);
     // Of a torus, by less than a thousandth of the radius along the way (`least_between`).
@@ -169,8 +170,10 @@ class LineWay : public Way {
       // On a line without ends it would come lower, to that; where it takes nothing it has no chip either.
       const double half = std::sqrt(std::max(0.0, ball->radius_mm * ball->radius_mm - off2));
       if (stands <= z0_ + foot * dz_ + ball->zc_mm - way_ / length_ * half - kSlack) return false;
+      at.z = std::max(at.bound, lowest_of_ball(ball->radius_mm, at.along, std::sqrt(off2)));
+    } else {
+      at.z = std::max(at.bound, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(off2), length_));
     }
-    at.z = std::max(at.bound, lowest_on_line(o_, z0_, dz_, at.along, std::sqrt(off2), length_));
     at.tip = z0_ + t * dz_;
     return true;
   }
@@ -222,6 +225,20 @@ class LineWay : public Way {
     const double by_shank = advance * reach / r_ * length_ / way;
     return down < 0.0 ? std::max(by_shank, below) : by_shank;
   }
+  /// `lowest_on_line` of an end that is one sphere: `d` beside a sloping line, with the foot `along` it.
+  [[nodiscard]] double lowest_of_ball(double radius, double along, double d) const {
+    const double square = d * d;
+    const double reach = std::sqrt(std::max(0.0, r_ * r_ - square));
+    const double from = std::clamp(along - reach, 0.0, length_), to = std::clamp(along + reach, 0.0, length_);
+    const double begin = dz_ < 0.0 ? from - along : along - to, end = dz_ < 0.0 ? to - along : along - from;
+    double past = end;
+    if (end > 0.0) {
+      const double first = std::max(begin, 0.0);
+      past = std::clamp(fall_ * std::sqrt(std::max(0.0, radius * radius - square) / (1.0 + fall_ * fall_)),
+                        first, std::max(first, end));
+    }
+    return z0_ + along / length_ * dz_ - fall_ * past + o_.height(std::sqrt(square + past * past));
+  }
   /// How far to either side of the line such chips are cut, squared.
   [[nodiscard]] double half_squared(const Front& f) const {
     return r_ * r_ * (1.0 - f.cosine * f.cosine) + kSlack;
@@ -243,7 +260,8 @@ class LineWay : public Way {
 
   geometry::Vec2 a_, d_;
   double length_, dz_;
-  double way_;  ///< length in space
+  double way_;   ///< length in space
+  double fall_;  ///< per mm of the length in XY
   LineCells cells_;
 };
 
