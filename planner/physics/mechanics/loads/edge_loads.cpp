@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -31,6 +32,12 @@ struct Integrals {
     c += o.c;
     s += o.s;
     one += o.one;
+    return *this;
+  }
+  Integrals& operator-=(const Integrals& o) {
+    c -= o.c;
+    s -= o.s;
+    one -= o.one;
     return *this;
   }
   friend Integrals operator-(const Integrals& a, const Integrals& b) {
@@ -144,6 +151,9 @@ void add(Moment& m, double t, double r, double a, double radius, const Integrals
 /// A piece with its forces per integral of the chip's shape (at the factor 1) and of the edge.
 struct Loaded {
   const Piece* p = nullptr;
+  bool straight = false;                ///< without a lag: all of it is at the lag's middle
+  double middle = 0.0;                  ///< of the lag
+  double weight = 1.0;                  ///< of its integrals over the lag
   double ct = 0.0, cr = 0.0, ca = 0.0;  ///< tangential, radial in the plane, axial
   double et = 0.0, er = 0.0, ea = 0.0;
   Integrals from, to, edge_from, edge_to;  ///< the running integrals at the ends of its arc
@@ -159,6 +169,11 @@ class Teeth {
       const Piece& p = all.item[i];
       Loaded& k = loaded_[i];
       k.p = &p;
+      k.straight = p.lag_high - p.lag_low < kNoLagRad;
+      k.middle = 0.5 * (p.lag_low + p.lag_high);
+      if (!k.straight) k.weight = 1.0 / (p.lag_high - p.lag_low);
+      first_ = std::min(first_, p.from + (k.straight ? k.middle : p.lag_low));
+      last_ = std::max(last_, p.to + (k.straight ? k.middle : p.lag_high));
       force(k, law, tooth.helix_rad);
       k.from = chips_.upto(p.from);
       k.to = chips_.upto(p.to);
@@ -178,42 +193,47 @@ class Teeth {
     }
     return out;
   }
-  /// With the tip of one tooth at an angle.
+  /// With the tip of one tooth at an angle. Where a piece's lag begins as the last one's ends, the integral
+  /// up to there is taken once.
   [[nodiscard]] MomentAtFeeds at(double tip, double pitch) const {
-    MomentAtFeeds out;
-    for (std::size_t i = 0; i < all_.count; ++i) {
-      const Loaded& k = loaded_[i];
-      const Piece& p = *k.p;
-      const double lag = p.lag_high - p.lag_low;
-      Integrals chip, edge;
-      if (lag < kNoLagRad) {
-        const double middle = 0.5 * (p.lag_low + p.lag_high);
-        for (double a = first_in(tip, p.from + middle, pitch) - middle; a <= p.to; a += pitch) {
-          const double c = std::cos(a), s = std::sin(a);
-          chip += exact_ ? Integrals{s * c, s * s, s} : chips_.at(a);
-          edge += {c, s, 1.0};
+    std::array<Integrals, kCornerPieces + 1> chip, edge;
+    double a = tip - pitch * std::floor((tip - first_) / pitch);
+    for (; a <= last_; a += pitch) {
+      Upto before;
+      for (std::size_t i = 0; i < all_.count; ++i) {
+        const Loaded& k = loaded_[i];
+        const Piece& p = *k.p;
+        if (k.straight) {
+          const double at = a - k.middle;
+          if (at < p.from || at > p.to) continue;
+          const double c = std::cos(at), s = std::sin(at);
+          chip[i] += exact_ ? Integrals{s * c, s * s, s} : chips_.at(at);
+          edge[i] += {c, s, 1.0};
+          continue;
         }
-        take(out, k, chip, edge, 1.0);
-        continue;
+        const double to = a - p.lag_low, from = a - p.lag_high;
+        if (!(to > p.from && from < p.to)) continue;
+        const bool begins = from <= p.from, ends = to >= p.to;
+        if (!ends && before.angle != to) before = upto(to);
+        chip[i] += ends ? k.to : before.chip;
+        if (edges_) edge[i] += ends ? k.edge_to : before.edge;
+        if (!begins) before = upto(from);
+        chip[i] -= begins ? k.from : before.chip;
+        if (edges_) edge[i] -= begins ? k.edge_from : before.edge;
       }
-      for (double a = first_in(tip, p.from + p.lag_low, pitch); a <= p.to + p.lag_high; a += pitch) {
-        const double from = std::max(p.from, a - p.lag_high);
-        const double to = std::min(p.to, a - p.lag_low);
-        if (!(from < to)) continue;
-        const bool begins = from == p.from, ends = to == p.to;
-        chip += (ends ? k.to : chips_.upto(to)) - (begins ? k.from : chips_.upto(from));
-        if (edges_)
-          edge += (ends ? k.edge_to : edges_->upto(to)) - (begins ? k.edge_from : edges_->upto(from));
-      }
-      take(out, k, chip, edge, 1.0 / lag);
     }
+    MomentAtFeeds out;
+    for (std::size_t i = 0; i < all_.count; ++i) take(out, loaded_[i], chip[i], edge[i], loaded_[i].weight);
     return out;
   }
 
  private:
-  /// The first tooth whose angle is no less than that.
-  static double first_in(double tip, double first, double pitch) {
-    return tip - pitch * std::floor((tip - first) / pitch);
+  struct Upto {
+    double angle = std::numeric_limits<double>::quiet_NaN();
+    Integrals chip, edge;
+  };
+  [[nodiscard]] Upto upto(double angle) const {
+    return {angle, chips_.upto(angle), edges_ ? edges_->upto(angle) : Integrals{}};
   }
   static ArcTable chips_of(const Pieces& all, const ForceLaw& law) {
     double from = all.item[0].from;
@@ -253,7 +273,8 @@ class Teeth {
   const Pieces& all_;
   bool exact_;
   ArcTable chips_;
-  std::optional<ArcTable> edges_;  ///< of a law with forces on the edge
+  std::optional<ArcTable> edges_;         ///< of a law with forces on the edge
+  double first_ = 1e300, last_ = -1e300;  ///< angles between which a tooth is in the cut
   std::array<Loaded, kCornerPieces + 1> loaded_;
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
@@ -112,47 +111,24 @@ Pieces pieces_in(const Pieces& edge, const ImmersionArc& arc, double band, doubl
   return out;
 }
 
-/// The area of `pieces_in` alone, for many arcs of which one end stays where it is.
-class AreaIn {
- public:
-  AreaIn(const Pieces& edge, double full_radius) : edge_(edge), full_radius_(full_radius) {}
-
-  double operator()(const ImmersionArc& arc, double band) {
-    double out = 0.0;
+/// The area of `pieces_in` alone. `left`, `right`: the ends of the strip across the feed, which are the
+/// cosines of its arc times the full radius; a band has none.
+double area_in(const Pieces& edge, double left, double right, const ImmersionArc& arc, double band,
+               double full_radius) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < edge.count; ++i) {
+    const Piece& p = edge.item[i];
     if (band > 0.0) {
-      for (std::size_t i = 0; i < edge_.count; ++i) {
-        const Piece& p = edge_.item[i];
-        const ImmersionArc own = own_arc(p.radius, arc, band, full_radius_);
-        if (own.exit_rad > own.entry_rad) out += area_of(p, std::cos(own.entry_rad), std::cos(own.exit_rad));
-      }
-      return out;
+      const ImmersionArc own = own_arc(p.radius, arc, band, full_radius);
+      if (own.exit_rad > own.entry_rad) out += area_of(p, std::cos(own.entry_rad), std::cos(own.exit_rad));
+      continue;
     }
-    reach(entry_, arc.entry_rad);
-    reach(exit_, arc.exit_rad);
-    for (std::size_t i = 0; i < edge_.count; ++i) {
-      if (exit_.own[i] > entry_.own[i]) out += area_of(edge_.item[i], entry_.cosine[i], exit_.cosine[i]);
-    }
-    return out;
+    const double radius = std::min(p.radius, full_radius);
+    const double from = std::min(left / radius, 1.0), to = std::max(right / radius, -1.0);
+    if (from > to) out += area_of(p, from, to);
   }
-
- private:
-  struct End {
-    double angle = std::numeric_limits<double>::quiet_NaN();
-    std::array<double, kCornerPieces + 1> own, cosine;  ///< of each piece
-  };
-  void reach(End& end, double angle) const {
-    if (end.angle == angle) return;
-    end.angle = angle;
-    for (std::size_t i = 0; i < edge_.count; ++i) {
-      end.own[i] = at_radius(angle, edge_.item[i].radius, full_radius_);
-      end.cosine[i] = std::cos(end.own[i]);
-    }
-  }
-
-  const Pieces& edge_;
-  double full_radius_;
-  End entry_, exit_;
-};
+  return out;
+}
 
 }  // namespace
 
@@ -190,7 +166,6 @@ Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
   double left = std::clamp(full * std::cos(c.arc.entry_rad), -reach, reach);
   double right = std::clamp(full * std::cos(c.arc.exit_rad), -reach, reach);
   double band = s.band_mm;
-  AreaIn area(edge, full);
   const auto between = [&] {
     return band > 0.0
                ? c.arc
@@ -207,7 +182,7 @@ Pieces met_by(const Section& s, const Contact& c, const Tooth& tooth) {
     for (int i = 0; i < kHalvings; ++i) {
       const double t = 0.5 * (less + enough);
       end = from + t * (most - from);
-      (area(between(), band) >= wanted ? enough : less) = t;
+      (area_in(edge, left, right, c.arc, band, full) >= wanted ? enough : less) = t;
     }
     end = from + enough * (most - from);
     if (enough < 1.0) all = pieces_in(edge, between(), band, full);
