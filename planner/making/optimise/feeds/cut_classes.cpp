@@ -22,6 +22,9 @@ constexpr double kCornerGrid = 1.01;
 constexpr double kGainStep = 0.1;
 constexpr double kFrontStep = 1.0 / 128.0;
 constexpr long kNoArea = std::numeric_limits<long>::min();
+/// Cuts that stay ready for their peak loads, some 3 kB each by measured coefficients. Of a path whose
+/// sections all differ the others are made ready once more. Default, unsourced.
+constexpr std::size_t kMostReady = 4096;
 constexpr int kPoints = 7;  // feeds at which loads of a class are computed, from above the ceiling down
 
 struct Point {
@@ -102,6 +105,7 @@ CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
       p = *same;
     } else {
       fill(p, loads(n_rpm));
+      if (p.ready != nullptr && ++ready_ > kMostReady) p.ready.reset();
       if (known_ != nullptr) known_->keep(p, n_rpm);
     }
     it = classes_.emplace(key, p).first;

@@ -15,13 +15,13 @@ namespace capstan::optimise::feed {
 /// The feeds that a class of cuts allows, at the edge (gain 1). Infinite: no feed up to 1.1 times the ceiling
 /// reaches the limit.
 struct CutClass {
-  Cut cut;                   ///< the heaviest of the class
-  std::shared_ptr<const ReadyCut> ready;  ///< the same; null: outside the formulas' range
-  double feed_mm_min = 0.0;  ///< the largest within every limit; 0: not even the least feed
-  Column at_limit{};         ///< largest feed of each limit alone
-  Column at_more{};          ///< the same with 10 % more of that limit
-  double gain = 1.0;         ///< of the class: feeds of the edge are computed up to this times the centre's
-  bool known = true;         ///< false: outside the formulas' range
+  Cut cut;                                ///< the heaviest of the class
+  std::shared_ptr<const ReadyCut> ready;  ///< the same; null: not kept, or outside the formulas' range
+  double feed_mm_min = 0.0;               ///< the largest within every limit; 0: not even the least feed
+  Column at_limit{};                      ///< largest feed of each limit alone
+  Column at_more{};                       ///< the same with 10 % more of that limit
+  double gain = 1.0;  ///< of the class: feeds of the edge are computed up to this times the centre's
+  bool known = true;  ///< false: outside the formulas' range
   double most_scheduled = 0.0;  ///< largest edge feed scheduled so far; for the peak loads
 };
 
@@ -57,6 +57,7 @@ class CutClasses {
   std::map<double, CutLoads> loads_;
   std::map<Key, CutClass> classes_;
   std::map<double, CutClass> plunges_;
+  std::size_t ready_ = 0;  ///< classes whose cut was kept ready
   Key last_key_{-1.0, 0, 0, 0, 0, 0, 0, 0};
   CutClass* last_ = nullptr;
 };

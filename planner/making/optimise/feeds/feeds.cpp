@@ -183,7 +183,8 @@ void measure_peaks(const FeedQuestion& q, const CutterPath& path, CutClasses& cl
   }
   classes.each([&](const CutLoads& loads, const CutClass& kind) {
     if (!(kind.most_scheduled > 0.0)) return;
-    auto s = kind.ready != nullptr ? loads.at(*kind.ready, kind.most_scheduled) : std::nullopt;
+    auto s = kind.ready != nullptr ? loads.at(*kind.ready, kind.most_scheduled)
+                                   : loads.at(kind.cut, kind.most_scheduled);
     // An area wider than two cutters lies below the tip, along a ramp or a helix: its edge is no faster.
     // Limits are held with it all the same. Default, unsourced.
     constexpr double kBelowTheTip = 2.0;

@@ -7,7 +7,8 @@
 namespace capstan::optimise {
 namespace {
 
-// What is kept is some 800 bytes a class; a path has a few hundred classes. Defaults, unsourced.
+// What is kept is some 300 bytes a class, and of the last question its ready cuts; a path has a few hundred
+// classes. Defaults, unsourced.
 constexpr std::size_t kMostQuestions = 16;
 constexpr std::size_t kMostClasses = 4096;
 
@@ -26,6 +27,7 @@ KnownFeeds::Classes& KnownFeeds::of(const CutQuestion& question, double feed_mm_
   auto at = std::find_if(all.begin(), all.end(), [&](const Shelf& s) {
     return s.feed_mm_min == feed_mm_min && s.question == question;
   });
+  if (!all.empty() && at != all.begin()) all.front().classes.forget_ready();
   if (at == all.end()) {
     if (all.size() == kMostQuestions) all.pop_back();
     all.push_back({question, feed_mm_min, {}});
@@ -45,6 +47,10 @@ KnownFeeds::Classes::Exactly KnownFeeds::Classes::key_of(const feed::CutClass& c
 const feed::CutClass* KnownFeeds::Classes::find(const feed::CutClass& like, double n_rpm) const {
   const auto it = classes_.find(key_of(like, n_rpm));
   return it == classes_.end() ? nullptr : &it->second;
+}
+
+void KnownFeeds::Classes::forget_ready() {
+  for (auto& [key, kind] : classes_) kind.ready.reset();
 }
 
 void KnownFeeds::Classes::keep(const feed::CutClass& filled, double n_rpm) {

@@ -15,6 +15,8 @@ class KnownFeeds::Classes {
   /// Null where there is none. `most_scheduled` of what is found is 0.
   [[nodiscard]] const feed::CutClass* find(const feed::CutClass& like, double n_rpm) const;
   void keep(const feed::CutClass& filled, double n_rpm);
+  /// Lets go of what made the classes' cuts ready.
+  void forget_ready();
 
  private:
   using Exactly = std::array<std::uint64_t, 9>;  ///< bits of the numbers, so that also what is none is itself
