@@ -17,6 +17,7 @@
 #include "planner/making/optimise/cut.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/edit/edit.h"
+#include "planner/model/plan/needed_tool.h"
 #include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
@@ -132,6 +133,7 @@ struct Checked {
   std::vector<model::Finding> findings;  ///< of the plan; those of a program are the caller's to ask for
   int replanned = 0;                     ///< which of the tries this is; 0: the first
   std::chrono::steady_clock::duration checking{};  ///< what checking it took
+  std::vector<model::NeededTool> needed = {};      ///< what its unplanned features lack; not proved
 };
 
 /// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a
