@@ -251,7 +251,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   }
 
   poll();
-  auto closed = close_plan(std::move(now.plan), now.drafts, *required, asked, tries.needed, job);
+  auto closed = close_plan(std::move(now.plan), now.drafts, *required, asked, job);
   if (!closed) return tl::unexpected(closed.error());
   tries.made = made_steps(*closed, now.drafts, *required, asked);
   // A value chosen in place of an unreadable one does not make that readable.
@@ -332,7 +332,17 @@ Result<model::Plan> bind_within(const model::Plan& plan, const Inputs& inputs, c
 Result<model::Plan> bind(model::Plan plan, const Inputs& inputs, const Policy& policy, Job& job) {
   Tries tries;
   auto out = bind_within(plan, inputs, policy, tries, job);
-  if (out) tell_tries(tries, job);
+  if (out) {
+    tell_tries(tries, job);
+    const auto anew = [&](const Inputs& with, Job& trial) {
+      Tries of_these;
+      of_these.memo = tries.memo;
+      return bind_within(plan, with, policy, of_these, trial);
+    };
+    auto named = name_needed(*std::move(out), std::move(tries.needed), inputs, policy, anew, job);
+    if (!named) return tl::unexpected(named.error());
+    out = *std::move(named);
+  }
   tell_altered_cases(inputs, job);
   return out;
 }

@@ -221,6 +221,7 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
   }
   Checked best = policy.bind == Bind::kAll ? checked(*std::move(first), job, inputs.proofs.get(), cut_before)
                                            : Checked{*std::move(first), {}, 0, {}};
+  best.needed = tries.needed;
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
   std::size_t least = errors_of(best.plan, best.findings);
@@ -253,6 +254,7 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     least = errors;
     best = std::move(now_checked);
     best.replanned = tried + 1;
+    best.needed = tries.needed;
     said = tries.said;
     diagnostics.resize(read);
     diagnostics.insert(diagnostics.end(), std::make_move_iterator(now.begin()),
@@ -271,9 +273,26 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
   const optimise::SpentBudgetScope budget;
   auto out = stoppable(
       job,
-      [&] {
-        return edited ? bind_edited(plan, inputs, policy, job, anew)
-                      : bind_anew(plan, inputs, policy, job, anew);
+      [&]() -> Result<Checked> {
+        auto made = edited ? bind_edited(plan, inputs, policy, job, anew)
+                           : bind_anew(plan, inputs, policy, job, anew);
+        if (!made) return made;
+        // Planned and checked once: a feature at which the check finds an error is not planned anew here.
+        const auto planned_with = [&](const Inputs& with, Job& trial) -> Result<model::Plan> {
+          Tries tries;
+          auto again = bind_within(plan, with, policy, tries, trial);
+          if (!again) return again;
+          Checked found = checked(*std::move(again), trial);
+          for (const Offence& o : offences_of(found.plan, found.findings, tries))
+            found.plan.unplanned.push_back({.feature = o.step.member.feature, .reason = o.finding->message});
+          return std::move(found.plan);
+        };
+        auto named =
+            name_needed(std::move(made->plan), std::move(made->needed), inputs, policy, planned_with, job);
+        poll();
+        if (!named) return tl::unexpected(named.error());
+        made->plan = *std::move(named);
+        return made;
       },
       [&]() -> Result<Checked> { return tl::unexpected(stopped_planning(plan)); });
   // What is edited is planned twice, and a plan that is condemned anew.

@@ -129,30 +129,10 @@ void leave_open(model::Plan& plan, const std::vector<StepDraft>& steps, Bind bin
   model::reopen_all(plan.ledger, open);
 }
 
-/// What a shop has to buy or load so that the unplanned features find their tools: reported all at once, and
-/// given as rows of provenance, which every form of a plan keeps.
-std::vector<model::Provenance> tell_needed(const model::Plan& plan,
-                                           const std::vector<model::NeededTool>& needed, Job& job) {
-  const auto kinds = model::needed_kinds(plan, needed);
-  std::vector<model::Provenance> out;
-  std::string all;
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    out.push_back(model::provenance_of(kinds[i], i + 1));
-    all += (all.empty() ? "" : "; ") + model::text_of(kinds[i]);
-  }
-  if (all.empty()) return out;
-  job.report({.code = "PIP-TOOLS-NEEDED",
-              .severity = Severity::kWarning,
-              .message = "to plan all of this part you need: " + all,
-              .file = plan.file_name,
-              .hint = "the plan holds them as entries for a list of tools (--tools): capstan explain"});
-  return out;
-}
-
 }  // namespace
 
 Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Required& required,
-                               const Asked& asked, const std::vector<model::NeededTool>& needed, Job& job) {
+                               const Asked& asked, Job& job) {
   const Bind bind = asked.policy.bind;
   if (bind == Bind::kAll || bind == Bind::kTools) {
     plan.cutters = cutters_of(plan, drafts.steps, asked.policy);
@@ -180,7 +160,6 @@ Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Req
     for (model::Provenance& row : step::tell_expected(plan, asked.inputs.cases.get(), job))
       plan.provenance.push_back(std::move(row));
   }
-  for (model::Provenance& row : tell_needed(plan, needed, job)) plan.provenance.push_back(std::move(row));
   return plan;
 }
 

@@ -17,6 +17,7 @@
 #include "planner/making/optimise/cut.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/edit/edit.h"
+#include "planner/model/plan/needed_tool.h"
 #include "planner/model/plan/order/cut_before.h"
 #include "planner/model/plan/plan.h"
 #include "planner/model/plan/resources/machine.h"
@@ -133,6 +134,7 @@ struct Checked {
   int replanned = 0;                     ///< which of the tries this is; 0: the first
   std::chrono::steady_clock::duration checking{};  ///< what checking it took
   bool budget_spent = true;  ///< false: planned with a larger evaluation budget it comes out the same
+  std::vector<model::NeededTool> needed = {};      ///< what its unplanned features lack; not proved
 };
 
 /// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a

@@ -99,10 +99,9 @@ struct Made {
 [[nodiscard]] Result<Made> make_paths(model::Plan plan, Drafts drafts, const Required& required,
                                       const Asked& asked, step::KnownCuts cuts, Job& job);
 /// The plan with the results of its set-ups, tools and features; what the policy does not want bound is open.
-/// `needed`: tools that features lack. Fails  PIP-OFFSETS for more set-ups than the control has work offsets.
+/// Fails  PIP-OFFSETS for more set-ups than the control has work offsets.
 [[nodiscard]] Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Required& required,
-                                             const Asked& asked, const std::vector<model::NeededTool>& needed,
-                                             Job& job);
+                                             const Asked& asked, Job& job);
 
 /// The caller's choices for every step.
 [[nodiscard]] step::Wishes wishes_of(const Asked& asked);

@@ -350,14 +350,14 @@ Result<std::size_t> only_solid(const Brep& brep, const std::string& name) {
   }
   if (solids.size() == 1 && brep.bodies.size() == 1) return solids.front();
   const auto sheets = brep.bodies.size() - solids.size();
-  return fail({.code = "CAD-BODIES",
-               .message = "the file holds " + counted(solids.size(), "solid", "solids") +
-                          (sheets > 0 ? " and " + counted(sheets, "sheet", "sheets") : std::string()) +
-                          ": which of them is the part is not known; there are: " +
-                          exchange::bodies_in_words(brep),
-               .file = name,
-               .expected = "one solid",
-               .hint = "name it by its number or name (--body), or save the part alone"});
+  return fail(
+      {.code = "CAD-BODIES",
+       .message = "the file holds " + counted(solids.size(), "solid", "solids") +
+                  (sheets > 0 ? " and " + counted(sheets, "sheet", "sheets") : std::string()) +
+                  ": which of them is the part is not known; there are: " + exchange::bodies_in_words(brep),
+       .file = name,
+       .expected = "one solid",
+       .hint = "name it by its number or name (--body), or save the part alone"});
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/door/pipeline/checked.h"
+#include "planner/model/plan/corner_rest.h"
+#include "planner/model/plan/needed_tool.h"
+#include "tooling/library/formats/own/own_list.h"
+
+// Which tools a shop has to buy or load so that all of a part is planned. That a cutter has the size and the
+// reach that a step asks for does not say that it stands the cut: a slender one bends. So the part is planned
+// once more with the tools as they are named, and checked where plans are; those of features that fail then
+// are named no more. A second proof is that of the tools that are left.
+
+namespace capstan::pipeline {
+namespace {
+
+using model::NeededKind;
+using model::NeededTool;
+
+constexpr int kMostProofs = 2;  // each is a planning; default, unsourced
+
+/// The tools as one reads them who adds the entries of the plan to his list.
+std::optional<std::vector<model::Cutter>> as_read(const std::vector<NeededKind>& kinds) {
+  std::string list = "capstan_tools: 1\nunit: mm\nsource: \"needed tools of a plan\"\ntools:\n";
+  for (const NeededKind& k : kinds) list += "  - " + model::list_entry(k.cutter) + "\n";
+  Job unsaid;
+  auto out = tooling::read_own_list(list, "needed tools", unsaid);
+  if (!out) return std::nullopt;
+  return *std::move(out);
+}
+
+bool is_planned(const model::Plan& plan, model::AnyRef feature) {
+  return std::none_of(plan.unplanned.begin(), plan.unplanned.end(),
+                      [&](const model::Unplanned& u) { return u.feature == feature; });
+}
+
+/// Whether the tool brings its feature what it lacked.
+bool helps(const NeededTool& tool, const model::Plan& without, const model::Plan& with) {
+  if (!is_planned(with, tool.feature)) return false;
+  return !is_planned(without, tool.feature) || !model::corner_rest_of(with, tool.feature_name);
+}
+
+void tell(model::Plan& made, const std::vector<NeededKind>& kinds, const std::string& to, Job& job) {
+  std::string all;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    made.provenance.push_back(model::provenance_of(kinds[i], i + 1));
+    all += (all.empty() ? "" : "; ") + model::text_of(kinds[i]);
+  }
+  if (all.empty()) return;
+  job.report({.code = "PIP-TOOLS-NEEDED",
+              .severity = Severity::kWarning,
+              .message = to + all,
+              .file = made.file_name,
+              .hint = "the plan holds them as entries for a list of tools (--tools): capstan explain"});
+}
+
+}  // namespace
+
+Result<model::Plan> name_needed(model::Plan made, std::vector<NeededTool> needed, const Inputs& inputs,
+                                const Policy& policy, const Planner& planner, Job& job) {
+  auto kinds = model::needed_kinds(made, needed);
+  if (policy.bind != Bind::kAll || policy.window || policy.only_loaded_cutters || job.deadline()) {
+    tell(made, kinds, "to plan all of this part you need at least: ", job);
+    return made;
+  }
+  bool all = false;
+  for (int proofs = 0; proofs < kMostProofs && !kinds.empty(); ++proofs) {
+    const auto cutters = as_read(kinds);
+    if (!cutters) return made;
+    Inputs richer = inputs;
+    richer.library.insert(richer.library.end(), cutters->begin(), cutters->end());
+    Job trial;
+    trial.threads = job.threads;
+    trial.evaluation_budget = job.evaluation_budget;
+    trial.set_clock(job.clock());
+    trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
+    const auto with = planner(richer, trial);
+    if (job.stop_requested()) return tl::unexpected(stopped_planning(made));
+    if (!with) return made;
+    all = with->unplanned.empty();
+    const std::size_t before = needed.size();
+    std::erase_if(needed, [&](const NeededTool& n) { return !helps(n, made, *with); });
+    if (needed.size() == before) break;
+    all = false;
+    kinds = model::needed_kinds(made, needed);
+  }
+  tell(made, kinds,
+       all ? "to plan all of this part you need: " : "to plan more of this part you need: ", job);
+  return made;
+}
+
+}  // namespace capstan::pipeline
