@@ -265,15 +265,19 @@ class PathMaker {
   /// it, or none takes most of it, and the step is left out.
   bool take_for_rest(StepDraft& step) {
     constexpr double kMostStays = 0.75;  // of the rest, for a mill to be worth its change; default, unsourced
+    // Of the diameter before: narrower mills take long to compare and to cut. Default, unsourced.
+    constexpr double kNarrowest = 0.45;
     constexpr double kSame = 1e-6;
     const model::Cutter* before = step::roughed_before(p_, step);
     const auto rest = before != nullptr ? step::surface_rest(p_, step, stocks_.of(step.setup)) : std::nullopt;
     if (rest && rest->mm3 > 0.0) {
       const auto dropped = step.candidates.drop_if([&](const model::Candidate& c) {
-        return c.cutter.cutting_diameter_mm > before->cutting_diameter_mm - kSame;
+        const double d = c.cutter.cutting_diameter_mm, most = before->cutting_diameter_mm;
+        return d > most - kSame || d < kNarrowest * most;
       });
       for (const auto& c : dropped)
-        step.rejected_tools.push_back({c->cutter.id, "no narrower than " + before->id + ", which left this"});
+        step.rejected_tools.push_back({c->cutter.id, "no narrower than " + before->id +
+                                                         ", which left this, or less than half as wide"});
       if (!step.candidates.empty()) {
         step.cutter = step.candidates.front().cutter;
         step::take_cutter(plan_, steps_, step, step.candidates.front());

@@ -21,8 +21,9 @@ namespace {
 using draft::StepDraft;
 
 constexpr float kAnything = 1e30F;
-/// A rest of less than this is left to the next step. Default, unsourced.
-constexpr double kWorthMm3 = 1.0;
+/// A rest of less than this is left to the next step, whose feed is lowered there: a change of tools takes
+/// longer. Default, unsourced.
+constexpr double kWorthMm3 = 10.0;
 
 /// A place of the sphere against its middle.
 struct Around {
