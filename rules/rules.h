@@ -44,8 +44,6 @@ struct Context {
   double sharp_corner_mm = 0.0;
   double core_height_mm = 0.0;     ///< with core_above: how high above this one's top it begins
   double surface_radius_mm = 0.0;  ///< freeform: smallest concave radius; 0 not known
-  /// Freeform: a wide ball, and a smaller one where that does not reach, are quicker than the smaller one.
-  bool surface_two_balls = false;
   /// Freeform: true if it has upright walls within the raw piece; true if it has more than walls and level
   /// floors; the least radius of the walls' inside corners; 0: none, or sharp.
   bool surface_walls = false, surface_curved = true;

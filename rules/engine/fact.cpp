@@ -73,10 +73,6 @@ const std::vector<FactType>& fact_types() {
       number("round_radius_mm", 0.0, 10000.0, "radius of an edge round"),
       number("surface_radius_mm", 0.0, 100000.0, "smallest concave radius of a surface; 0 unknown"),
       symbols(
-          "surface_balls", {"one", "two"},
-          "of a surface: one ball finishes it quickest, or a wide one and a smaller one where that does not "
-          "reach"),
-      symbols(
           "surface_form", {"curved", "walls", "prismatic"},
           "of a surface: no upright walls within the raw piece, curved with such walls, or walls and level "
           "floors only"),

@@ -264,7 +264,6 @@ FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
     area_facts(s, c, out);
   } else if (model::has(s.kind, ShapeTrait::kSurface)) {
     f.set("surface_radius_mm", c.surface_radius_mm);
-    f.set("surface_balls", c.surface_two_balls ? "two" : "one");
     f.set("surface_form", !c.surface_walls ? "curved" : c.surface_curved ? "walls" : "prismatic");
   }
   return out;

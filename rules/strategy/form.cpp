@@ -211,15 +211,12 @@ Made freeform_finish(const Making& m) {
   if (m.shape.bottom_radius_mm > 0.0) limit = 2.0 * m.shape.bottom_radius_mm;
   if (m.shape.corner_radius_mm > 0.0)
     limit = limit > 0.0 ? std::min(limit, 2.0 * m.shape.corner_radius_mm) : 2.0 * m.shape.corner_radius_mm;
-  limit *= m.number("creases");
   const bool last = !(s.allowance_side_mm > 0.0);
   if (last) s.tool.diameter_max_mm = limit;
   s.tool.centre_cutting = true;
   s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   s.strategy = StrategyKind::kBidirectional;
-  if (m.number("creases") != 1.0 && limit >= 0.0)
-    s.why.text = "where it is more tightly curved than the ball, rest material stays for a smaller one";
-  else if (last && !(limit > 0.0))
+  if (last && !(limit > 0.0))
     s.why.text = "the smallest concave radius is not known: narrower places keep the ball's radius";
   return s;
 }
@@ -259,8 +256,7 @@ std::vector<Action> form_actions() {
       {"freeform_levels", TypeId::kFreeformFinishMilling, {}, freeform_levels},
       {"freeform_finish",
        TypeId::kFreeformFinishMilling,
-       {{"allowance_mm", 0.0, "left on the surface; above 0 a semi-finish"},
-        {"creases", 1.0, "largest ball by the smallest concave radius; 0: any ball"}},
+       {{"allowance_mm", 0.0, "left on the surface; above 0 a semi-finish"}},
        freeform_finish},
   };
 }

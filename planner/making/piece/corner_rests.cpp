@@ -49,18 +49,6 @@ std::string tolerance_of(const model::Model& m, const FeatureShape& s) {
 }
 
 void tell(const model::Plan& plan, const FeatureShape& s, const CornerRest& r, Job& job) {
-  if (s.kind == model::ShapeKind::kFreeform) {
-    job.report({.code = "PIP-CORNER",
-                .severity = Severity::kWarning,
-                .message = "feature '" + s.name + "': where it is more tightly curved than a radius of " +
-                           trimmed(r.radius_mm, 4) + " mm, down to " + trimmed(r.stated_mm, 4) +
-                           " mm, rest material stays: " + r.why,
-                .file = plan.file_name,
-                .line = plan.model.origin(s.feature).line,
-                .instance = plan.model.origin(s.feature).instance,
-                .hint = "the check lists its zones (CHK-REST) and the ball that each of them needs"});
-    return;
-  }
   const auto pieces = stays_of(s, r.radius_mm);
   double area = 0.0;
   std::vector<geometry::Vec3> at;

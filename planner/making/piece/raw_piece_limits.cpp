@@ -121,7 +121,6 @@ double narrowest_mill_mm(const Piece& piece, const std::vector<draft::StepDraft>
                                   [&](const model::StepResult& r) { return r.step == step.step; });
     if (ws == nullptr || !made || !piece.plan.model.holds<model::MillingTypeOperation>(ws->its_operation))
       continue;
-    if (piece.plan.model.holds<model::FreeformRoughMilling>(ws->its_operation)) continue;
     diameter = std::min(diameter, step.cutter.cutting_diameter_mm);
   }
   return diameter < kNoRadius ? diameter : 0.0;

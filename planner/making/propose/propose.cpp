@@ -102,9 +102,7 @@ class Proposer {
         if (said_.insert({f, r}).second) job_.note("PIP-ASSUMED", "feature '" + s.name + "': " + r);
       }
       if (s.kind == model::ShapeKind::kFreeform && plan_.target_mesh) {
-        const piece::SurfaceBalls balls = piece::surface_balls(*plan_.target_mesh);
-        context.surface_radius_mm = balls.least_mm;
-        context.surface_two_balls = balls.two;
+        context.surface_radius_mm = piece::surface_radius(*plan_.target_mesh);
         const piece::SurfaceForm form = piece::surface_form(*plan_.target_mesh, plan_.stock.box);
         context.surface_walls = form.walls;
         context.surface_curved = form.curved;
@@ -347,8 +345,6 @@ class Proposer {
       return {};
     }
     if (found.rest) plan_.provenance.push_back(model::provenance_of(*found.rest));
-    if (const auto rest = rest_on_surface(s, *chosen.chain, chosen.tools, context))
-      plan_.provenance.push_back(model::provenance_of(*rest));
     std::vector<std::size_t> made;
     std::vector<std::optional<std::size_t>> made_of;  // by step of the chain
     std::optional<ProbingDraft> probing;
@@ -393,20 +389,6 @@ class Proposer {
       out_.drafts.steps.push_back(std::move(step));
     }
     return made;
-  }
-
-  /// Where a chain may take a ball that does not reach all of a surface: what it may leave.
-  static std::optional<model::CornerRest> rest_on_surface(const FeatureShape& s,
-                                                          const std::vector<model::ProposedStep>& chain,
-                                                          const std::vector<model::Selection>& tools,
-                                                          const rules::Context& context) {
-    const double least = context.surface_radius_mm, asked = 0.5 * chain.back().tool.diameter_max_mm;
-    if (s.kind != model::ShapeKind::kFreeform || !(least > 0.0) || (asked > 0.0 && asked <= least))
-      return std::nullopt;
-    double widest = 0.0;
-    for (const auto& ranked : tools.back().ranked)
-      widest = std::max(widest, 0.5 * ranked.cutter.cutting_diameter_mm);
-    return model::CornerRest{s.name, least, widest, "no smaller ball finishes it within its limits"};
   }
 
   /// Shares tools where the magazine may be too small for a chain; whether that made room.

@@ -23,17 +23,9 @@ constexpr double kLeastMm =
 
 }  // namespace
 
-namespace {
-
-/// A concave edge, or a strip of a concave curve.
-struct Crease {
-  double radius_mm = 0.0;  ///< of the largest ball that finishes it
-  double length_mm = 0.0, angle_rad = 0.0;
-};
-
 // In a crease of angle d between two facets, a ball of radius R leaves R (1 / cos(d / 2) - 1). Facets too
 // narrow for the ball to touch both beside their crease approximate a curve of radius width / d.
-std::vector<Crease> creases_of(const geometry::Mesh& mesh) {
+double surface_radius(const geometry::Mesh& mesh) {
   using geometry::Vec3;
   struct Side {
     Vec3 normal, apex;
@@ -49,7 +41,7 @@ std::vector<Crease> creases_of(const geometry::Mesh& mesh) {
       edges[{std::min(p, q), std::max(p, q)}].push_back({n, mesh.vertices[t[(k + 2) % 3]]});
     }
   }
-  std::vector<Crease> out;
+  double out = 0.0;
   for (const auto& [e, sides] : edges) {
     if (sides.size() != 2) continue;
     const Vec3 a = mesh.vertices[e.first];
@@ -62,49 +54,8 @@ std::vector<Crease> creases_of(const geometry::Mesh& mesh) {
     const double width =
         std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / length;
     const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, width / angle)));
-    out.push_back({limit, length, angle});
+    out = out > 0.0 ? std::min(out, limit) : limit;
   }
-  return out;
-}
-
-double least_radius(const std::vector<Crease>& creases) {
-  double out = 0.0;
-  for (const Crease& c : creases) out = out > 0.0 ? std::min(out, c.radius_mm) : c.radius_mm;
-  return out;
-}
-
-/// Area of the triangles that face up or down, mm2.
-double finished_mm2(const geometry::Mesh& mesh) {
-  double out = 0.0;
-  for (const auto& t : mesh.triangles) {
-    const geometry::Vec3 a = mesh.vertices[t[0]];
-    const geometry::Vec3 n = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    if (std::abs(n.z) >= 1e-9 * norm(n)) out += 0.5 * norm(n);
-  }
-  return out;
-}
-
-}  // namespace
-
-// Passes of a ball of radius R lie sqrt(R) apart at one height of ridges, and its feed grows with about the
-// root of its radius, too: an area takes A / R. Over a curve of angle d a ball that is too wide for it leaves
-// a strip R d wide.
-SurfaceBalls surface_balls(const geometry::Mesh& mesh) {
-  constexpr double kMostMm = 10.0;    // radius of the widest balls of shops; default, unsourced
-  constexpr double kLeastMore = 2.0;  // of the radius, that a wider ball must have; default, unsourced
-  constexpr double kLayers = 1.5;     // in which a strip is finished, on average; default, unsourced
-  constexpr double kWorth = 0.8;      // of the time, for a cutter and a way more; default, unsourced
-  const std::vector<Crease> creases = creases_of(mesh);
-  SurfaceBalls out{least_radius(creases), false};
-  if (!(out.least_mm > 0.0) || out.least_mm * kLeastMore > kMostMm) return out;
-  double strips = 0.0;
-  for (const Crease& c : creases) {
-    if (c.radius_mm < kMostMm) strips += c.length_mm * kMostMm * c.angle_rad;
-  }
-  const double area = finished_mm2(mesh);
-  const double one = area / out.least_mm;
-  const double two = area / kMostMm + kLayers * std::min(strips, area) / out.least_mm;
-  out.two = two < kWorth * one;
   return out;
 }
 

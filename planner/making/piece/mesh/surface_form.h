@@ -11,13 +11,9 @@
 
 namespace capstan::piece {
 
-/// The balls that finish a surface from above, by its concave creases and curves. Corners sharper than 20
-/// degrees keep any ball's radius and do not count.
-struct SurfaceBalls {
-  double least_mm = 0.0;  ///< radius of the largest ball that finishes all of it; 0: no limit
-  bool two = false;       ///< a wider one, and that one where the wider one does not reach, are quicker
-};
-[[nodiscard]] SurfaceBalls surface_balls(const geometry::Mesh& mesh);
+/// Radius of the largest ball that finishes a surface from above, mm, from its concave creases and curves; 0:
+/// no limit. Corners sharper than 20 degrees keep any ball's radius and do not count.
+[[nodiscard]] double surface_radius(const geometry::Mesh& mesh);
 /// Walls and level floors of a mesh, seen along z. A sheet has none; walls on the sides of the raw piece do
 /// not count, for they are there already.
 struct SurfaceForm {

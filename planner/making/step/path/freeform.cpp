@@ -70,24 +70,6 @@ const StepDraft* finish_after(const model::Model& m, const std::vector<StepDraft
   return at != steps.end() ? &*at : nullptr;
 }
 
-/// The wider ball that finished the same surface before; nothing: none did.
-std::optional<model::Cutter> finished_before(const PlanSoFar& p, const StepDraft& step) {
-  const model::Model& m = p.plan.model;
-  const auto finishes = [&](const StepDraft& s) {
-    return m.holds<model::FreeformFinishMilling>(s.operation) && !draft::cuts_levels(m, s) &&
-           model::has(s.cutter.cutter_class, model::CutterTrait::kBall) &&
-           !(freeform_allowance(m, p.steps, s) > 0.0);
-  };
-  if (!finishes(step)) return std::nullopt;
-  std::optional<model::Cutter> out;
-  for (const StepDraft& s : p.steps) {
-    if (s.step == step.step) break;
-    if (s.feature == step.feature && finishes(s)) out = s.cutter;
-  }
-  if (out && !(out->cutting_diameter_mm > step.cutter.cutting_diameter_mm)) return std::nullopt;
-  return out;
-}
-
 }  // namespace
 
 // The nouns of a freeform operation have no place for it: of one that was read, that it is not the last says
@@ -200,7 +182,6 @@ Result<toolpath::GeneratedPath> freeform_path(const PlanSoFar& p, const StepDraf
   const geometry::Box3& raw = p.setups[step.setup].stock;
   const bool levels = draft::cuts_levels(p.plan.model, step);
   const SurfaceForm form = piece::surface_form(mesh, raw);
-  if (!rough) f.after = finished_before(p, step);
   if (!rough && !levels) f.area = over_its_rim(mesh, step.cutter, raw, form.walls, f.scallop_mm);
   if (form.walls && (rough || levels)) {
     // Around the solid all goes, down to the underside; the cutter comes from beside the raw piece.

@@ -163,9 +163,7 @@ void add_asked(const model::Plan& plan, std::size_t steps, const std::set<model:
         }
         it->ridges_mm = std::min(it->ridges_mm, stated);
       }
-      // What a rough leaves on a surface is its terraces, not its radius.
-      if (!mills(cutter->cutter_class) || plan.model.holds<model::FreeformRoughMilling>(ws->its_operation))
-        continue;
+      if (!mills(cutter->cutter_class)) continue;
       it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);
       it->widest_mm = std::max(it->widest_mm, 0.5 * cutter->cutting_diameter_mm);
       it->corner_mm = std::min(it->corner_mm, end_radius_of(*cutter));

@@ -2,10 +2,8 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/copies/copies.h"
-#include "planner/proof/verify/sweep/target/corners.h"
 #include "planner/proof/verify/sweep/target/mesh_distance.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/volumes/form/in_raw.h"
@@ -15,13 +13,6 @@
 // those to the mesh itself. It may be the tolerance, and what the finishing step states as the height of its
 // ridges and of its chords. In the sharp inside corners of a mesh, which can state no radius, may stay what
 // may stay in those of a step.
-//
-// Where the plan records that a radius stays (CornerRest), more may stay where no ball of that radius touches
-// the surface, and nowhere else. Whether one does is asked of the mesh: a ball on the normal of the nearest
-// place of the surface touches there if the mesh comes nowhere else into it. In a crease of angle d a ball
-// that enters by e leaves e / cos(d / 2): twice that, up to 120 degrees, is taken for what it may leave. What
-// stays is put together to zones of neighbouring cells, each reported with its place, its height and the ball
-// that would touch there (CHK-REST).
 
 namespace capstan::verify {
 
@@ -31,83 +22,13 @@ using model::ShapeKind;
 
 namespace {
 
-constexpr double kMostPerEntered = 2.0;  ///< see above
-constexpr double kLeastBallMm = 0.25;    ///< radius: no smaller one is looked for; default, unsourced
-constexpr std::size_t kMostZones = 6;    ///< that are told one by one; default, unsourced
-
 std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
 
 /// Material that stands too high in one cell.
 struct High {
   int ix = 0, iy = 0;
   double z = 0.0, by_mm = 0.0;  ///< its top, and its distance from the surface
-  Vec3 nearest;                 ///< on the surface
 };
-
-/// How deep a ball that touches the surface below a place enters it elsewhere.
-double enters(const MeshDistance& mesh, const High& h, Vec2 centre, double radius_mm) {
-  const Vec3 out = Vec3{centre.x, centre.y, h.z} - h.nearest;
-  const double length = norm(out);
-  if (!(length > 0.0)) return 0.0;
-  const Vec3 middle = h.nearest + (radius_mm / length) * out;
-  return radius_mm - mesh.from(middle, radius_mm).mm;
-}
-
-struct Zone {
-  std::size_t cells = 0;
-  double volume_mm3 = 0.0;
-  High worst;
-};
-
-/// Neighbouring cells together, those with most material first.
-std::vector<Zone> zones_of(const std::vector<High>& cells, const Grid& grid) {
-  std::vector<int> of(static_cast<std::size_t>(grid.nx()) * static_cast<std::size_t>(grid.ny()), -1);
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    of[grid.index(cells[i].ix, cells[i].iy)] = static_cast<int>(i);
-  std::vector<bool> done(cells.size());
-  std::vector<Zone> out;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (done[i]) continue;
-    Zone z;
-    std::vector<std::size_t> todo{i};
-    done[i] = true;
-    while (!todo.empty()) {
-      const High& h = cells[todo.back()];
-      todo.pop_back();
-      ++z.cells;
-      const std::size_t at = grid.index(h.ix, h.iy);
-      z.volume_mm3 += (h.z - std::max(grid.part[at], grid.base[at])) * grid.cell() * grid.cell();
-      if (h.by_mm > z.worst.by_mm) z.worst = h;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int x = h.ix + dx, y = h.iy + dy;
-          if (x < 0 || y < 0 || x >= grid.nx() || y >= grid.ny()) continue;
-          const int k = of[grid.index(x, y)];
-          if (k < 0 || done[static_cast<std::size_t>(k)]) continue;
-          done[static_cast<std::size_t>(k)] = true;
-          todo.push_back(static_cast<std::size_t>(k));
-        }
-      }
-    }
-    out.push_back(z);
-  }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Zone& a, const Zone& b) { return a.volume_mm3 > b.volume_mm3; });
-  return out;
-}
-
-/// The widest ball that touches the surface there, as wide as `widest_mm` at most; 0: none from kLeastBallMm.
-double touching_radius(const MeshDistance& mesh, const High& h, Vec2 centre, double widest_mm,
-                       double within_mm) {
-  const auto touches = [&](double r) { return enters(mesh, h, centre, r) <= within_mm; };
-  double lo = kLeastBallMm, hi = widest_mm;
-  if (!touches(lo)) return 0.0;
-  for (int i = 0; i < 12; ++i) {
-    const double r = 0.5 * (lo + hi);
-    (touches(r) ? lo : hi) = r;
-  }
-  return lo;
-}
 
 }  // namespace
 
@@ -146,9 +67,7 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
     return asides[static_cast<std::size_t>(dy) * static_cast<std::size_t>(along_x) +
                   static_cast<std::size_t>(dx)];
   };
-  const auto recorded = recorded_rest(plan_, part_, e->shapes.front(), a);
   std::optional<MeshDistance> exact;
-  std::vector<High> stays;  // where no ball of the recorded radius touches
   High worst;
   std::size_t cells = 0, all = 0;
   for (int iy = 0; iy < grid.ny(); ++iy) {
@@ -180,40 +99,11 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
       if (near <= limit) continue;
       const Vec2 at = grid.centre(ix, iy);
       if (!exact) exact.emplace(in_setup);
-      const MeshDistance::Nearest nearest = exact->from({at.x, at.y, z}, near);
-      near = nearest.mm;
+      near = exact->from({at.x, at.y, z}, near).mm;
       if (near <= limit || in_corner(at, z)) continue;
-      const High high{ix, iy, z, near, nearest.at};
-      if (recorded && near - limit <= kMostPerEntered * enters(*exact, high, at, recorded->radius_mm)) {
-        stays.push_back(high);
-        continue;
-      }
       ++cells;
-      if (near > worst.by_mm) worst = high;
+      if (near > worst.by_mm) worst = {ix, iy, z, near};
     }
-  }
-  if (!stays.empty()) {
-    const std::vector<Zone> zones = zones_of(stays, grid);
-    double volume = 0.0;
-    for (const Zone& zone : zones) volume += zone.volume_mm3;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(kMostZones, zones.size()); ++i) {
-      const High& h = zones[i].worst;
-      const Vec2 at = grid.centre(h.ix, h.iy);
-      const double r = touching_radius(*exact, h, at, recorded->radius_mm, limit);
-      text +=
-          (i == 0 ? ": " : "; ") + mm(h.by_mm) + " at " + place(at, h.z) + ", " + plain(zones[i].volume_mm3) +
-          " mm3, " +
-          (r > 0.0 ? "which a ball of " + plain(2.0 * r) + " mm would take" : "a corner that no ball makes");
-    }
-    if (zones.size() > kMostZones) text += "; and smaller ones";
-    out.warn(36, "CHK-REST", a.where,
-             "on " + e->shapes.front().name + " rest material stays in " +
-                 counted(zones.size(), "zone", "zones") + " that no ball of radius " +
-                 mm(recorded->radius_mm) + " reaches, as the plan records it, " + plain(volume) + " mm3 on " +
-                 plain(100.0 * static_cast<double>(stays.size()) / static_cast<double>(all)) +
-                 " % of what lies there" + text,
-             recorded->radius_mm);
   }
   if (worst.by_mm <= 0.0) return;
   out.error(36, "CHK-LEFT", a.where,

@@ -1,4 +1,4 @@
-#include "planner/making/toolpath/freeform/mask.h"
+#include "planner/making/toolpath/freeform/finish/mask.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "planner/ground/base/job.h"
 #include "planner/making/toolpath/freeform/drop_cutter.h"
-#include "planner/making/toolpath/freeform/mask.h"
+#include "planner/making/toolpath/freeform/finish/mask.h"
 
 namespace capstan::toolpath::freeform {
 

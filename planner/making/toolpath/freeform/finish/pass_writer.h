@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "planner/making/toolpath/freeform/finish/waterline.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/freeform/surface_line.h"
-#include "planner/making/toolpath/freeform/waterline.h"
 
 namespace capstan::toolpath::freeform {
 

@@ -1,4 +1,4 @@
-#include "planner/making/toolpath/freeform/waterline.h"
+#include "planner/making/toolpath/freeform/finish/waterline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,29 +57,13 @@ std::vector<double> heights(const DropGrid& grid, const Mask& where, double apar
   return out;
 }
 
-/// The parts of a border that lie in the mask or within a point of it; a closed one that lies in it whole
-/// stays closed, and of another none begins in the midst of a part.
-std::vector<std::vector<Vec2>> parts_within(std::vector<Vec2> line, const Mask& where) {
-  std::vector<std::vector<Vec2>> out;
-  const auto outside = std::find_if(line.begin(), line.end(), [&](Vec2 p) { return !where.at(p); });
-  if (outside == line.end()) {
-    out.push_back(std::move(line));
-    return out;
+/// The grid about the mask alone: borders elsewhere are not looked for.
+DropGrid about(DropGrid grid, const Mask& where) {
+  const Mask near = grown(where, 1);
+  for (std::size_t i = 0; i < grid.z.size(); ++i) {
+    if (near.on[i] == 0) grid.z[i] = std::nan("");
   }
-  if (line.front() == line.back()) {
-    line.pop_back();
-    std::rotate(line.begin(), outside, line.end());
-    line.push_back(line.front());
-  }
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    if (!where.at(line[k])) continue;
-    std::vector<Vec2> part;
-    if (k > 0) part.push_back(line[k - 1]);
-    for (; k < line.size() && where.at(line[k]); ++k) part.push_back(line[k]);
-    if (k < line.size()) part.push_back(line[k]);
-    if (part.size() > 1) out.push_back(std::move(part));
-  }
-  return out;
+  return grid;
 }
 
 }  // namespace
@@ -89,6 +73,7 @@ std::vector<Level> waterlines(const Reach& reach, const DropGrid& grid, const Ma
   const std::vector<double> at = heights(grid, where, apart_mm);
   std::vector<Level> out(at.size());
   const double step = 0.5 * where.step_mm;
+  const DropGrid local = about(grid, where);
   // Follows a border, where the mask has it and the surface is at its height: the border of a level also runs
   // along the rim of the surface, far above it.
   const auto follow = [&](const std::vector<Vec2>& part, Level& level) {
@@ -123,8 +108,8 @@ std::vector<Level> waterlines(const Reach& reach, const DropGrid& grid, const Ma
     if (job.stop_requested()) return;
     const double z = out[i].z_mm = at[i];
     const auto border = [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z); };
-    for (const auto& rough : level_contour(grid, z, border)) {
-      for (const auto& part : parts_within(rough, where)) follow(part, out[i]);
+    for (const auto& part : level_contour(local, z, border)) {
+      if (part.size() > 1) follow(part, out[i]);
     }
   });
   return out;

@@ -1,4 +1,4 @@
-#include "planner/making/toolpath/freeform/rest.h"
+#include "planner/making/toolpath/freeform/finish/rest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "planner/making/toolpath/freeform/between.h"
+#include "planner/making/toolpath/freeform/finish/between.h"
 
 #include <algorithm>
 #include <cmath>

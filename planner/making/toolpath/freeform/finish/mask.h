@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "planner/ground/geometry/vec.h"
-#include "planner/making/toolpath/freeform/between.h"
 #include "planner/making/toolpath/freeform/drop_cutter.h"
+#include "planner/making/toolpath/freeform/finish/between.h"
 #include "planner/making/toolpath/freeform/rough/level_contour.h"
 
 namespace capstan::toolpath::freeform {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "planner/ground/base/job.h"
-#include "planner/making/toolpath/freeform/mask.h"
+#include "planner/making/toolpath/freeform/finish/mask.h"
 #include "planner/making/toolpath/freeform/rough/reach.h"
 
 namespace capstan::toolpath::freeform {

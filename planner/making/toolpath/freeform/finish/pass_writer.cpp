@@ -1,4 +1,4 @@
-#include "planner/making/toolpath/freeform/pass_writer.h"
+#include "planner/making/toolpath/freeform/finish/pass_writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,16 +5,16 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/toolpath/freeform/between.h"
+#include "planner/making/toolpath/freeform/finish/between.h"
+#include "planner/making/toolpath/freeform/finish/mask.h"
+#include "planner/making/toolpath/freeform/finish/pass_writer.h"
+#include "planner/making/toolpath/freeform/finish/rest.h"
+#include "planner/making/toolpath/freeform/finish/waterline.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/freeform/hatch.h"
-#include "planner/making/toolpath/freeform/mask.h"
-#include "planner/making/toolpath/freeform/pass_writer.h"
-#include "planner/making/toolpath/freeform/rest.h"
 #include "planner/making/toolpath/freeform/rim.h"
 #include "planner/making/toolpath/freeform/surface_line.h"
 #include "planner/making/toolpath/freeform/task.h"
-#include "planner/making/toolpath/freeform/waterline.h"
 #include "planner/making/toolpath/path_job.h"
 
 // Passes side by side over all of a surface; where it slopes across them too much, others between them
@@ -105,7 +105,7 @@ class Finisher {
       const Mask rest = grown(more_than(places, left, k * kLayerMm + limit), 1);
       if (!rest.any()) continue;
       const Reach reach = reach_of(layer);
-      const DropGrid grid = reach.grid(area_, job_);
+      const DropGrid grid = about(reach, places, grown(rest, 2));
       const Mask steep = steep_of(grid, drop_, cutter_, layer.allowance_mm, kSteepRad);
       const auto found = passes(layer, &rest);
       out.keep(layer);
@@ -145,6 +145,20 @@ class Finisher {
                               kProbedShare * cutter_.radius());
     out.floor_mm = task.bottom_z_mm;
     out.beside = task.beside_is_free;
+    return out;
+  }
+
+  /// The tip's places about an area; NaN elsewhere. `places`: those without a layer's allowance.
+  [[nodiscard]] DropGrid about(const Reach& reach, const DropGrid& places, const Mask& area) const {
+    DropGrid out = places;
+    parallel_for(job_, static_cast<std::size_t>(out.ny), [&](std::size_t row) {
+      std::uint32_t hint = 0;
+      for (int ix = 0; ix < out.nx; ++ix) {
+        const std::size_t i = row * static_cast<std::size_t>(out.nx) + static_cast<std::size_t>(ix);
+        if (std::isnan(out.z[i])) continue;
+        out.z[i] = area.on[i] != 0 ? reach.at(out.place(ix, static_cast<int>(row)), hint) : std::nan("");
+      }
+    });
     return out;
   }
 
