@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "planner/door/pipeline/corrected_card.h"
+#include "planner/door/pipeline/cases/corrected_card.h"
 #include "planner/making/given/machine_needs.h"
 #include "planner/making/given/tool_material.h"
 #include "planner/model/nouns/all.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/door/pipeline/corrected_card.h"
+#include "planner/door/pipeline/cases/corrected_card.h"
 #include "planner/ground/memo/memo.h"
 #include "planner/making/draft/bans.h"
 #include "planner/making/propose/choose.h"

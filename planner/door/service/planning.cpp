@@ -9,7 +9,7 @@
 #include "planner/controls/suitability.h"
 #include "planner/door/late/late.h"
 #include "planner/door/late/measured_names.h"
-#include "planner/door/pipeline/corrected_card.h"
+#include "planner/door/pipeline/cases/corrected_card.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"

@@ -1,4 +1,4 @@
-#include "planner/door/pipeline/corrected_card.h"
+#include "planner/door/pipeline/cases/corrected_card.h"
 
 #include <limits>
 #include <map>
