@@ -91,13 +91,14 @@ struct FreeformPath {
 /// freeform_finish_milling: parallel passes that follow the surface. Points as far apart as the tolerance
 /// allows; the cut lies between surface + allowance and tolerance above it, never below. Neighbouring passes
 /// are joined along the surface, others over the security plane. Where the surface slopes so much across the
-/// passes that ridges and tolerance come out higher than asked, passes are put between them, there only.
+/// passes that ridges and tolerance come out higher than asked, passes are put between them, there only; not
+/// with a stated stepover, nor as long as all ridges lie within half of the tolerance above scallop_mm.
 ///
-/// Where that is shorter, what is steeper than 45 degrees is cut at constant heights, from above.
+/// Where that is shorter, what is steep (finish.cpp: kSteepRad) is cut at constant heights, from above.
 ///
 /// Needs  a cutter without a corner (MillEnd::ball_mm above 0); stepover or scallop > 0.
 /// Fails  as rough; TPA-NOTHING if the wider ball before it left no more than it may.
-/// Notes  FRF-SCALLOP  along how much of the passes the surface is steeper across them than 88 degrees
+/// Notes  FRF-SCALLOP  on what share ridges are higher than scallop_mm in the path returned, and how high
 [[nodiscard]] Result<FreeformPath> finish(const FreeformJob& task, Job& job);
 
 }  // namespace capstan::toolpath::freeform

@@ -3,20 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "planner/making/toolpath/freeform/drop_cutter.h"
+#include "planner/making/toolpath/freeform/finish/pass_writer.h"
 #include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/making/toolpath/path_job.h"
 #include "planner/physics/stock/sweep.h"
 
-// Finishing by area: what is steep at constant heights, and what a wider ball left.
+// Finishing by area: what is steep at constant heights, and what a wider ball left. What is to be avoided,
+// and what is said of ridges.
 
 namespace capstan::toolpath::freeform {
 namespace {
 
 using geometry::Mesh;
+using geometry::Vec2;
 using geometry::Vec3;
 using model::MoveRole;
+using Way = Run;  // a test has a Run of its own
 
 constexpr double kSize = 30.0, kMiddle = 0.5 * kSize;
 
@@ -177,6 +182,188 @@ TEST(RestFinish, HasNothingToCutWhereTheWiderBallReachesAll) {
   EXPECT_EQ(out.error().code, kNothingToCut);
   task.after = ball(3.0);
   EXPECT_EQ(finish(task, job).error().code, "FRF-CUTTER");
+}
+
+const double kFlank = std::tan(std::numbers::pi / 3.0);
+/// It rises across passes along x: those between others are needed all over it.
+double flank(double /*x*/, double y) { return kFlank * y; }
+
+/// The least distance of the axis from a rectangle, over all that is done at feed.
+double nearest_cut(const model::CutterPath& path, Vec2 lo, Vec2 hi) {
+  double out = 1e300;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.kind[i] == model::MoveKind::kRapid) continue;
+    const int n = std::max(1, static_cast<int>(std::ceil(model::move_length(path, i) / 0.05)));
+    for (int k = 0; k <= n; ++k) {
+      const Vec3 p = model::point_on_move(path, i, static_cast<double>(k) / n);
+      out = std::min(
+          out, std::hypot(std::max({lo.x - p.x, 0.0, p.x - hi.x}), std::max({lo.y - p.y, 0.0, p.y - hi.y})));
+    }
+  }
+  return out;
+}
+
+TEST(KeptOutOfAFinish, PassesBetweenOthersEndBeforeIt) {
+  const Mesh mesh = height_field(2, 2, flank);
+  const Vec2 lo{12, 12}, hi{18, 18};
+  for (const double angle : {0.0, 0.3}) {
+    FreeformJob task = job_on(mesh, ball(6.0), 53.0);
+    task.feed_angle_rad = angle;
+    task.avoid = geometry::rectangle(lo, hi);
+    Job job;
+    const auto out = finish(task, job);
+    ASSERT_TRUE(out) << out.error().message;
+    EXPECT_GE(nearest_cut(out->path, lo, hi), 3.0 - 1e-5) << angle;
+    EXPECT_LE(nearest_cut(out->path, lo, hi), 3.3) << angle;
+  }
+}
+
+// Lines on either side of it do not follow each other.
+TEST(KeptOutOfAFinish, NoPassIsPutWhereItLiesAcrossTheWholeWidth) {
+  const Mesh mesh = height_field(2, 2, flank);
+  const Vec2 lo{-5, 14}, hi{35, 16};
+  FreeformJob task = job_on(mesh, ball(6.0), 53.0);
+  task.avoid = geometry::rectangle(lo, hi);
+  Job job;
+  const auto out = finish(task, job);
+  ASSERT_TRUE(out) << out.error().message;
+  EXPECT_GE(nearest_cut(out->path, lo, hi), 3.0 - 1e-5);
+  const auto [least, most] = std::minmax_element(out->path.y.begin(), out->path.y.end());
+  EXPECT_LT(*least, 1.0);
+  EXPECT_GT(*most, 29.0);
+}
+
+TEST(KeptOutOfAFinish, WaysAtConstantHeightsEndBeforeIt) {
+  const Mesh mesh = height_field(60, 60, cavity);
+  const Vec2 lo{24, 13}, hi{34, 17};
+  FreeformJob task = job_on(mesh, ball(6.0), 0.5);
+  task.avoid = geometry::rectangle(lo, hi);
+  Job job;
+  const auto out = finish(task, job);
+  ASSERT_TRUE(out) << out.error().message;
+  EXPECT_GE(nearest_cut(out->path, lo, hi), 3.0 - 1e-5);
+}
+
+/// Puts passes together over a plane z = -10.
+struct Writing {
+  Mesh mesh = height_field(2, 2, [](double, double) { return -10.0; });
+  FreeformJob task = job_on(mesh, ball(6.0), 0.0);
+  DropCutter drop{mesh};
+  Job job;
+  [[nodiscard]] PassWriter writer() const {
+    PassWriter out(task, drop, *mill_end_of(model::profile_of(task.cutter)), 1.0, job);
+    out.link_within(3.0);
+    return out;
+  }
+};
+
+std::ptrdiff_t entries(const model::CutterPath& path) {
+  return std::count(path.role.begin(), path.role.end(), MoveRole::kPlunge);
+}
+
+TEST(PassWriter, LinksDoNotCutTheCornerOfWhatIsAvoided) {
+  Writing w;
+  // From one end to the other 2.56 mm, 2.75 mm from the corner.
+  const double far = 3.03 * std::cos(std::numbers::pi / 9.0), near = 3.03 * std::sin(std::numbers::pi / 9.0);
+  const Way first{{5.0, 14.0 - near, -10.0}, {14.0 - far, 14.0 - near, -10.0}};
+  const Way second{{14.0 - near, 14.0 - far, -10.0}, {14.0 - near, 5.0, -10.0}};
+  for (const bool avoided : {false, true}) {
+    if (avoided) w.task.avoid = geometry::rectangle({14, 14}, {16, 16});
+    PassWriter writer = w.writer();
+    writer.add(first);
+    writer.add(second);
+    EXPECT_EQ(entries(writer.finished()), avoided ? 2 : 1);
+  }
+}
+
+TEST(PassWriter, LevelsOfAnOpenFlankAllRunTheSameWay) {
+  const Writing w;
+  std::vector<Level> levels;
+  for (int k = 0; k < 3; ++k) {
+    const double x = 10.0 + 0.4 * k, z = -1.0 - k;
+    levels.push_back({z, {{{x, 5.0, z}, {x, 25.0, z}}}});
+  }
+  PassWriter writer = w.writer();
+  writer.add_levels(levels);
+  const auto path = writer.finished();
+  int cuts = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.role[i] != MoveRole::kCut) continue;
+    ++cuts;
+    EXPECT_GT(path.y[i], path.y[i - 1]) << i;
+  }
+  EXPECT_EQ(cuts, 3);
+}
+
+TEST(PassWriter, ALevelWaitsForAllWaysAboveIt) {
+  Writing w;
+  w.task.to_and_fro = false;  // no links
+  // The lower one begins beside the end of the first, and runs below the second.
+  const Way first{{10.0, 5.0, -1.0}, {10.0, 10.0, -1.0}}, second{{10.0, 11.0, -1.0}, {10.0, 16.0, -1.0}};
+  const Way lower{{10.5, 10.0, -2.0}, {10.5, 16.0, -2.0}};
+  PassWriter writer = w.writer();
+  writer.add_levels({{-1.0, {first, second}}, {-2.0, {lower}}});
+  const auto path = writer.finished();
+  std::vector<double> heights;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.role[i] == MoveRole::kCut) heights.push_back(path.z[i]);
+  }
+  EXPECT_EQ(heights, (std::vector<double>{-1.0, -1.0, -2.0}));
+}
+
+TEST(PassWriter, AddsNoMoreOnceItIsToStop) {
+  Writing w;
+  w.job.request_stop();
+  const Way run{{5.0, 5.0, -10.0}, {6.0, 5.0, -10.0}};
+  PassWriter writer = w.writer();
+  writer.add_levels({{-10.0, {run}}});
+  writer.add_nearest_first({{5.0, run}}, {0.0, 1.0});
+  EXPECT_TRUE(writer.empty());
+  const auto out = finish(w.task, w.job);
+  ASSERT_FALSE(out);
+  EXPECT_EQ(out.error().code, "FRF-STOPPED");
+}
+
+TEST(Ridges, OfAStatedStepoverAreToldWithShareAndHeight) {
+  const Mesh mesh = height_field(2, 2, flank);
+  const auto said = [&](double stepover, double angle) {
+    FreeformJob task = job_on(mesh, ball(6.0), 53.0);
+    task.stepover_mm = stepover;
+    task.feed_angle_rad = angle;
+    Job job;
+    EXPECT_TRUE(finish(task, job));
+    std::string out;
+    for (const Diagnostic& d : job.diagnostics()) {
+      if (d.code == "FRF-SCALLOP") out += d.message;
+    }
+    return out;
+  };
+  const double level = scallop_stepover(3.0, 0.03), up = 0.5 * std::numbers::pi;
+  // Passes are twice as far apart along it, and ridges four times as high.
+  const std::string across = said(level, 0.0);
+  EXPECT_NE(across.find(" % of what the passes run over"), std::string::npos) << across;
+  EXPECT_NE(across.find("higher than 0.03 mm, up to 0.1"), std::string::npos) << across;
+  EXPECT_NE(across.find("a smaller stepover"), std::string::npos) << across;
+  EXPECT_EQ(said(level, up), "");
+  EXPECT_EQ(said(0.0, 0.0), "") << "passes between them leave none";
+}
+
+// Beside the flank an upright step lies between the same two passes.
+TEST(Ridges, AnUprightStepElsewhereLeavesASlopeItsPasses) {
+  const auto both = [](double x, double y) {
+    return x < 10.0 ? flank(x, y) : y < kMiddle - 0.25 ? 0.0 : kFlank * kMiddle;
+  };
+  const Mesh mesh = height_field(60, 60, both);
+  FreeformJob task = job_on(mesh, ball(6.0), 53.0);
+  Job job;
+  const auto out = finish(task, job);
+  ASSERT_TRUE(out) << out.error().message;
+  auto map = stock::from_box({{3, 12, 0}, {7, 18, 40}}, 0.05);
+  stock::cut(map, model::profile_of(task.cutter), out->path);
+  const double over = highest(map, flank, [](double x, double y) {
+    return x > 4.0 && x < 6.0 && y > kMiddle - 1.5 && y < kMiddle + 1.5;
+  });
+  EXPECT_LE(over, task.scallop_mm + task.tolerance_mm + 0.005);
 }
 
 }  // namespace

@@ -51,9 +51,9 @@ double ridge_mm(double ball_mm, double apart_mm) {
   return half < ball_mm ? ball_mm - std::sqrt((ball_mm - half) * (ball_mm + half)) : ball_mm;
 }
 
-std::vector<std::pair<double, double>> wide_gaps(const std::vector<Run>& below, const std::vector<Run>& above,
-                                                 const Hatch& lines, double most_mm) {
-  std::vector<std::pair<double, double>> out;
+std::vector<Gap> wide_gaps(const std::vector<Run>& below, const std::vector<Run>& above, const Hatch& lines,
+                           double most_mm) {
+  std::vector<Gap> out;
   for (const Run& one : below) {
     const std::vector<Place> p = along(one, lines.u_axis);
     for (const Run& other : above) {
@@ -76,13 +76,40 @@ std::vector<std::pair<double, double>> wide_gaps(const std::vector<Run>& below, 
         const double slope = std::min(std::abs(a.slope()), std::abs(b.slope()));
         const double dz =
             std::max(std::abs(a.at(at[i]) - b.at(at[i])), std::abs(a.at(at[i + 1]) - b.at(at[i + 1])));
-        if (dv * dv + dz * dz / (1.0 + slope * slope) <= most_mm * most_mm) continue;
-        if (!out.empty() && at[i] <= out.back().second)
-          out.back().second = std::max(out.back().second, at[i + 1]);
-        else
-          out.emplace_back(at[i], at[i + 1]);
+        const double square = dv * dv + dz * dz / (1.0 + slope * slope);
+        if (square <= most_mm * most_mm) continue;
+        const double apart = std::sqrt(square);
+        if (out.empty() || at[i] > out.back().hi) {
+          out.push_back({at[i], at[i + 1], apart});
+          continue;
+        }
+        out.back().hi = std::max(out.back().hi, at[i + 1]);
+        out.back().apart_mm = std::max(out.back().apart_mm, apart);
       }
     }
+  }
+  return out;
+}
+
+std::vector<std::pair<double, double>> parts_in(const geometry::Region& area, const Hatch& lines, double v,
+                                                const Gap& gap) {
+  if (area.empty()) return {{gap.lo, gap.hi}};
+  constexpr double kLeastMm = 1e-6;  // as a hatch has it
+  std::vector<double> at{gap.lo, gap.hi};
+  for (const geometry::Loop& loop : area.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
+      const double av = dot(a, lines.v_axis), bv = dot(b, lines.v_axis);
+      if ((av <= v) == (bv <= v)) continue;
+      const double u = dot(a + ((v - av) / (bv - av)) * (b - a), lines.u_axis);
+      if (u > gap.lo && u < gap.hi) at.push_back(u);
+    }
+  }
+  std::sort(at.begin(), at.end());
+  std::vector<std::pair<double, double>> out;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    if (at[i + 1] - at[i] > kLeastMm && geometry::contains(area, lines.place(0.5 * (at[i] + at[i + 1]), v)))
+      out.emplace_back(at[i], at[i + 1]);
   }
   return out;
 }

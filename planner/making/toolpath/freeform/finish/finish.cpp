@@ -41,6 +41,13 @@ constexpr double kSteepRad = 47.0 / 180.0 * std::numbers::pi;
 /// last ball meets after a semi-finish. Default, unsourced.
 constexpr double kLayerMm = 0.4;
 constexpr int kMostLayers = 40;
+/// Of the tolerance, for ridges beside the height asked for: three quarters are the passes' own (Follower).
+/// As long as none is higher by more than half of it, no passes are put between those of the raster.
+constexpr double kRidgeShare = 0.25, kRasterShare = 0.5;
+/// Steps are looked for in places so many radii apart along a gap. Default, unsourced.
+constexpr double kStepPlaces = 0.25;
+/// Of what passes run over, that may have higher ridges unsaid. Default, unsourced.
+constexpr double kUnsaidShare = 0.001;
 
 class Finisher {
  public:
@@ -52,15 +59,19 @@ class Finisher {
         hatch_(std::move(hatch)),
         area_(std::move(area)),
         kept_out_(std::move(kept_out)),
-        job_(job) {}
+        job_(job) {
+    if (!task.area.empty() || !task.avoid.empty()) allowed_ = geometry::subtract(area_, kept_out_);
+  }
 
   Result<FreeformPath> run() {
     const std::vector<std::vector<Run>> found = passes(task_, nullptr);
     if (job_.stop_requested()) return stopped();
-    const std::vector<Piece> between = between_passes(task_, found);
+    std::vector<High> high;
+    const std::vector<Piece> between = between_passes(task_, found, high);
     if (job_.stop_requested()) return stopped();
-    PassWriter all(task_, drop_, cutter_, hatch_.spacing_mm);
+    PassWriter all(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     for (std::size_t i = 0; i < found.size(); ++i) {
+      if (job_.stop_requested()) return stopped();
       job_.progress("freeform finish", static_cast<double>(i) / static_cast<double>(found.size()));
       const bool back = task_.to_and_fro && hatch_.stripes[i].line % 2 != 0;
       std::vector<Run> runs = found[i];
@@ -71,28 +82,38 @@ class Finisher {
       }
     }
     if (all.empty()) return fail("FRF-EMPTY", "the area holds no surface to finish");
-    if (between.empty()) return written(all);
+    if (between.empty()) {
+      say_of_ridges(high, found, nullptr);
+      return written(all);
+    }
     all.link_within(0.0);
     all.add_nearest_first(between, hatch_.v_axis);
-    PassWriter split(task_, drop_, cutter_, hatch_.spacing_mm);
+    PassWriter split(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     split.link_within(cutter_.radius());
     const Reach reach = reach_of(task_);
     const DropGrid grid = reach.grid(area_, job_);
     const Mask steep = steep_of(grid, drop_, cutter_, task_.allowance_mm, kSteepRad);
-    add_area(task_, reach, grid, steep, nullptr, found, between, split);
+    const Mask passed = add_area(task_, reach, grid, steep, nullptr, found, between, split);
     if (job_.stop_requested()) return stopped();
-    return written(!split.empty() && split.way_mm() < all.way_mm() ? split : all);
+    const bool shorter = !split.empty() && split.way_mm() < all.way_mm();
+    say_of_ridges(high, found, shorter ? &passed : nullptr);
+    return written(shorter ? split : all);
   }
 
   /// What a wider ball left.
   Result<FreeformPath> run_after(const MillEnd& wider) {
     const DropGrid places = reach_of(task_).grid(area_, job_);
-    const std::vector<double> left = left_by_wider(places, drop_, cutter_, wider, job_);
+    std::vector<double> left = left_by_wider(places, drop_, cutter_, wider, job_);
     if (job_.stop_requested()) return stopped();
     const double limit = task_.scallop_mm + task_.tolerance_mm;
-    const double most = *std::max_element(left.begin(), left.end());
+    double most = 0.0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (std::isinf(left[i])) left[i] = std::max(0.0, stands_over(places, i));
+      most = std::max(most, left[i]);
+    }
     const int layers = std::clamp(static_cast<int>(std::ceil((most - limit) / kLayerMm)), 1, kMostLayers);
-    PassWriter out(task_, drop_, cutter_, hatch_.spacing_mm);
+    std::vector<High> high;
+    PassWriter out(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     out.link_within(cutter_.radius());
     for (int k = layers - 1; k >= 0; --k) {
       job_.progress("freeform finish", 1.0 - static_cast<double>(k + 1) / layers);
@@ -109,8 +130,11 @@ class Finisher {
       const Mask steep = steep_of(grid, drop_, cutter_, layer.allowance_mm, kSteepRad);
       const auto found = passes(layer, &rest);
       out.keep(layer);
-      add_area(layer, reach, grid, steep, &rest, found, between_passes(layer, found), out);
+      high.clear();  // of the last layer alone
+      const std::vector<Piece> between = between_passes(layer, found, high);
+      const Mask passed = add_area(layer, reach, grid, steep, &rest, found, between, out);
       if (job_.stop_requested()) return stopped();
+      if (k == 0) say_of_ridges(high, found, &passed);
     }
     if (out.empty()) return fail(kNothingToCut, "the wider ball before it leaves no more than it may");
     return written(out);
@@ -162,11 +186,23 @@ class Finisher {
     return out;
   }
 
-  /// How far apart passes may lie along the surface: half of the tolerance lifts them, the other half the
-  /// ridges may have.
-  [[nodiscard]] double most_apart(const FreeformJob& task) const {
-    const double ridge = task.scallop_mm + 0.5 * task.tolerance_mm + kShareOfLeft * task_.allowance_mm;
-    return std::max(hatch_.spacing_mm, scallop_stepover(cutter_.ball_mm(), ridge));
+  /// The height that ridges may have, with a share of the tolerance.
+  [[nodiscard]] double most_ridge(const FreeformJob& task, double share) const {
+    return task.scallop_mm + share * task.tolerance_mm + kShareOfLeft * task_.allowance_mm;
+  }
+
+  /// How far apart passes may lie along the surface, for ridges no higher than asked.
+  [[nodiscard]] double most_apart(const FreeformJob& task, double share = kRidgeShare) const {
+    return std::max(hatch_.spacing_mm, scallop_stepover(cutter_.ball_mm(), most_ridge(task, share)));
+  }
+
+  /// What may stand above a place of the tip, mm.
+  [[nodiscard]] double stands_over(const DropGrid& places, std::size_t i) const {
+    const auto nx = static_cast<std::size_t>(places.nx);
+    const Vec2 p = places.place(static_cast<int>(i % nx), static_cast<int>(i / nx));
+    const double top =
+        task_.stock != nullptr ? stock::max_height(*task_.stock, p, cutter_.radius()) : task_.top_z_mm;
+    return top - places.z[i];
   }
 
   /// The passes of the hatch, by stripe; `only`: pieces of them.
@@ -197,12 +233,15 @@ class Finisher {
   }
 
   /// Ways at constant heights along what is steep, then pieces of passes over the rest, of an area or of all.
-  void add_area(const FreeformJob& task, const Reach& reach, const DropGrid& grid, const Mask& steep,
+  /// Returns the rest; it has what those ways left out, too.
+  Mask add_area(const FreeformJob& task, const Reach& reach, const DropGrid& grid, const Mask& steep,
                 const Mask* area, const std::vector<std::vector<Run>>& found,
                 const std::vector<Piece>& between, PassWriter& out) const {
     const Mask walls = area != nullptr ? both(grown(steep, 1), *area) : grown(steep, 1);
-    out.add_levels(waterlines(reach, grid, walls, most_apart(task), job_));
-    const Mask shallow = grown(inverse(steep), 1);
+    Waterlines lines = waterlines(reach, grid, walls, most_apart(task), job_);
+    out.add_levels(std::move(lines.levels));
+    Mask shallow = grown(inverse(steep), 1);
+    if (lines.left_out_mm > 0.0) shallow = either(shallow, lines.left_out);
     std::vector<Piece> pieces;
     const auto add = [&](double v, const Run& run) {
       for (Run& piece : within(run, shallow)) pieces.push_back({v, std::move(piece)});
@@ -213,76 +252,152 @@ class Finisher {
     for (const Piece& piece : between) add(piece.v, piece.run);
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.v < b.v; });
     out.add_nearest_first(pieces, hatch_.v_axis);
+    return shallow;
   }
 
-  using Line = std::pair<double, std::vector<Run>>;  ///< v, and the runs along it
+  /// The runs along a line of the hatch, or along one between two of them.
+  struct Line {
+    int number = 0;
+    double v = 0.0;
+    std::vector<Run> runs;
+  };
 
-  /// Passes between those of the hatch where these lie too far apart along the surface, by v.
-  std::vector<Piece> between_passes(const FreeformJob& task,
-                                    const std::vector<std::vector<Run>>& found) const {
-    if (!(task.scallop_mm > 0.0) || task.stepover_mm > 0.0) return {};
+  [[nodiscard]] std::vector<Line> lines_of(const std::vector<std::vector<Run>>& found) const {
     std::vector<Line> lines;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const Stripe& s = hatch_.stripes[i];
-      if (i == 0 || s.line != hatch_.stripes[i - 1].line) lines.emplace_back(s.v, std::vector<Run>{});
-      auto& runs = lines.back().second;
+      if (lines.empty() || s.line != lines.back().number) lines.push_back({s.line, s.v, {}});
+      auto& runs = lines.back().runs;
       runs.insert(runs.end(), found[i].begin(), found[i].end());
     }
+    return lines;
+  }
+
+  /// Passes between those of the hatch where these lie too far apart along the surface, by v; `high` is given
+  /// where they still do: with a stated stepover wherever they do.
+  std::vector<Piece> between_passes(const FreeformJob& task, const std::vector<std::vector<Run>>& found,
+                                    std::vector<High>& high) const {
+    if (!(task.scallop_mm > 0.0)) return {};
+    const std::vector<Line> lines = lines_of(found);
     if (lines.size() < 2) return {};
-    std::vector<std::vector<Piece>> gaps(lines.size() - 1);
-    std::vector<double> steep(gaps.size());
+    const std::size_t n = lines.size() - 1;
+    std::vector<std::vector<Piece>> gaps(n);
+    std::vector<std::vector<High>> left(n);
     const Follower follow = follower(task);
-    const double apart = most_apart(task);
-    parallel_for(job_, gaps.size(), [&](std::size_t i) {
-      if (job_.stop_requested()) return;
-      fill(follow, apart, lines[i], lines[i + 1], kMostHalvings, gaps[i], steep[i]);
+    // What lies between lines that do not follow each other is none of theirs: a clamp may stand there.
+    const auto are_neighbours = [&](std::size_t i) { return lines[i + 1].number == lines[i].number + 1; };
+    const bool stated = task.stepover_mm > 0.0;
+    std::vector<char> wide(n);
+    const double raster = stated ? scallop_stepover(cutter_.ball_mm(), most_ridge(task, kRasterShare))
+                                 : most_apart(task, kRasterShare);
+    parallel_for(job_, n, [&](std::size_t i) {
+      if (job_.stop_requested() || !are_neighbours(i)) return;
+      const std::vector<Gap> found_here = wide_here(follow, raster, lines[i], lines[i + 1], true);
+      wide[i] = found_here.empty() ? 0 : 1;
+      if (stated) note_high(lines[i], lines[i + 1], found_here, left[i]);
     });
-    std::vector<Piece> out;
-    double left = 0.0;
-    for (std::size_t i = 0; i < gaps.size(); ++i) {
-      std::move(gaps[i].begin(), gaps[i].end(), std::back_inserter(out));
-      left += steep[i];
+    const bool any = std::any_of(wide.begin(), wide.end(), [](char c) { return c != 0; });
+    if ((any || task_.after) && !stated) {
+      const double apart = most_apart(task);
+      parallel_for(job_, n, [&](std::size_t i) {
+        if (job_.stop_requested() || !are_neighbours(i)) return;
+        fill(follow, apart, lines[i], lines[i + 1], kMostHalvings, gaps[i], left[i]);
+      });
     }
-    if (left > 0.0)
-      job_.note("FRF-SCALLOP",
-                "along " + trimmed(left, 1) +
-                    " mm the surface is so steep across the passes that ridges are not counted");
+    std::vector<Piece> out;
+    for (std::size_t i = 0; i < n; ++i) {
+      std::move(gaps[i].begin(), gaps[i].end(), std::back_inserter(out));
+      high.insert(high.end(), left[i].begin(), left[i].end());
+    }
+    return out;
+  }
+
+  void note_high(const Line& below, const Line& above, const std::vector<Gap>& wide,
+                 std::vector<High>& high) const {
+    const double dv = above.v - below.v;
+    for (const Gap& gap : wide)
+      high.push_back(
+          {0.5 * (below.v + above.v), gap.lo, gap.hi, dv, ridge_mm(cutter_.ball_mm(), gap.apart_mm)});
+  }
+
+  /// Says where ridges come out higher than asked. `passed`: where passes are what cuts; null: all over.
+  void say_of_ridges(const std::vector<High>& high, const std::vector<std::vector<Run>>& found,
+                     const Mask* passed) const {
+    double over = 0.0, all = 0.0, worst = 0.0;
+    const double step = kStepPlaces * cutter_.radius();
+    for (const High& h : high) {
+      const int n = std::max(1, static_cast<int>(std::ceil((h.hi - h.lo) / step)));
+      int in = 0;
+      for (int k = 0; k < n; ++k)
+        in +=
+            passed == nullptr || passed->at(hatch_.place(h.lo + (k + 0.5) / n * (h.hi - h.lo), h.v)) ? 1 : 0;
+      if (in == 0) continue;
+      over += (h.hi - h.lo) * h.dv * in / n;
+      worst = std::max(worst, h.ridge_mm);
+    }
+    for (const auto& runs : found) {
+      for (const Run& run : runs) all += norm(xy(run.back()) - xy(run.front())) * hatch_.spacing_mm;
+    }
+    if (!(all > 0.0) || !(over > kUnsaidShare * all)) return;
+    job_.note("FRF-SCALLOP",
+              "on " + trimmed(std::min(100.0, 100.0 * over / all), 1) +
+                  " % of what the passes run over, seen from above, ridges are higher than " +
+                  trimmed(task_.scallop_mm, 4) + " mm, up to " + trimmed(worst, 4) +
+                  " mm, because it slopes across the passes: " +
+                  (task_.stepover_mm > 0.0
+                       ? "state a smaller stepover, or a scallop height alone, which puts passes between them"
+                       : "state a feed direction that runs up and down it"));
+  }
+
+  /// Too wide gaps between two lines; `first`: between lines of the hatch, without upright steps. Such a step
+  /// is no slope: however close passes lie, one is above it and the next below.
+  [[nodiscard]] std::vector<Gap> wide_here(const Follower& follow, double apart, const Line& below,
+                                           const Line& above, bool first) const {
+    const std::vector<Gap> wide = wide_gaps(below.runs, above.runs, hatch_, apart);
+    if (!first) return wide;
+    std::vector<Gap> out;
+    for (const Gap& gap : wide) {
+      const int n =
+          std::max(1, static_cast<int>(std::ceil((gap.hi - gap.lo) / (kStepPlaces * cutter_.radius()))));
+      const auto at = [&](int k) { return k == n ? gap.hi : gap.lo + (gap.hi - gap.lo) * k / n; };
+      bool goes_on = false;
+      for (int k = 0; k < n; ++k) {
+        const double u = 0.5 * (at(k) + at(k + 1));
+        const bool upright = has_upright_step(drop_, cutter_, follow.allowance_mm, hatch_.place(u, below.v),
+                                              hatch_.place(u, above.v));
+        if (!upright && goes_on) out.back().hi = at(k + 1);
+        if (!upright && !goes_on) out.push_back({at(k), at(k + 1), gap.apart_mm});
+        goes_on = !upright;
+      }
+    }
     return out;
   }
 
   void fill(const Follower& follow, double apart, const Line& below, const Line& above, int halvings,
-            std::vector<Piece>& out, double& steep) const {
-    auto wide = wide_gaps(below.second, above.second, hatch_, apart);
-    // An upright step is no slope: however close passes lie, one is above it and the next below.
-    if (halvings == kMostHalvings)
-      std::erase_if(wide, [&](const std::pair<double, double>& gap) {
-        const double u = 0.5 * (gap.first + gap.second);
-        return has_upright_step(drop_, cutter_, follow.allowance_mm, hatch_.place(u, below.first),
-                                hatch_.place(u, above.first));
-      });
+            std::vector<Piece>& out, std::vector<High>& high) const {
+    std::vector<Gap> wide = wide_here(follow, apart, below, above, halvings == kMostHalvings);
     if (task_.after) add_hollows(follow, below, above, wide);
     if (wide.empty()) return;
-    if (halvings == 0) {
-      for (const auto& [lo, hi] : wide) steep += hi - lo;
-      return;
+    if (halvings == 0) return note_high(below, above, wide, high);
+    Line middle{below.number, 0.5 * (below.v + above.v), {}};
+    for (const Gap& gap : wide) {
+      for (const auto& [lo, hi] : parts_in(allowed_, hatch_, middle.v, gap)) {
+        for (Run& run : follow.over(hatch_.place(lo, middle.v), hatch_.place(hi, middle.v)))
+          middle.runs.push_back(std::move(run));
+      }
     }
-    Line middle{0.5 * (below.first + above.first), {}};
-    for (const auto& [lo, hi] : wide) {
-      for (Run& run : follow.over(hatch_.place(lo, middle.first), hatch_.place(hi, middle.first)))
-        middle.second.push_back(std::move(run));
-    }
-    fill(follow, apart, below, middle, halvings - 1, out, steep);
-    for (const Run& run : middle.second) out.push_back({middle.first, run});
-    fill(follow, apart, middle, above, halvings - 1, out, steep);
+    fill(follow, apart, below, middle, halvings - 1, out, high);
+    for (const Run& run : middle.runs) out.push_back({middle.v, run});
+    fill(follow, apart, middle, above, halvings - 1, out, high);
   }
 
   /// What a wider ball left is hollow: places where a ball between two passes would go deeper than the line
   /// from one to the other. The ridge is higher by that depth than that of a plane.
   void add_hollows(const Follower& follow, const Line& below, const Line& above,
-                   std::vector<std::pair<double, double>>& wide) const {
+                   std::vector<Gap>& wide) const {
     const double most = task_.scallop_mm + 1.5 * task_.tolerance_mm + kShareOfLeft * task_.allowance_mm;
-    const double step = 0.5 * cutter_.radius(), v = 0.5 * (below.first + above.first);
-    const double dv = above.first - below.first;
+    const double step = 0.5 * cutter_.radius(), v = 0.5 * (below.v + above.v);
+    const double dv = above.v - below.v;
     const auto ends = [&](const Run& run) {
       return std::pair(dot(xy(run.front()), hatch_.u_axis), dot(xy(run.back()), hatch_.u_axis));
     };
@@ -292,28 +407,30 @@ class Finisher {
       return drop_.drop(cutter_, p.x, p.y, follow.allowance_mm, hint);
     };
     const std::size_t before = wide.size();
-    for (const Run& one : below.second) {
-      for (const Run& other : above.second) {
+    for (const Run& one : below.runs) {
+      for (const Run& other : above.runs) {
         const double lo = std::max(ends(one).first, ends(other).first);
         const double hi = std::min(ends(one).second, ends(other).second);
         for (double u = lo + 0.5 * step; u < hi; u += step) {
-          const double a = z(u, below.first), m = z(u, v), b = z(u, above.first);
+          const double a = z(u, below.v), m = z(u, v), b = z(u, above.v);
           if (a == DropCutter::kNoContact || m == DropCutter::kNoContact || b == DropCutter::kNoContact)
             continue;
           const double apart = std::hypot(dv, b - a), depth = (0.5 * (a + b) - m) * dv / apart;
           if (depth <= 0.0 || ridge_mm(cutter_.ball_mm(), apart) + depth <= most) continue;
-          wide.emplace_back(std::max(lo, u - step), std::min(hi, u + step));
+          wide.push_back({std::max(lo, u - step), std::min(hi, u + step), apart});
         }
       }
     }
     if (wide.size() == before) return;
-    std::sort(wide.begin(), wide.end());
-    std::vector<std::pair<double, double>> joined;
-    for (const auto& gap : wide) {
-      if (!joined.empty() && gap.first <= joined.back().second)
-        joined.back().second = std::max(joined.back().second, gap.second);
-      else
+    std::sort(wide.begin(), wide.end(), [](const Gap& a, const Gap& b) { return a.lo < b.lo; });
+    std::vector<Gap> joined;
+    for (const Gap& gap : wide) {
+      if (joined.empty() || gap.lo > joined.back().hi) {
         joined.push_back(gap);
+        continue;
+      }
+      joined.back().hi = std::max(joined.back().hi, gap.hi);
+      joined.back().apart_mm = std::max(joined.back().apart_mm, gap.apart_mm);
     }
     wide = std::move(joined);
   }
@@ -323,6 +440,7 @@ class Finisher {
   const MillEnd& cutter_;
   Hatch hatch_;
   geometry::Region area_, kept_out_;
+  geometry::Region allowed_;  ///< the one without the other; empty: all, and lines run beyond the rim
   Job& job_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "planner/making/toolpath/freeform/rough/reach.h"
 
@@ -15,15 +16,24 @@ constexpr double kUprightTangent = 28.636;  ///< of 88 degrees
 constexpr double kSteepTangent = 4.0;       ///< from here on a step is looked for; derived: 76 degrees
 constexpr int kHalvings = 10;
 
+std::optional<std::size_t> nearest_point(const Mask& mask, Vec2 p) {
+  const int ix = static_cast<int>(std::lround((p.x - mask.origin.x) / mask.step_mm));
+  const int iy = static_cast<int>(std::lround((p.y - mask.origin.y) / mask.step_mm));
+  if (ix < 0 || iy < 0 || ix >= mask.nx || iy >= mask.ny) return std::nullopt;
+  return static_cast<std::size_t>(iy) * static_cast<std::size_t>(mask.nx) + static_cast<std::size_t>(ix);
+}
+
 bool is_place(double z) { return !std::isnan(z) && z < kBlocked; }
 
 }  // namespace
 
 bool Mask::at(Vec2 p) const {
-  const int ix = static_cast<int>(std::lround((p.x - origin.x) / step_mm));
-  const int iy = static_cast<int>(std::lround((p.y - origin.y) / step_mm));
-  if (ix < 0 || iy < 0 || ix >= nx || iy >= ny) return false;
-  return on[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix)] != 0;
+  const std::optional<std::size_t> i = nearest_point(*this, p);
+  return i && on[*i] != 0;
+}
+
+void Mask::set(Vec2 p) {
+  if (const std::optional<std::size_t> i = nearest_point(*this, p)) on[*i] = 1;
 }
 
 bool Mask::any() const {
@@ -59,6 +69,12 @@ Mask grown(const Mask& mask, int points) {
 Mask both(const Mask& a, const Mask& b) {
   Mask out = a;
   for (std::size_t i = 0; i < out.on.size(); ++i) out.on[i] = a.on[i] != 0 && b.on[i] != 0 ? 1 : 0;
+  return out;
+}
+
+Mask either(const Mask& a, const Mask& b) {
+  Mask out = a;
+  for (std::size_t i = 0; i < out.on.size(); ++i) out.on[i] = a.on[i] != 0 || b.on[i] != 0 ? 1 : 0;
   return out;
 }
 

@@ -18,6 +18,8 @@ struct Mask {
   std::vector<char> on;  ///< iy * nx + ix
   [[nodiscard]] bool at(geometry::Vec2 p) const;
   [[nodiscard]] bool any() const;
+  /// Takes a place in, where the grid has it.
+  void set(geometry::Vec2 p);
 };
 
 /// No place of the grid.
@@ -26,6 +28,7 @@ struct Mask {
 [[nodiscard]] Mask grown(const Mask& mask, int points);
 /// Places that are in both.
 [[nodiscard]] Mask both(const Mask& a, const Mask& b);
+[[nodiscard]] Mask either(const Mask& a, const Mask& b);
 [[nodiscard]] Mask inverse(const Mask& mask);
 
 /// Where the places of the tip of a cutter rise more steeply than an angle, and are no upright step, which

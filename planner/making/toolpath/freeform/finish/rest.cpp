@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/making/toolpath/freeform/rough/reach.h"
 
@@ -37,8 +38,8 @@ std::vector<double> left_by_wider(const DropGrid& grid, const DropCutter& drop, 
       }();
       const Vec3 middle = Vec3{p.x, p.y, z + r} + (wide - r) * normal;
       const double stands = drop.drop(wider, middle.x, middle.y, 0.0, hint_of_wider);
-      if (stands == DropCutter::kNoContact) continue;
-      out[i] = std::max(0.0, (stands - (middle.z - wide)) * normal.z);
+      out[i] = stands == DropCutter::kNoContact ? std::numeric_limits<double>::infinity()
+                                                : std::max(0.0, (stands - (middle.z - wide)) * normal.z);
     }
   });
   return out;

@@ -10,7 +10,8 @@ namespace capstan::toolpath::freeform {
 
 /// What a wider ball leaves for a smaller one, square to the surface, at each place of the tip of the smaller
 /// one: 0 where the wider one touches the surface at the same point. It is at least what stays there.
-/// Shape  of `grid`, in mm; 0 where the grid has no place.
+/// Infinity where the wider one meets no surface, so that nothing tells what it leaves. Shape  of `grid`, in
+/// mm; 0 where the grid has no place.
 [[nodiscard]] std::vector<double> left_by_wider(const DropGrid& grid, const DropCutter& drop,
                                                 const MillEnd& cutter, const MillEnd& wider, Job& job);
 

@@ -57,6 +57,12 @@ std::vector<double> heights(const DropGrid& grid, const Mask& where, double apar
   return out;
 }
 
+/// A piece of a border that could not be proved clear.
+struct LeftOut {
+  Vec2 middle;
+  double length_mm = 0.0;
+};
+
 /// The grid about the mask alone: borders elsewhere are not looked for.
 DropGrid about(DropGrid grid, const Mask& where) {
   const Mask near = grown(where, 1);
@@ -68,15 +74,16 @@ DropGrid about(DropGrid grid, const Mask& where) {
 
 }  // namespace
 
-std::vector<Level> waterlines(const Reach& reach, const DropGrid& grid, const Mask& where, double apart_mm,
-                              Job& job) {
+Waterlines waterlines(const Reach& reach, const DropGrid& grid, const Mask& where, double apart_mm,
+                      Job& job) {
   const std::vector<double> at = heights(grid, where, apart_mm);
-  std::vector<Level> out(at.size());
+  Waterlines out{.levels = std::vector<Level>(at.size()), .left_out = empty_mask(grid)};
+  std::vector<std::vector<LeftOut>> left_out(at.size());
   const double step = 0.5 * where.step_mm;
   const DropGrid local = about(grid, where);
   // Follows a border, where the mask has it and the surface is at its height: the border of a level also runs
   // along the rim of the surface, far above it.
-  const auto follow = [&](const std::vector<Vec2>& part, Level& level) {
+  const auto follow = [&](const std::vector<Vec2>& part, Level& level, std::vector<LeftOut>& missing) {
     const double z = level.z_mm;
     std::uint32_t hint = 0;
     const auto line = refined(
@@ -93,7 +100,9 @@ std::vector<Level> waterlines(const Reach& reach, const DropGrid& grid, const Ma
       const auto at_share = [&](int m) { return a + (static_cast<double>(m) / n) * (b - a); };
       for (int m = 0; m < n; ++m) {
         const Vec2 from = at_share(m), to = m + 1 == n ? b : at_share(m + 1), middle = 0.5 * (from + to);
-        if (!where.at(middle) || reach.at(middle, hint) <= z - apart_mm || !reach.is_free(from, to, z, 0.5)) {
+        const bool wanted = where.at(middle) && reach.at(middle, hint) > z - apart_mm;
+        if (!wanted || !reach.is_free(from, to, z, 0.5)) {
+          if (wanted) missing.push_back({middle, norm(to - from)});
           close();
           continue;
         }
@@ -106,12 +115,22 @@ std::vector<Level> waterlines(const Reach& reach, const DropGrid& grid, const Ma
   };
   parallel_for(job, at.size(), [&](std::size_t i) {
     if (job.stop_requested()) return;
-    const double z = out[i].z_mm = at[i];
+    Level& level = out.levels[i];
+    const double z = level.z_mm = at[i];
     const auto border = [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z); };
     for (const auto& part : level_contour(local, z, border)) {
-      if (part.size() > 1) follow(part, out[i]);
+      if (part.size() > 1) follow(part, level, left_out[i]);
     }
   });
+  // What a level leaves out lies as far from the next as levels do along the surface, at most.
+  for (const auto& level : left_out) {
+    for (const LeftOut& piece : level) {
+      out.left_out_mm += piece.length_mm;
+      out.left_out.set(piece.middle);
+    }
+  }
+  if (out.left_out_mm > 0.0)
+    out.left_out = grown(out.left_out, 1 + static_cast<int>(std::ceil(apart_mm / grid.step_mm)));
   return out;
 }
 

@@ -15,11 +15,18 @@ struct Level {
   std::vector<Run> runs;
 };
 
+/// What was found of them.
+struct Waterlines {
+  std::vector<Level> levels;
+  Mask left_out;             ///< about where a way was left out because it could not be proved clear
+  double left_out_mm = 0.0;  ///< length of those
+};
+
 /// Levels so close that the ways lie at most `apart_mm` apart along the surface where it is least steep;
 /// pieces of them in `where`. `grid` is that of `reach`.
 ///
 /// No gouge   every way is probed as those of the rough (Reach::is_free); what cannot be proved is left out.
-[[nodiscard]] std::vector<Level> waterlines(const Reach& reach, const DropGrid& grid, const Mask& where,
-                                            double apart_mm, Job& job);
+[[nodiscard]] Waterlines waterlines(const Reach& reach, const DropGrid& grid, const Mask& where,
+                                    double apart_mm, Job& job);
 
 }  // namespace capstan::toolpath::freeform
