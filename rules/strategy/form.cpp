@@ -167,7 +167,8 @@ double reach_on(const Making& m) {
   return (walls > 0.0 ? walls : m.shape.depth_mm + m.context.stock_above_mm) + kReachClearanceMm;
 }
 
-Made rough_surface(const Making& m, double of_passage, double of_sharp) {
+Made freeform_rough(const Making& m) {
+  constexpr double kOfPassage = 0.8, kOfSharp = 2.0;  // default, unsourced: as areas are roughed
   ProposedStep s;
   s.depth_mm = m.shape.depth_mm;
   s.allowance_side_mm = s.allowance_bottom_mm = m.number("allowance_mm");
@@ -175,17 +176,8 @@ Made rough_surface(const Making& m, double of_passage, double of_sharp) {
   s.tool.reach_mm = reach_on(m);
   s.tool.centre_cutting = !m.shape.open;
   s.strategy = StrategyKind::kContourParallel;
-  fit_between_walls(m, of_passage, 1.0, of_sharp, s);
+  fit_between_walls(m, kOfPassage, 1.0, kOfSharp, s);
   return s;
-}
-
-Made freeform_rough(const Making& m) {
-  return rough_surface(m, 0.8, 2.0);  // default, unsourced: as areas are roughed
-}
-
-// What the mills before it left too much of: planning takes a smaller one than theirs, or leaves it out.
-Made freeform_rest(const Making& m) {
-  return rough_surface(m, 0.9, 1.0);  // default, unsourced
 }
 
 // Walls and level floors, by an end mill that the walls' inside corners let in.
@@ -249,10 +241,12 @@ std::vector<Action> form_actions() {
        TypeId::kFreeformRoughMilling,
        {{"allowance_mm", 0.5, "left on the surface"}},
        freeform_rough},
+      // What the mills before it left too much of: planning takes a smaller one than theirs, or leaves it
+      // out.
       {"freeform_rest",
        TypeId::kFreeformRoughMilling,
        {{"allowance_mm", 0.5, "left on the surface"}},
-       freeform_rest},
+       freeform_rough},
       {"freeform_levels", TypeId::kFreeformFinishMilling, {}, freeform_levels},
       {"freeform_finish",
        TypeId::kFreeformFinishMilling,

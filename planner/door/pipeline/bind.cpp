@@ -13,6 +13,7 @@
 #include "planner/making/given/ends.h"
 #include "planner/making/piece/corner_rests.h"
 #include "planner/making/piece/workpiece.h"
+#include "planner/making/step/path/surface_rest.h"
 #include "planner/making/step/record/gone.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/fresh_edits.h"
@@ -48,7 +49,8 @@ std::map<AnyRef, MadeStep> made_steps(const model::Plan& plan, const Drafts& dra
                    s.proposal.name,
                    mill_of(s.cutter),
                    p.plan.model.holds<model::FreeformFinishMilling>(s.operation),
-                   step::may_cut_nothing(p, s)};
+                   step::may_cut_nothing(p, s),
+                   step::roughed_before(p, s) != nullptr};
   }
   return out;
 }

@@ -27,7 +27,8 @@
 // reaches no more. A broken order does not depend on the cutter: the chain is banned at once. A feature
 // outside the raw piece is left out at once. A step around a boss that cuts nothing is left out if other
 // features' steps cut around the boss: the boss is then made, and not missing. Roughing that cuts nothing,
-// for others took the material, is left out before the finish of its feature. Of all tries the one with the
+// for others took the material, is left out before the finish of its feature, and what roughs the rests of a
+// surface at once. Of all tries the one with the
 // fewest errors is kept, then the one with the fewest features left out, then the first. Steps from the file
 // are never changed. Nothing is tried against features that lie farther apart than an axis travels.
 
@@ -150,6 +151,11 @@ class BansByCheck {
         out.emplace_back(s, found);
         continue;
       }
+      if (s.of_rest && tries_.bans.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
+        tries_.bans.cut_nothing(s.member, s.chain, s.in_chain, found);
+        out.emplace_back(s, found);
+        continue;
+      }
       if (tried >= kBeforeLeavingOut || of_drawing) {
         tries_.bans.leave_out(s.member.feature, "step '" + s.name + "' with " + s.cutter + ": " + found);
       } else if (of_order || hits >= kMostCutters) {
@@ -181,7 +187,7 @@ std::string told(const Tries& tries, const MadeStep& before, const std::string& 
   if (out) {
     what = "its feature is left out";
   } else if (tries.bans.cuts_nothing(before.member, before.chain, before.in_chain) != nullptr &&
-             now != nullptr && now->cutter == before.cutter) {
+             (now == nullptr || now->cutter == before.cutter)) {
     what = "left out";
   } else if (now != nullptr && now->cutter != before.cutter) {
     what = "planned anew with " + now->cutter + " instead of " + before.cutter;
@@ -285,6 +291,11 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
           Checked found = checked(*std::move(again), trial);
           for (const Offence& o : offences_of(found.plan, found.findings, tries))
             found.plan.unplanned.push_back({.feature = o.step.member.feature, .reason = o.finding->message});
+          // An error that is not of such a step: not all of the part is planned, though no feature is to
+          // blame.
+          const auto error = std::find_if(found.findings.begin(), found.findings.end(), &is_error);
+          if (found.plan.unplanned.empty() && error != found.findings.end())
+            found.plan.unplanned.push_back({.feature = {}, .reason = error->message});
           return std::move(found.plan);
         };
         auto named =

@@ -29,6 +29,7 @@ struct MadeStep {
   std::optional<draft::Mill> mill;  ///< size of an end mill, with whatever corner or nose
   bool as_found = false;            ///< depth is that of the material left there: it cannot be made thinner
   bool may_cut_nothing = false;     ///< it may be left out where it cuts nothing
+  bool of_rest = false;  ///< it roughs what an earlier step of its chain left: its feature is made without it
 };
 
 /// Results of a stage for the next try.

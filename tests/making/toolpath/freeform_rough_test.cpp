@@ -223,6 +223,12 @@ TEST(Rough, OfARestCutsOnlyWhereMoreStandsThanMayStay) {
   const auto other = rough(second, job);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, "FRF-VALUE");
+  auto aside = high;  // as many cells, elsewhere
+  aside.origin.x += map.cell_mm;
+  second.may_stay = &aside;
+  const auto moved = rough(second, job);
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().code, "FRF-VALUE");
 }
 
 /// A block of 40 x 30 x 12 mm with a pocket of 24 x 14 x 6 mm in its middle, all walls upright.

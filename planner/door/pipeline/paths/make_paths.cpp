@@ -69,8 +69,10 @@ class PathMaker {
         remove(step, p_.recorded.steps[done - 1]);
         continue;
       }
-      if (given_up(step)) continue;
-      if (auto ok = make(step); !ok) return tl::unexpected(ok.error());
+      if (!given_up(step)) {
+        if (auto ok = make(step); !ok) return tl::unexpected(ok.error());
+      }
+      if (roughs_surface(step) && !is_kept(step)) tell_of_last_rough(step);
     }
     auto cells = stocks_.other_cells();
     learned_.again = learned_.again || cells.again;
@@ -208,7 +210,9 @@ class PathMaker {
     }
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     step::GroupedReasons why_not;
-    bool gone = step.proposed;                            // true: every cutter finds no material to cut
+    const bool of_rest =
+        step::roughed_before(p_, step) != nullptr && step::left_by_next_mm(p_, step).has_value();
+    bool gone = step.proposed || of_rest;                 // true: every cutter finds no material to cut
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
     for (std::size_t i = 0; i < tries; ++i) {
       const auto before = stocks_.before(step.setup);
@@ -231,8 +235,8 @@ class PathMaker {
       if (tried) return accept(step, *std::move(tried), least->first);
     }
     if (gone && left_out(step, why_not.text())) return {};
-    if (roughs_again(step)) {
-      leave_rest(step);
+    if (of_rest || roughs_again(step)) {
+      leave_rest(step, why_not.text());
       return {};
     }
     give_up(step,
@@ -240,34 +244,43 @@ class PathMaker {
     return {};
   }
 
-  /// Whether a step roughs the same surface as another, in the same chain.
+  [[nodiscard]] bool roughs_surface(const StepDraft& step) const {
+    return plan_.model.holds<model::FreeformRoughMilling>(step.operation);
+  }
+  [[nodiscard]] bool is_kept(const StepDraft& step) const {
+    return std::any_of(plan_.steps.begin(), plan_.steps.end(),
+                       [&](const model::StepResult& r) { return r.step == step.step; });
+  }
+  /// Whether a step roughs the same surface as another; where that was proposed, in the same chain.
   [[nodiscard]] bool roughs_with(const StepDraft& s, const StepDraft& step) const {
-    return s.proposed && s.member == step.member && s.chain == step.chain &&
-           plan_.model.holds<model::FreeformRoughMilling>(s.operation);
+    return roughs_surface(s) &&
+           (step.proposed ? s.proposed && s.member == step.member && s.chain == step.chain
+                          : s.feature == step.feature);
   }
   [[nodiscard]] bool roughs_again(const StepDraft& step) const {
-    return std::any_of(steps_.begin(), steps_.end(), [&](const StepDraft& s) {
-      return roughs_with(s, step) && s.in_chain < step.in_chain;
-    });
+    return step.proposed && std::any_of(steps_.begin(), steps_.end(), [&](const StepDraft& s) {
+             return roughs_with(s, step) && s.in_chain < step.in_chain;
+           });
   }
   [[nodiscard]] bool roughed_later(const StepDraft& step) const {
     const auto at =
         std::find_if(steps_.begin(), steps_.end(), [&](const StepDraft& s) { return s.step == step.step; });
-    return std::any_of(at, steps_.end(), [&](const StepDraft& s) {
-      const bool with = step.proposed ? roughs_with(s, step)
-                                      : s.feature == step.feature &&
-                                            plan_.model.holds<model::FreeformRoughMilling>(s.operation);
-      return with && s.step != step.step;
-    });
+    return std::any_of(at, steps_.end(),
+                       [&](const StepDraft& s) { return roughs_with(s, step) && s.step != step.step; });
   }
 
   /// Ranks mills narrower than the one before for what that left too much of. False: there is too little of
-  /// it, or none takes most of it, and the step is left out.
+  /// it, or none takes most of it, which is said, and the step is left out.
   bool take_for_rest(StepDraft& step) {
     constexpr double kMostStays = 0.75;  // of the rest, for a mill to be worth its change; default, unsourced
     // Of the diameter before: narrower mills take long to compare and to cut. Default, unsourced.
     constexpr double kNarrowest = 0.45;
     constexpr double kSame = 1e-6;
+    // The check condemned it (checked.cpp): the surface is made without it.
+    if (bans_.cuts_nothing(step.member, step.chain, step.in_chain) != nullptr) {
+      leave_rest(step, {});
+      return false;
+    }
     const model::Cutter* before = step::roughed_before(p_, step);
     const auto rest = before != nullptr ? step::surface_rest(p_, step, stocks_.of(step.setup)) : std::nullopt;
     if (rest && rest->mm3 > 0.0) {
@@ -275,35 +288,63 @@ class PathMaker {
         const double d = c.cutter.cutting_diameter_mm, most = before->cutting_diameter_mm;
         return d > most - kSame || d < kNarrowest * most;
       });
-      for (const auto& c : dropped)
-        step.rejected_tools.push_back({c->cutter.id, "no narrower than " + before->id +
-                                                         ", which left this, or less than half as wide"});
+      const std::string most = trimmed(before->cutting_diameter_mm, 3) + " mm";
+      for (const auto& c : dropped) {
+        const double d = c->cutter.cutting_diameter_mm;
+        const bool narrow = d < kNarrowest * before->cutting_diameter_mm;
+        step.rejected_tools.push_back(
+            {c->cutter.id,
+             trimmed(d, 3) + " mm wide, " +
+                 (narrow ? "less than " + trimmed(kNarrowest, 2) + " of the " + most + " of " + before->id +
+                               " before it: it takes long"
+                         : "no narrower than the " + most + " of " + before->id + ", which left this")});
+      }
       if (!step.candidates.empty()) {
         step.cutter = step.candidates.front().cutter;
         step::take_cutter(plan_, steps_, step, step.candidates.front());
       }
+      step::GroupedReasons why_not;
       const auto worth = [&](std::size_t i) {
-        auto t = cutter_.roughed_with(step, i);
-        if (t && t->too_much_mm3 > kMostStays * rest->mm3) t.reset();
+        auto t = cutter_.roughed_with(step, i, &*rest);
+        const std::string& id = step.candidates[i].cutter.id;
+        if (!t) {
+          why_not.add(id, cutter_.why_not().empty() ? "nothing is known of its cut" : cutter_.why_not());
+        } else if (t->too_much_mm3 > kMostStays * rest->mm3) {
+          why_not.add(id, "leaves more than " + trimmed(kMostStays, 2) + " of it");
+          t.reset();
+        }
         return t;
       };
       if (step::rank_by_rest(plan_, steps_, step, used_, true, worth, [&] { cutter_.keep_last(); }))
         return true;
+      const std::string none = why_not.text();
+      leave_rest(step, trimmed(rest->mm3, 0) + " mm3, up to " + trimmed(rest->deepest_mm, 2) +
+                           " mm along the axis, stay where the next step bites too deep; " +
+                           (none.empty() ? "no mill that fits has " + trimmed(kNarrowest, 2) +
+                                               " to 1 of the " + most + " of " + before->id + " before it"
+                                         : none));
+      return false;
     }
-    leave_rest(step);
+    leave_rest(step, {});
     return false;
   }
 
-  void leave_rest(const StepDraft& step) {
+  /// The surface is finished without it. `why`: said, unless there was nothing to rough.
+  void leave_rest(const StepDraft& step, const std::string& why) {
     step::take_out(plan_.model, step);
     left_out_.insert(step.step);
-    if (roughed_later(step)) return;
-    // Nothing is cut since the last step that roughed, and nothing was said of what that left.
+    if (!why.empty())
+      job_.note("PIP-REST", "step '" + draft::name_of(plan_.model, step) + "' is left out: " + why);
+  }
+
+  /// After a step that roughs a surface and is not made: nothing was said yet of what the last one before it
+  /// left that was. Of a feature that is planned anew nothing is.
+  void tell_of_last_rough(const StepDraft& step) {
+    if (roughed_later(step) || (step.proposed && failed_.contains(step.feature))) return;
     const StepDraft* last = nullptr;
     for (const StepDraft& s : steps_) {
-      const bool kept = std::any_of(plan_.steps.begin(), plan_.steps.end(),
-                                    [&](const model::StepResult& r) { return r.step == s.step; });
-      if (kept && roughs_with(s, step) && s.in_chain < step.in_chain) last = &s;
+      if (s.step == step.step) break;
+      if (roughs_with(s, step) && is_kept(s)) last = &s;
     }
     if (last != nullptr) tell_too_much(*last);
   }
@@ -411,7 +452,7 @@ class PathMaker {
   const std::size_t cut_;  ///< of the steps, the first that are cut
   const draft::Bans& bans_;
   Job& job_;
-  std::set<AnyRef> left_out_;  ///< steps that were proposed and cut nothing
+  std::set<AnyRef> left_out_;  ///< steps that are taken out, for they cut nothing or no mill is worth it
   step::Stocks stocks_;
   step::Progress progress_;
   step::Cuts cuts_;

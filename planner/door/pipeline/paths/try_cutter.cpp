@@ -7,7 +7,6 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/step/cut/ranking.h"
 #include "planner/making/step/path/freeform.h"
-#include "planner/making/step/path/surface_rest.h"
 #include "planner/making/step/record/results.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/motion/time.h"
@@ -66,7 +65,10 @@ std::optional<TryCutter::Passed> TryCutter::in_passing(StepDraft& step, std::siz
   const model::Cutter cutter = step.cutter;
   std::optional<Passed> out;
   auto tried = made_with(step, i);
-  if (tried && !exceeds(step, *tried)) {
+  why_not_ = tried ? std::string() : tried.error().message;
+  if (tried && exceeds(step, *tried)) {
+    why_not_ = excess_text(*tried);
+  } else if (tried) {
     look(*tried);
     out = Passed{step.step,
                  i < step.candidates.size() ? &step.candidates[i] : nullptr,
@@ -91,16 +93,16 @@ std::optional<double> TryCutter::seconds_with(StepDraft& step, std::size_t i) {
   return out;
 }
 
-std::optional<step::Roughed> TryCutter::roughed_with(StepDraft& step, std::size_t i) {
+std::optional<step::Roughed> TryCutter::roughed_with(StepDraft& step, std::size_t i,
+                                                     const step::SurfaceRest* rest) {
   std::optional<step::Roughed> out;
   last_.reset();
   last_ = in_passing(step, i, [&](const step::MeasuredCut& t) {
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
     if (!seconds || !t.removed_mm3) return;
     const stock::HeightMap& map = means_.stocks.of(step.setup);
-    if (step::roughed_before(p_, step) != nullptr) {
-      const auto left = step::surface_rest(p_, step, map);
-      if (left) out = step::Roughed{*seconds, *t.removed_mm3, left->mm3};
+    if (rest != nullptr) {
+      out = step::Roughed{*seconds, *t.removed_mm3, step::mm3_above(map, rest->may_stay)};
       return;
     }
     const auto left = step::too_much_for_next(p_, step, map);

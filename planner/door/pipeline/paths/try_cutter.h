@@ -11,6 +11,7 @@
 #include "planner/making/step/cut/ranking.h"
 #include "planner/making/step/path/attempt.h"
 #include "planner/making/step/path/equal_areas.h"
+#include "planner/making/step/path/surface_rest.h"
 #include "planner/making/step/plan_so_far.h"
 
 // One step with one cutter: which strategy, how thick a cut; only planner/door/pipeline/*.cpp include this.
@@ -33,8 +34,12 @@ class TryCutter {
   /// How long a candidate's path takes, if it keeps the limits, s; nothing is kept or said of it.
   [[nodiscard]] std::optional<double> seconds_with(draft::StepDraft& step, std::size_t i);
   /// What a candidate's path over a surface takes and leaves, if it keeps the limits; nothing is said of it,
-  /// and nothing is kept but by `keep_last`.
-  [[nodiscard]] std::optional<step::Roughed> roughed_with(draft::StepDraft& step, std::size_t i);
+  /// and nothing is kept but by `keep_last`. `rest`: what the step is for; of that alone it tells what is
+  /// left. Null: all of the surface.
+  [[nodiscard]] std::optional<step::Roughed> roughed_with(draft::StepDraft& step, std::size_t i,
+                                                          const step::SurfaceRest* rest = nullptr);
+  /// Why the last try of these two kinds does not keep the limits, or has no path.
+  [[nodiscard]] const std::string& why_not() const { return why_not_; }
   /// Keeps the try of the last `roughed_with`: where the step's next try is of the same candidate, it is
   /// taken and not made again.
   void keep_last() { kept_ = std::exchange(last_, std::nullopt); }
@@ -73,6 +78,7 @@ class TryCutter {
   const draft::Bans& bans_;
   const step::Means& means_;
   std::optional<Passed> last_, kept_;
+  std::string why_not_;
   step::EqualAreas areas_;
 };
 

@@ -212,14 +212,14 @@ bool rank_by_rest(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& s
   const std::vector<std::size_t> compared = of_each_diameter(step.candidates, rest);
   double diameter = 1e300, of_diameter = kNever, of_wider = kNever;  // s, the quickest of each
   for (const std::size_t i : compared) {
+    const double d = step.candidates[i].cutter.cutting_diameter_mm;
+    if (d < diameter && of_diameter > of_wider) break;  // a smaller one takes longer still
     const auto t = roughed(i);
     if (!t || !(t->taken_mm3 > 0.0)) continue;
     const bool even = t->too_much_mm3 <= kNothingLeft * t->taken_mm3;
     double s = t->seconds + (is_used(used, step.candidates[i].cutter) ? 0.0 : plan.machine.tool_change_s);
     if (!even) s += t->seconds * t->too_much_mm3 / (kRestRate * t->taken_mm3) + plan.machine.tool_change_s;
-    const double d = step.candidates[i].cutter.cutting_diameter_mm;
-    if (d < diameter) {  // a smaller one takes longer still
-      if (of_diameter > of_wider) break;
+    if (d < diameter) {
       of_wider = std::exchange(of_diameter, kNever);
       diameter = d;
     }

@@ -24,6 +24,9 @@ constexpr float kAnything = 1e30F;
 /// A rest of less than this is left to the next step, whose feed is lowered there: a change of tools takes
 /// longer. Default, unsourced.
 constexpr double kWorthMm3 = 10.0;
+/// So little is worth a way only where it is deep: the next step would bite twice as deep as it may. Less
+/// than the second is what the cells' rounding leaves. Defaults, unsourced.
+constexpr double kDeep = 2.0, kWorthDeepMm3 = 1.0;
 
 /// A place of the sphere against its middle.
 struct Around {
@@ -46,8 +49,10 @@ std::vector<Around> sphere(double radius_mm, double cell_mm) {
   return out;
 }
 
-/// Lets the rests stay that are not worth a way: cells that touch, together.
-void drop_small(const stock::HeightMap& map, SurfaceRest& rest) {
+/// Lets the rests stay that are not worth a way: cells that touch, together. `deep(cell)`: whether so much
+/// stands there that the rest is worth one though it is small.
+template <class F>
+void drop_small(const stock::HeightMap& map, SurfaceRest& rest, const F& deep) {
   const double cell_mm2 = map.cell_mm * map.cell_mm;
   const auto over = [&](std::size_t i) {
     return static_cast<double>(map.at(i).mean()) - static_cast<double>(rest.may_stay.top[i]);
@@ -74,12 +79,12 @@ void drop_small(const stock::HeightMap& map, SurfaceRest& rest) {
         group.push_back(j);
       }
     }
-    if (mm3 < kWorthMm3) {
+    if (mm3 < kWorthMm3 && (mm3 < kWorthDeepMm3 || std::none_of(group.begin(), group.end(), deep))) {
       for (const std::size_t i : group) rest.may_stay.top[i] = kAnything;
       continue;
     }
     rest.mm3 += mm3;
-    rest.deepest = std::max(rest.deepest, deepest);
+    rest.deepest_mm = std::max(rest.deepest_mm, deepest);
   }
 }
 
@@ -99,6 +104,18 @@ std::optional<SurfaceRest> surface_rest(const PlanSoFar& p, const StepDraft& ste
   out.may_stay.origin.z = map.origin.z;
   const auto most_mm = static_cast<float>(*most);
   const std::vector<Around> around = sphere(*most, map.cell_mm);
+  // The highest of spheres around a cell, or as soon as one is as high as what stands there.
+  const auto grown = [&](int ix, int iy, float from, float stands, const std::vector<Around>& by) {
+    for (const Around& a : by) {
+      const int x = ix + a.dx, y = iy + a.dy;
+      if (x < 0 || y < 0 || x >= map.nx || y >= map.ny) continue;
+      tick();
+      const float height = own.top[own.index(x, y)];
+      if (height > 0.0F) from = std::max(from, height + lower + a.height);
+      if (stands <= from) break;
+    }
+    return from;
+  };
   for (int iy = 0; iy < map.ny; ++iy) {
     for (int ix = 0; ix < map.nx; ++ix) {
       const std::size_t i = map.index(ix, iy);
@@ -106,31 +123,44 @@ std::optional<SurfaceRest> surface_rest(const PlanSoFar& p, const StepDraft& ste
       const bool beside = own.top[i] <= 0.0F;
       stays = beside ? (beside_stays ? kAnything : most_mm) : own.top[i] + lower + most_mm;
       const float stands = map.at(i).mean();
-      if (stands <= stays) continue;
-      for (const Around& a : around) {
-        const int x = ix + a.dx, y = iy + a.dy;
-        if (x < 0 || y < 0 || x >= map.nx || y >= map.ny) continue;
-        tick();
-        const float height = own.top[own.index(x, y)];
-        if (height > 0.0F) stays = std::max(stays, height + lower + a.height);
-        if (stands <= stays) break;
-      }
+      if (stands > stays) stays = grown(ix, iy, stays, stands, around);
     }
   }
-  drop_small(map, out);
+  std::vector<Around> farther;  // made for the first small rest
+  drop_small(map, out, [&](std::size_t i) {
+    if (own.top[i] <= 0.0F) return false;
+    const float stands = map.at(i).mean(), may = own.top[i] + lower + static_cast<float>(kDeep * *most);
+    if (stands <= may) return false;
+    if (farther.empty()) farther = sphere(kDeep * *most, map.cell_mm);
+    const auto nx = static_cast<std::size_t>(map.nx);
+    return stands > grown(static_cast<int>(i % nx), static_cast<int>(i / nx), may, stands, farther);
+  });
   return out;
 }
 
+double mm3_above(const stock::HeightMap& map, const stock::HeightMap& may_stay) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < map.cells(); ++i)
+    out += std::max(0.0, static_cast<double>(map.at(i).mean()) - static_cast<double>(may_stay.top[i]));
+  return out * map.cell_mm * map.cell_mm;
+}
+
+// The nouns do not tell a rest from another rough; that rules proposed both does, for these rough all of a
+// surface once. A plan of ours that is read again has that in its record.
 const model::Cutter* roughed_before(const PlanSoFar& p, const StepDraft& step) {
   const model::Model& m = p.plan.model;
-  if (!m.holds<model::FreeformRoughMilling>(step.operation)) return nullptr;
+  const auto by_rules = [&](const StepDraft& s) {
+    if (!m.holds<model::FreeformRoughMilling>(s.operation)) return false;
+    const auto* d = p.plan.ledger.find(s.step, "its_operation");
+    return s.proposed || (d != nullptr && d->binder == model::Binder::kRule);
+  };
+  if (!by_rules(step)) return nullptr;
   const model::Cutter* out = nullptr;
   for (const StepDraft& s : p.steps) {
     if (s.step == step.step) break;
     const bool kept = std::any_of(p.plan.steps.begin(), p.plan.steps.end(),
                                   [&](const model::StepResult& r) { return r.step == s.step; });
-    if (kept && s.feature == step.feature && m.holds<model::FreeformRoughMilling>(s.operation))
-      out = &s.cutter;
+    if (kept && s.feature == step.feature && by_rules(s)) out = &s.cutter;
   }
   return out;
 }

@@ -373,6 +373,40 @@ TEST(Bind, RoughsASurfaceAndThenItsPitsBeforeItIsEvenedOut) {
   })) << "the next bites no deeper than twice what is left for it";
 }
 
+/// The waves' plan, bound again with the narrower rough's mill for both. `foreign`: nobody says who decided.
+Result<model::Plan> roughed_twice(model::Plan plan, bool foreign, const Inputs& in, Job& job) {
+  const auto operation = [&](std::size_t i) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[i].step);
+    return plan.model.get<model::MachiningOperation>(ws->its_operation);
+  };
+  operation(0)->its_tool = operation(1)->its_tool;
+  for (std::size_t i = 0; i < plan.steps.size() && foreign; ++i) operation(i)->its_toolpath = {};
+  if (foreign) plan.ledger = {};
+  plan.steps.clear();
+  return bind(std::move(plan), in, {}, job);
+}
+
+// The second rough has nothing or little to do. As a rest it was given up, and with it the surface.
+TEST(Bind, KeepsASurfaceWhoseSecondRoughFindsNoRest) {
+  Inputs in = shop();
+  in.material_name = "EN AW-6061";
+  Job job;
+  auto waves = read_plan(waves_stl(), "waves.stl", job);
+  ASSERT_TRUE(waves);
+  const auto plan = bind(*std::move(waves), in, {}, job);
+  ASSERT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
+  ASSERT_EQ(plan->steps.size(), 4U);
+  for (const bool foreign : {false, true}) {
+    SCOPED_TRACE(foreign ? "a foreign file" : "a plan of ours");
+    Job again;
+    const auto back = roughed_twice(*plan, foreign, in, again);
+    ASSERT_TRUE(back) << (back ? "" : to_text(back.error()));
+    for (const Diagnostic& d : again.diagnostics()) EXPECT_NE(d.code, "PIP-NO-PATH") << d.message;
+    ASSERT_GE(back->steps.size(), 3U);
+    EXPECT_EQ(model::step_id(*back, back->steps.back()), model::step_id(*plan, plan->steps.back()));
+  }
+}
+
 TEST(Bind, StopsWhenItIsAsked) {
   Job job;
   job.request_stop();

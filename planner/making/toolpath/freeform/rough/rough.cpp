@@ -336,6 +336,10 @@ class Rougher {
   WaysIn ways_;
 };
 
+bool same_cells(const stock::HeightMap& a, const stock::HeightMap& b) {
+  return a.origin == b.origin && a.cell_mm == b.cell_mm && a.nx == b.nx && a.ny == b.ny;
+}
+
 }  // namespace
 
 Result<FreeformPath> rough(const FreeformJob& task, Job& job) {
@@ -346,7 +350,7 @@ Result<FreeformPath> rough(const FreeformJob& task, Job& job) {
     return fail("FRF-VALUE", "roughing needs a stepover above 0 and up to the cutter's diameter, not " +
                                  trimmed(task.stepover_mm, 4) + " mm");
   }
-  if (task.may_stay != nullptr && (task.stock == nullptr || task.may_stay->cells() != task.stock->cells()))
+  if (task.may_stay != nullptr && (task.stock == nullptr || !same_cells(*task.may_stay, *task.stock)))
     return fail("FRF-VALUE", "what may stay is told by the cells of another stock, or of none");
   const DropCutter drop(*task.surface);
   geometry::Region area = area_of(task, drop);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/ground/base/stopping.h"
+
 // Triangles lie in the square bins that their boxes touch, seen from above. Those around a place are asked in
 // rings, until the ring is farther away than the nearest triangle that was found.
 
@@ -14,6 +16,9 @@ using geometry::Vec3;
 namespace {
 
 constexpr double kTrianglesInBin = 2.0;  // on average, of triangles spread evenly; default, unsourced
+/// Entries of the bins for each triangle, at most: a long triangle across the axes has many bins in its box.
+/// Where there are more the bins are made wider. Default, unsourced.
+constexpr double kMostEntries = 16.0;
 
 /// The nearest place to p between a and b.
 Vec3 nearest_between(Vec3 p, Vec3 a, Vec3 b) {
@@ -46,15 +51,35 @@ MeshDistance::MeshDistance(const geometry::Mesh& mesh) : mesh_(mesh) {
   lo_ = xy(box.lo);
   const double w = std::max(1e-3, box.hi.x - box.lo.x), h = std::max(1e-3, box.hi.y - box.lo.y);
   const auto n = static_cast<double>(std::max<std::size_t>(1, mesh.triangles.size()));
-  bin_mm_ = std::max({std::sqrt(w * h * kTrianglesInBin / n), 1e-3 * w, 1e-3 * h});
-  nx_ = static_cast<int>(w / bin_mm_) + 1;
-  ny_ = static_cast<int>(h / bin_mm_) + 1;
+  double bin_mm = std::max({std::sqrt(w * h * kTrianglesInBin / n), 1e-3 * w, 1e-3 * h});
+  struct Bins {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  };
+  const auto bins_of = [&](std::uint32_t i) {
+    tick();
+    geometry::Box3 around;
+    for (const std::uint32_t v : mesh_.triangles[i]) around.add(mesh_.vertices[v]);
+    return Bins{bin(around.lo.x, lo_.x, nx_), bin(around.lo.y, lo_.y, ny_), bin(around.hi.x, lo_.x, nx_),
+                bin(around.hi.y, lo_.y, ny_)};
+  };
+  const auto take_width = [&](double mm) {
+    bin_mm_ = mm;
+    nx_ = static_cast<int>(w / bin_mm_) + 1;
+    ny_ = static_cast<int>(h / bin_mm_) + 1;
+    double entries = 0.0;
+    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const Bins b = bins_of(i);
+      entries += static_cast<double>(b.x1 - b.x0 + 1) * static_cast<double>(b.y1 - b.y0 + 1);
+    }
+    return entries;
+  };
+  // Each triangle has one entry where a bin is wider than all of the mesh: this ends.
+  while (take_width(bin_mm) > kMostEntries * n) bin_mm *= 2.0;
   const auto each = [&](const auto& f) {
     for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
-      geometry::Box3 around;
-      for (const std::uint32_t v : mesh_.triangles[i]) around.add(mesh_.vertices[v]);
-      for (int y = bin(around.lo.y, lo_.y, ny_); y <= bin(around.hi.y, lo_.y, ny_); ++y) {
-        for (int x = bin(around.lo.x, lo_.x, nx_); x <= bin(around.hi.x, lo_.x, nx_); ++x)
+      const Bins b = bins_of(i);
+      for (int y = b.y0; y <= b.y1; ++y) {
+        for (int x = b.x0; x <= b.x1; ++x)
           f(static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x), i);
       }
     }
@@ -79,6 +104,7 @@ MeshDistance::Nearest MeshDistance::from(Vec3 p, double within_mm) const {
     const std::size_t at =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
     for (std::uint32_t k = begin_[at]; k < begin_[at + 1]; ++k) {
+      tick();
       const auto& t = mesh_.triangles[triangles_[k]];
       const Vec3 q = nearest_on_triangle(p, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
       const double d = norm(q - p);
@@ -88,6 +114,7 @@ MeshDistance::Nearest MeshDistance::from(Vec3 p, double within_mm) const {
   // A place beside the box is in none of the bins: those of ring n are then farther away still.
   for (int n = 0; n <= std::max(nx_, ny_); ++n) {
     if ((n - 1) * bin_mm_ >= out.mm) break;
+    tick();
     for (int dy = -n; dy <= n; ++dy) {
       const int stride = std::abs(dy) == n ? 1 : 2 * n;
       for (int dx = -n; dx <= n; dx += std::max(1, stride)) look(x0 + dx, y0 + dy);

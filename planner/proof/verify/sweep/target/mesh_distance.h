@@ -33,8 +33,8 @@ class MeshDistance {
   std::vector<std::uint32_t> begin_, triangles_;  ///< by bins, seen from above, in rows of x
 };
 
-/// The nearest place to p on a triangle.
-/// Source  Ericson, Real-Time Collision Detection (2005), 5.1.5: by the triangle's regions.
+/// The nearest place to p on a triangle: its foot on the plane where that lies within, else on the nearest of
+/// the three edges.
 [[nodiscard]] geometry::Vec3 nearest_on_triangle(geometry::Vec3 p, geometry::Vec3 a, geometry::Vec3 b,
                                                  geometry::Vec3 c);
 

@@ -10,9 +10,9 @@
 
 // What stays on a freeform surface after the last step. The distance is measured square to it: from the top
 // of what stands to the nearest of the columns that the finished part fills, and of what is too far from
-// those to the mesh itself. It may be the tolerance, and what the finishing step states as the height of its
-// ridges and of its chords. In the sharp inside corners of a mesh, which can state no radius, may stay what
-// may stay in those of a step.
+// those to the mesh itself, but where a feature was cut into the part: the mesh does not show that. It may be
+// the tolerance, and what the finishing step states as the height of its ridges and of its chords. In the
+// sharp inside corners of a mesh, which can state no radius, may stay what may stay in those of a step.
 
 namespace capstan::verify {
 
@@ -33,6 +33,7 @@ struct High {
 }  // namespace
 
 void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const {
+  constexpr double kRoundingMm = 1e-6;  // of heights that are found alike; default, unsourced
   const PartShapes::Entry* e = part_.find(a.feature);
   if (e == nullptr || e->shapes.empty() || e->shapes.front().kind != ShapeKind::kFreeform) return;
   geometry::Mesh in_setup = *plan_.target_mesh;
@@ -68,6 +69,28 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
                   static_cast<std::size_t>(dx)];
   };
   std::optional<MeshDistance> exact;
+  std::vector<double> before;
+  // Whether a feature is cut into the mesh at a cell.
+  const auto carved = [&](int ix, int iy) {
+    if (cavities_.empty()) return false;
+    if (before.empty()) before = before_features(grid);
+    const std::size_t i = grid.index(ix, iy);
+    return grid.part[i] < before[i] - kRoundingMm;
+  };
+  // The distance from the mesh itself, where no feature is cut into it at both ends.
+  const auto from_mesh = [&](int ix, int iy, Vec3 p, double within) {
+    if (carved(ix, iy)) return within;
+    if (!exact) exact.emplace(in_setup);
+    const MeshDistance::Nearest n = exact->from(p, within);
+    const double half = 0.5 * grid.cell();
+    const auto [x0, x1] = grid.columns(n.at.x - half, n.at.x + half);
+    const auto [y0, y1] = grid.rows(n.at.y - half, n.at.y + half);
+    for (int jy = y0; jy < y1; ++jy) {
+      for (int jx = x0; jx < x1; ++jx)
+        if (carved(jx, jy)) return within;
+    }
+    return n.mm;
+  };
   High worst;
   std::size_t cells = 0, all = 0;
   for (int iy = 0; iy < grid.ny(); ++iy) {
@@ -98,8 +121,7 @@ void Target::left_on_mesh(const Grid& grid, const Asked& a, Findings& out) const
       }
       if (near <= limit) continue;
       const Vec2 at = grid.centre(ix, iy);
-      if (!exact) exact.emplace(in_setup);
-      near = exact->from({at.x, at.y, z}, near).mm;
+      near = from_mesh(ix, iy, {at.x, at.y, z}, near);
       if (near <= limit || in_corner(at, z)) continue;
       ++cells;
       if (near > worst.by_mm) worst = {ix, iy, z, near};

@@ -354,7 +354,7 @@ void Target::fill_part(Grid& grid) const {
   }
 }
 
-void Target::fill_mesh(Grid& grid) const {
+std::vector<double> Target::heights_of_mesh(const Grid& grid) const {
   const geometry::Mesh& mesh = *plan_.target_mesh;
   std::vector<double> high(grid.part.size(), Grid::kNothing);
   for (const auto& t : mesh.triangles) {
@@ -379,9 +379,26 @@ void Target::fill_mesh(Grid& grid) const {
       }
     }
   }
+  return high;
+}
+
+void Target::fill_mesh(Grid& grid) const {
+  const std::vector<double> high = heights_of_mesh(grid);
   for (std::size_t i = 0; i < high.size(); ++i) {
     if (high[i] > Grid::kNothing || !sheet_) grid.part[i] = high[i];
   }
+}
+
+std::vector<double> Target::before_features(const Grid& grid) const {
+  std::vector<double> out = heights_of_mesh(grid);
+  for (int iy = 0; iy < grid.ny() && sheet_; ++iy) {
+    poll();
+    for (int ix = 0; ix < grid.nx(); ++ix) {
+      double& z = out[grid.index(ix, iy)];
+      if (z <= Grid::kNothing && !outside(grid.centre(ix, iy))) z = part_box_.hi.z;
+    }
+  }
+  return out;
 }
 
 bool Target::is_gouge(Vec2 at, double z) const {

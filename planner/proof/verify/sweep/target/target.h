@@ -170,6 +170,10 @@ class Target : public GougeTest {
   [[nodiscard]] double floor_of(const Cavity& c, geometry::Vec2 p) const;
   [[nodiscard]] double height(geometry::Vec2 p) const;
   void fill_mesh(Grid& grid) const;
+  /// The mesh's own heights over the cells; kNothing beside it.
+  [[nodiscard]] std::vector<double> heights_of_mesh(const Grid& grid) const;
+  /// The heights of a mesh's part before features of the file are cut into it.
+  [[nodiscard]] std::vector<double> before_features(const Grid& grid) const;
   const Walls& walls(double z_mm);
   /// The walls at a height, as edges in no order.
   [[nodiscard]] std::vector<Walls::Edge> edges_at(double z_mm) const;

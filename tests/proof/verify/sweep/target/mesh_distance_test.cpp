@@ -5,6 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/stopping.h"
+
 namespace capstan::verify {
 namespace {
 
@@ -40,6 +43,40 @@ TEST(MeshDistance, IsThatOfTheNearestOfAllTriangles) {
                                                            mesh.vertices[t[2]])));
     EXPECT_EQ(distance.from(p, 3.0).mm, least);
   }
+}
+
+/// Slivers across the axes, each with all of the mesh in its box.
+Mesh slivers(std::uint32_t n) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double y = 0.01 * i;
+    for (const Vec3 p : {Vec3{0, y, 0}, Vec3{100, 100 + y, 1}, Vec3{100, 100.01 + y, 1}})
+      mesh.vertices.push_back(p);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+TEST(MeshDistance, OfLongSliversAcrossTheAxesIsThatOfTheNearest) {
+  const Mesh mesh = slivers(1000);
+  const MeshDistance distance(mesh);
+  for (const Vec3 p : {Vec3{50, 55, 3}, Vec3{10, 40, 0}, Vec3{70, 20, -1}, Vec3{-2, 3, 0}}) {
+    double least = 50.0;
+    for (const auto& t : mesh.triangles)
+      least = std::min(least, norm(p - nearest_on_triangle(p, mesh.vertices[t[0]], mesh.vertices[t[1]],
+                                                           mesh.vertices[t[2]])));
+    EXPECT_EQ(distance.from(p, 50.0).mm, least);
+  }
+}
+
+TEST(MeshDistance, StopsWhenItIsAsked) {
+  const Mesh mesh = slivers(1000);
+  const MeshDistance distance(mesh);
+  Job job;
+  job.request_stop();
+  const StopScope scope(job);
+  EXPECT_THROW((void)MeshDistance{mesh}, Stopped);
+  EXPECT_THROW((void)distance.from({50, 55, 3}, 50.0), Stopped);
 }
 
 }  // namespace
