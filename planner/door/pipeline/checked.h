@@ -18,15 +18,16 @@ namespace capstan::pipeline {
 [[nodiscard]] Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                           Job& job, const Anew& anew);
 
-/// How a part is planned with other inputs.
+/// How a part is planned with other inputs. What it comes to has in `unplanned` also what the check condemns.
 using Planner = std::function<Result<model::Plan>(const Inputs&, Job&)>;
 
 /// The plan, with the tools that its features lack (`needed`): told at once (PIP-TOOLS-NEEDED) and given as
 /// rows of provenance, which every form of a plan keeps. They are proved by planning again with exactly
 /// these: a tool is named only where its feature is planned then, with its corners as they are stated; that
-/// they plan all of the part is said only where nothing was left out. Not proved, and told so: of a plan with
-/// open decisions, of late bindings, and under a deadline, which the proof must not use up. Fails
-/// PIP-STOPPED.
+/// they plan all of the part is said only where nothing was left out or condemned. Not proved, and told so
+/// ("at least"): of a plan with open decisions or edits, of late bindings, and under a deadline, which the
+/// proof must not use up; and, with the reason, where the tools cannot be read back as a list, planning with
+/// them fails, or each proof drops some. Fails  PIP-STOPPED.
 [[nodiscard]] Result<model::Plan> name_needed(model::Plan made, std::vector<model::NeededTool> needed,
                                               const Inputs& inputs, const Policy& policy,
                                               const Planner& planner, Job& job);

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "planner/door/pipeline/checked.h"
 #include "planner/model/plan/corner_rest.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/needed_tool.h"
 #include "tooling/library/formats/own/own_list.h"
 
@@ -23,13 +23,11 @@ using model::NeededTool;
 constexpr int kMostProofs = 2;  // each is a planning; default, unsourced
 
 /// The tools as one reads them who adds the entries of the plan to his list.
-std::optional<std::vector<model::Cutter>> as_read(const std::vector<NeededKind>& kinds) {
+Result<std::vector<model::Cutter>> as_read(const std::vector<NeededKind>& kinds) {
   std::string list = "capstan_tools: 1\nunit: mm\nsource: \"needed tools of a plan\"\ntools:\n";
   for (const NeededKind& k : kinds) list += "  - " + model::list_entry(k.cutter) + "\n";
   Job unsaid;
-  auto out = tooling::read_own_list(list, "needed tools", unsaid);
-  if (!out) return std::nullopt;
-  return *std::move(out);
+  return tooling::read_own_list(list, "needed tools", unsaid);
 }
 
 bool is_planned(const model::Plan& plan, model::AnyRef feature) {
@@ -43,7 +41,9 @@ bool helps(const NeededTool& tool, const model::Plan& without, const model::Plan
   return !is_planned(without, tool.feature) || !model::corner_rest_of(with, tool.feature_name);
 }
 
-void tell(model::Plan& made, const std::vector<NeededKind>& kinds, const std::string& to, Job& job) {
+/// `unproved`: why they are not proved; empty: they are, or `to` is of no proof.
+void tell(model::Plan& made, const std::vector<NeededKind>& kinds, const std::string& to,
+          const std::string& unproved, Job& job) {
   std::string all;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     made.provenance.push_back(model::provenance_of(kinds[i], i + 1));
@@ -52,7 +52,7 @@ void tell(model::Plan& made, const std::vector<NeededKind>& kinds, const std::st
   if (all.empty()) return;
   job.report({.code = "PIP-TOOLS-NEEDED",
               .severity = Severity::kWarning,
-              .message = to + all,
+              .message = to + all + (unproved.empty() ? "" : " (not proved: " + unproved + ")"),
               .file = made.file_name,
               .hint = "the plan holds them as entries for a list of tools (--tools): capstan explain"});
 }
@@ -62,14 +62,23 @@ void tell(model::Plan& made, const std::vector<NeededKind>& kinds, const std::st
 Result<model::Plan> name_needed(model::Plan made, std::vector<NeededTool> needed, const Inputs& inputs,
                                 const Policy& policy, const Planner& planner, Job& job) {
   auto kinds = model::needed_kinds(made, needed);
-  if (policy.bind != Bind::kAll || policy.window || policy.only_loaded_cutters || job.deadline()) {
-    tell(made, kinds, "to plan all of this part you need at least: ", job);
+  const bool edited = !inputs.edits.empty() || model::edits_are_all(inputs.provenance);
+  if (policy.bind != Bind::kAll || policy.window || policy.only_loaded_cutters || job.deadline() || edited) {
+    tell(made, kinds, "to plan all of this part you need at least: ", "", job);
     return made;
   }
-  bool all = false;
-  for (int proofs = 0; proofs < kMostProofs && !kinds.empty(); ++proofs) {
+  bool all = false, dropped = false;
+  std::string unproved;
+  for (int proofs = 0; !kinds.empty(); ++proofs) {
+    if (proofs == kMostProofs) {
+      unproved = "each planning with what was named showed tools that do not help";
+      break;
+    }
     const auto cutters = as_read(kinds);
-    if (!cutters) return made;
+    if (!cutters) {
+      unproved = "they cannot be read back as a list: " + cutters.error().message;
+      break;
+    }
     Inputs richer = inputs;
     richer.library.insert(richer.library.end(), cutters->begin(), cutters->end());
     Job trial;
@@ -79,16 +88,21 @@ Result<model::Plan> name_needed(model::Plan made, std::vector<NeededTool> needed
     trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
     const auto with = planner(richer, trial);
     if (job.stop_requested()) return tl::unexpected(stopped_planning(made));
-    if (!with) return made;
+    if (!with) {
+      unproved = "planning with them fails: " + with.error().message;
+      break;
+    }
     all = with->unplanned.empty();
     const std::size_t before = needed.size();
     std::erase_if(needed, [&](const NeededTool& n) { return !helps(n, made, *with); });
     if (needed.size() == before) break;
     all = false;
+    dropped = true;
     kinds = model::needed_kinds(made, needed);
   }
-  tell(made, kinds,
-       all ? "to plan all of this part you need: " : "to plan more of this part you need: ", job);
+  const std::string what = all || (!unproved.empty() && !dropped) ? "all" : "more";
+  tell(made, kinds, "to plan " + what + " of this part you need" + (unproved.empty() ? ": " : " at least: "),
+       unproved, job);
   return made;
 }
 

@@ -23,6 +23,9 @@ namespace {
 constexpr std::array<std::string_view, 8> kOfOneCall = {
     "deadline", "from", "measured", "may", "next", "stop-at-deadline", "threads", "time"};
 
+/// Options that a bound program is held against before it is given.
+constexpr std::array<std::string_view, 2> kOfPlaces = {"axis-limits", "work-offset"};
+
 }  // namespace
 
 Code Session::end(Code code, const std::string& line) {
@@ -52,6 +55,7 @@ Code Session::set(std::string_view name, const std::string& text) {
   return guarded([&] {
     message_.clear();
     if (auto ok = service::set(request_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
+    if (std::find(kOfPlaces.begin(), kOfPlaces.end(), name) != kOfPlaces.end()) drop_bound();
     if (std::find(kOfOneCall.begin(), kOfOneCall.end(), name) == kOfOneCall.end()) {
       if (shop_ && in_shop_ && !in_shop_->rules) shipped_rules_ = std::move(shop_->rules);
       shop_.reset();
@@ -62,6 +66,12 @@ Code Session::set(std::string_view name, const std::string& text) {
     }
     return end(Code::kDone);
   });
+}
+
+void Session::drop_bound() {
+  if (bound_ && bound_->part && !bound_->late) last_ = std::move(bound_->plan);
+  bound_.reset();
+  outputs_.clear();
 }
 
 Code Session::opened(Job& job) {

@@ -27,7 +27,8 @@ class Session {
   explicit Session(std::string sign = {}) { request_.sign = std::move(sign); }
 
   /// Sets an option by its name (options.h). One that the shop depends on opens it anew at the next call, and
-  /// reads the shop's settings (the option `shop`) anew.
+  /// reads the shop's settings (the option `shop`) anew. "axis-limits" and "work-offset" drop what is bound,
+  /// for it was not held against them; `bind_next` goes on with it all the same.
   Code set(std::string_view name, const std::string& text);
   /// Opens the shop, so that the first `bind` need not.
   Code open();
@@ -75,6 +76,8 @@ class Session {
   Code guarded(Body body);
   Code end(Code code, const std::string& line = {});
   Code opened(Job& job);
+  /// Gives no output of what was bound any more; what `bind_next` goes on with is kept.
+  void drop_bound();
   Code bind_as(std::string plan, Request request);
 
   /// A plan as it was read: the next bind of the same bytes need not read them again.

@@ -391,7 +391,6 @@ void append_arc(Loop& out, Vec2 centre, Vec2 start, double sweep_rad, double tol
   const double radius = norm(r);
   const double a0 = std::atan2(r.y, r.x);
   const int steps = arc_steps(radius, sweep_rad, tolerance_mm);
-  out.reserve(out.size() + static_cast<std::size_t>(steps));
   for (const Vec2 d : directions(a0, sweep_rad, steps))
     out.push_back({centre.x + radius * d.x, centre.y + radius * d.y});
 }

@@ -8,6 +8,7 @@
 #include "planner/proof/verify/moves.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/program/readers.h"
+#include "planner/proof/verify/reader_options.h"
 #include "planner/proof/verify/volumes/number_text.h"
 
 // A range is convex, so that straight moves are judged by where they end; the machine stands within its
@@ -25,6 +26,7 @@ class Placing {
       : c_(c), table_(table), places_(places), findings_(findings) {}
 
   void run() {
+    say_not_followed();
     for (const Block& b : c_.program.blocks) {
       if (b.kind != Block::Kind::kMove) continue;
       for (const AxisPlaces::Range& r : places_.ranges) judge(b, r);
@@ -40,6 +42,15 @@ class Placing {
     double beyond_mm = 0.0;
   };
 
+  /// Of what is not followed no move is known, so that nothing is held to be within the limits.
+  void say_not_followed() {
+    if (c_.program.faults.empty()) return;
+    const ReaderFault& first = c_.program.faults.front();
+    findings_.error(22, "CHK-PLACE", {Findings::kWhole, "", first.line},
+                    "not all of the program is followed, so that no axis can be held to its limits: line " +
+                        std::to_string(first.line) + ", " + first.code + ": " + first.message);
+  }
+
   [[nodiscard]] const std::string& name(std::size_t axis) const { return c_.machine.axes[axis].name; }
 
   void judge(const Block& b, const AxisPlaces::Range& r) {
@@ -47,6 +58,9 @@ class Placing {
     if (!b.words[r.axis] && !round) return;
     const double to[3] = {b.to.x, b.to.y, b.to.z};
     if (b.in_machine) return hold(b, r, to[r.axis], to[r.axis], "");
+    if (r.axis == 2 && touches_off_)
+      return unplaced(b, r,
+                      "the zero of Z is set anew with each tool, so that it is not known from the text");
     if (!b.known_to[r.axis] || (round && !(b.known_from[0] && b.known_from[1])))
       return unplaced(b, r, "where it stands after this move is not known from the text");
     const AxisPlaces::Offset* offset = offset_of(b);
@@ -80,11 +94,14 @@ class Placing {
     hold(b, r, lo + shift, hi + shift, by);
   }
 
+  /// The one of that name, else the one without a name.
   [[nodiscard]] const AxisPlaces::Offset* offset_of(const Block& b) const {
     const auto& all = places_.offsets;
-    const auto at = std::find_if(all.begin(), all.end(), [&](const AxisPlaces::Offset& o) {
-      return o.name.empty() || (b.work_offset != 0 && offset_code(o.name) == b.work_offset);
+    auto at = std::find_if(all.begin(), all.end(), [&](const AxisPlaces::Offset& o) {
+      return !o.name.empty() && b.work_offset != 0 && offset_code(o.name) == b.work_offset;
     });
+    if (at == all.end())
+      at = std::find_if(all.begin(), all.end(), [](const AxisPlaces::Offset& o) { return o.name.empty(); });
     return at == all.end() ? nullptr : &*at;
   }
 
@@ -113,6 +130,7 @@ class Placing {
   const ToolTable& table_;
   const AxisPlaces& places_;
   Findings& findings_;
+  const bool touches_off_ = touches_off(c_.machine);
   std::map<std::pair<std::size_t, std::size_t>, Far> farthest_;  ///< by step and axis
 };
 

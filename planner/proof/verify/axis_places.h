@@ -15,7 +15,7 @@ struct AxisPlaces {
     double least_mm = 0.0, most_mm = 0.0;
   };
   struct Offset {
-    std::string name;  ///< "G54", as the program names it; empty: of whichever it names
+    std::string name;  ///< "G54", as the program names it; empty: of whichever it names and no other has
     geometry::Vec3 at_mm;
   };
   std::vector<Range> ranges;
@@ -26,7 +26,9 @@ struct AxisPlaces {
 /// range: of each step and axis the farthest (CHK-PLACE-X, …), property 22. X and Y of a place are the work
 /// offset's and the program's together; Z, that of the spindle's gage line, the tool's length as well. What
 /// cannot be placed is an error, too: an offset that is not told, a length that does not count from the gage
-/// line, a coordinate that is not known. Between two places that are within all ranges a straight move is.
+/// line, a zero of Z that is set with each tool (`touches_off`), a coordinate that is not known; and a
+/// program of which the reader does not follow all (CHK-PLACE, with line and code). Between two places that
+/// are within all ranges a straight move is.
 [[nodiscard]] std::vector<model::Finding> check_axis_places(const ProgramText& text, const model::Plan* plan,
                                                             const model::Machine& machine,
                                                             const std::vector<model::Cutter>& cutters,

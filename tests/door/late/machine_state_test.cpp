@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -185,6 +186,29 @@ TEST(LateState, WithLimitsOfAxesAProgramForAnotherControlIsNotGiven) {
   EXPECT_NE(session.output("linuxcnc"), nullptr);
   EXPECT_EQ(session.output("fanuc"), nullptr);
   EXPECT_THAT(session.message(), HasSubstr("LATE-PLACE"));
+}
+
+TEST(LateState, WhatWasBoundBeforeLimitsOfAxesAreSetIsNotGiven) {
+  for (const auto& [option, value] : {std::pair{"axis-limits", "X=-1:1"}, {"work-offset", "X=1,Y=2,Z=3"}}) {
+    service::Session session;
+    (void)session.set("tools", kMagazine);
+    ASSERT_EQ(session.bind(testing::slurp(kPlate), std::chrono::hours(1)), service::Code::kDone);
+    ASSERT_NE(session.output("linuxcnc"), nullptr);
+    ASSERT_EQ(session.set(option, value), service::Code::kDone);
+    EXPECT_EQ(session.output("linuxcnc"), nullptr) << option;
+    EXPECT_EQ(session.output("json"), nullptr) << option;
+  }
+}
+
+TEST(LateState, AStepByStepBindGoesOnAfterLimitsOfAxesAreSet) {
+  service::Session session;
+  (void)session.set("tools", kMagazine);
+  (void)session.take(testing::slurp(kPlate));
+  ASSERT_EQ(session.bind_next({}, 0, 1, std::chrono::hours(1)), service::Code::kDone) << session.message();
+  ASSERT_EQ(session.set("work-offset", kOffset), service::Code::kDone);
+  ASSERT_EQ(session.set("axis-limits", "X=-1000:1000"), service::Code::kDone);
+  ASSERT_EQ(session.bind_next({}, 0, 1, std::chrono::hours(1)), service::Code::kDone) << session.message();
+  EXPECT_NE(session.output("linuxcnc"), nullptr);
 }
 
 TEST(LateState, AStepAloneIsHeldToTheLimitsOfAxes) {

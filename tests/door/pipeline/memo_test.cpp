@@ -94,8 +94,10 @@ TEST(PlannedWithAMemo, AChangedFeatureIsMadeAnewAndNoOther) {
   for (const Stage s : kOfSteps) {
     const std::size_t anew = made(*memo, s) - before[s];
     EXPECT_GE(anew, 1U) << "stage " << static_cast<int>(s);
-    EXPECT_LE(anew, 3U) << "stage " << static_cast<int>(s)
-                        << ": the pocket's roughing both ways and its finishing, no more";
+    // The changed pocket was the first of the equal ones, for which both ways of roughing are tried: the next
+    // one, which had the better way alone, now gets the path of the other, too.
+    EXPECT_LE(anew, s == Stage::kPath ? 4U : 3U)
+        << "stage " << static_cast<int>(s) << ": the pocket's roughing both ways and its finishing, no more";
   }
 }
 

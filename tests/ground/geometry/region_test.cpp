@@ -109,22 +109,34 @@ TEST(CutterProfile, HeightFollowsTheClosedForms) {
   EXPECT_TRUE(std::isinf(drill.height(5.001)));
 }
 
+/// Appends an arc that begins below its centre, and holds each point against sine and cosine.
+void expect_arc(double radius, double sweep, double tolerance, std::size_t more_than) {
+  const Vec2 centre{0.25 * radius, -3.0}, start = centre + Vec2{0.0, -radius};
+  Loop got;
+  append_arc(got, centre, start, sweep, tolerance);
+  ASSERT_GT(got.size(), more_than);
+  const double from = std::atan2((start - centre).y, 0.0), r = norm(start - centre);
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    const double a = from + sweep * static_cast<double>(i + 1) / static_cast<double>(got.size());
+    ASSERT_EQ(got[i], (Vec2{centre.x + r * std::cos(a), centre.y + r * std::sin(a)})) << radius << ", " << i;
+  }
+}
+
 TEST(AppendArc, GivesTheSamePointsHoweverManyArcsComeBetween) {
-  // More sizes than are kept, each asked for twice, in an order that comes back to all of them.
+  // More sizes than are kept: one that is still known, one that was asked for a while ago, one long gone.
   constexpr int kSizes = 23, kPrime = 7;
-  for (int k = 0; k < 2 * kSizes; ++k) {
-    const double radius = 0.5 + 0.3 * (k * kPrime % kSizes),
-                 sweep = k % 2 == 0 ? 1.25 : -2.0 * std::numbers::pi;
-    const Vec2 centre{0.1 * k, -3.0};
-    Loop got;
-    append_arc(got, centre, centre + Vec2{0.0, -radius}, sweep, 1e-3);
-    ASSERT_GT(got.size(), 3U);
-    const double from = std::atan2((centre + Vec2{0.0, -radius} - centre).y, 0.0);
-    const double r = norm(centre + Vec2{0.0, -radius} - centre);
-    for (std::size_t i = 0; i < got.size(); ++i) {
-      const double a = from + sweep * static_cast<double>(i + 1) / static_cast<double>(got.size());
-      EXPECT_EQ(got[i], (Vec2{centre.x + r * std::cos(a), centre.y + r * std::sin(a)})) << k << ", " << i;
+  for (int k = 0; k < 3 * kSizes; ++k) {
+    for (const int back : {0, 0, 5, 20}) {
+      const int size = (k + kSizes - back) * kPrime % kSizes;
+      expect_arc(0.5 + 0.3 * size, size % 2 == 0 ? 1.25 : -2.0 * std::numbers::pi, 1e-3, 3);
     }
+  }
+}
+
+TEST(AppendArc, GivesTheSamePointsOfArcsWithMoreThanAreKept) {
+  for (int i = 0; i < 2; ++i) {
+    for (const double radius : {5.0, 7.0, 5.0}) expect_arc(radius, 2.0 * std::numbers::pi, 1e-6, 4096);
+    expect_arc(5.0, 1.25, 1e-3, 3);
   }
 }
 

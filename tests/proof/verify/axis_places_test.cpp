@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/proof/verify/checked.h"
@@ -75,6 +76,45 @@ TEST(AxisPlaces, WhatCannotBePlacedIsAnError) {
   ASSERT_EQ(unmeasured.size(), 1U) << testing::told(unmeasured);
   EXPECT_NE(unmeasured[0].message.find("length of T1 is not known"), std::string::npos)
       << unmeasured[0].message;
+}
+
+TEST(AxisPlaces, WhereTheZeroOfZIsSetWithEachToolNoZIsHeldToALimit) {
+  model::Machine machine = testing::good_plan().plan.machine;
+  machine.control.dialect = "grbl";
+  const auto judged_by = [&](const std::string& text, const AxisPlaces& places) {
+    return check_axis_places({"part.nc", text, ""}, nullptr, machine, {}, places);
+  };
+  const std::string header = "(CAPSTAN TOOL T1 H1 length=100 diameter=10 id=\"em\" endmill)\n";
+  const std::string off = header + program("G1 Z-1 F100\n", ""),
+                    stated = header + program("G1 Z-1 F100\n", "G43.1 Z100\n");
+  // touch_off is the default.
+  const auto found = judged_by(off, within(kZ, -kFar, kFar));
+  ASSERT_EQ(found.size(), 1U) << testing::told(found);
+  EXPECT_EQ(found[0].code, "CHK-PLACE-Z");
+  EXPECT_NE(found[0].message.find("set anew with each tool"), std::string::npos) << found[0].message;
+  EXPECT_TRUE(judged_by(off, within(kX, -kFar, kFar)).empty());
+  machine.control_options = model::ControlOptions{{{"tool_length", "g43.1"}}};
+  const auto lowest = -300.0 - 1.0 + 100.0;
+  EXPECT_TRUE(judged_by(stated, within(kZ, lowest, 0.0)).empty());
+  EXPECT_EQ(judged_by(stated, within(kZ, lowest + 0.1, 0.0)).size(), 1U);
+}
+
+TEST(AxisPlaces, AnOffsetOfThatNameGoesBeforeOneWithoutInBothOrders) {
+  const std::string text = program("G1 Z-1 F100\n");
+  AxisPlaces places = within(kX, 100.0, 120.0);
+  places.offsets.push_back({"", {1000.0, 0.0, 0.0}});
+  EXPECT_TRUE(judged(text, places).empty());
+  std::swap(places.offsets[0], places.offsets[1]);
+  EXPECT_TRUE(judged(text, places).empty());
+}
+
+TEST(AxisPlaces, OfAProgramThatIsNotFollowedNothingIsWithinLimits) {
+  const auto found = judged(program("G18 G2 X12 Z5 I1\n"), within(kY, -kFar, kFar));
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].code, "CHK-PLACE");
+  EXPECT_EQ(found[0].move, 9);
+  EXPECT_NE(found[0].message.find("not all of the program is followed"), std::string::npos)
+      << found[0].message;
 }
 
 }  // namespace

@@ -94,9 +94,17 @@ Result<std::vector<AxisLimit>> parse_axis_limits(const std::string& text) {
 }
 
 Result<std::vector<WorkOffset>> parse_work_offsets(const std::string& text) {
-  return parse_each<WorkOffset>(
+  const std::string expected =
+      "X=120,Y=80,Z=-310, or by name with semicolons between: G54:X=120,Y=80,Z=-310;G55:X=300,Y=80,Z=-310";
+  auto out = parse_each<WorkOffset>(
       split(text, ';'), &one_offset, [](const WorkOffset& o) { return o.name; }, "place of a work offset",
-      "X=120,Y=80,Z=-310, or by name with semicolons between: G54:X=120,Y=80,Z=-310;G55:X=300,Y=80,Z=-310");
+      expected);
+  if (out && out->size() > 1 &&
+      std::any_of(out->begin(), out->end(), [](const WorkOffset& o) { return o.name.empty(); }))
+    return fail({.code = "OPTION-VALUE",
+                 .message = "one place of '" + text + "' has no name, beside others",
+                 .expected = expected});
+  return out;
 }
 
 void take_state(const MachineState& state, const std::string& sign, model::Machine& machine,

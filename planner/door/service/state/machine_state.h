@@ -34,7 +34,7 @@ struct MachineState {
 /// "X=0:350,Z=-200:-5". Fails  OPTION-VALUE where it is not that, a range is empty, or an axis comes twice.
 [[nodiscard]] Result<std::vector<AxisLimit>> parse_axis_limits(const std::string& text);
 /// "X=120,Y=80,Z=-310", or by name "G54:X=120,Y=80,Z=-310;G55:…". Fails  OPTION-VALUE where it is not that,
-/// an axis is missing, or a name comes twice.
+/// an axis is missing, a name comes twice, or one of several has none.
 [[nodiscard]] Result<std::vector<WorkOffset>> parse_work_offsets(const std::string& text);
 
 /// The machine as its state leaves it, and what that is in rows of provenance, from `sign` and the option's

@@ -99,6 +99,10 @@ Result<Brep> one_body(const Brep& shape, const std::string& asked, const std::st
                  .expected = "the number or the name of one solid"});
   };
   auto at = by_number(shape, asked);
+  for (std::size_t i = 0; at && i < shape.bodies.size(); ++i) {
+    if (i != *at && shape.bodies[i].name == asked)
+      return wrong("'" + asked + "' is the number of one body and the name of another");
+  }
   for (std::size_t i = 0; !at && i < shape.bodies.size(); ++i) {
     if (shape.bodies[i].name != asked) continue;
     const auto again = std::count_if(shape.bodies.begin(), shape.bodies.end(),

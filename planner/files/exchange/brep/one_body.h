@@ -12,7 +12,8 @@ namespace capstan::exchange {
 
 /// One body of a file alone: its faces, edges and triangles, numbered anew, and what the file asks of them or
 /// of the whole part. `asked` is its number from 1, or its name.
-/// Fails  CAD-BODIES, with the list of bodies, where none or several are so called, or it is a sheet.
+/// Fails  CAD-BODIES, with the list of bodies, where none or several are so called, one by its number and
+/// another by its name among them, or it is a sheet.
 [[nodiscard]] Result<Brep> one_body(const Brep& shape, const std::string& asked, const std::string& file);
 
 }  // namespace capstan::exchange

@@ -1,7 +1,9 @@
 #include "planner/making/optimise/solver/solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -12,6 +14,8 @@ namespace capstan::optimise {
 namespace {
 
 thread_local SpentBudgetScope* told = nullptr;
+/// How often threads without a scope were to tell one.
+std::atomic<std::uint64_t> told_elsewhere{0};
 
 /// Close enough to a limit to be held by it, in constraint ratios and parts of a variable's range.
 constexpr double kActiveTolerance = 1e-5;
@@ -255,10 +259,12 @@ const char* to_text(Outcome outcome) {
   return "";
 }
 
-SpentBudgetScope::SpentBudgetScope() : around_(std::exchange(told, this)) {}
+SpentBudgetScope::SpentBudgetScope() : around_(std::exchange(told, this)), elsewhere_(told_elsewhere) {}
 SpentBudgetScope::~SpentBudgetScope() { told = around_; }
+bool SpentBudgetScope::spent() const { return spent_ || told_elsewhere != elsewhere_; }
 
 void tell_budget_spent() {
+  if (told == nullptr) ++told_elsewhere;
   for (SpentBudgetScope* s = told; s != nullptr; s = s->around_) s->spent_ = true;
 }
 

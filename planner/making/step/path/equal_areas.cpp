@@ -31,7 +31,7 @@ toolpath::PathJob placeless(toolpath::PathJob job) {
   job.shape.feature = {};
   job.shape.member = 0;
   job.shape.made_of.clear();
-  job.shape.frame.origin = {};
+  job.shape.frame.origin.x = job.shape.frame.origin.y = 0.0;
   job.feature_in_setup.origin.x = job.feature_in_setup.origin.y = 0.0;
   job.stock = {};  // of an area that is closed all round nothing is cut beyond
   return job;

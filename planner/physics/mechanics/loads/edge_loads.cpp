@@ -24,6 +24,9 @@ constexpr std::size_t kCells = 32;    // of the arc
 constexpr int kSamples = 32;          // of a tooth pitch
 constexpr double kNoLagRad = 1e-6;    // below, an edge is straight to within rounding
 constexpr double kJustInside = 1e-9;  // keeps rounding from losing a tooth that is about to leave
+/// And one at its entry: more than the rounding of an angle of some turns, less than kJustInside, so that the
+/// tooth a pitch behind one about to leave is not in yet.
+constexpr double kEntryRad = 1e-12;
 
 /// Integrals of a shape: times cos, times sin, and alone.
 struct Integrals {
@@ -133,7 +136,7 @@ class ArcTable {
   [[nodiscard]] std::pair<std::size_t, double> place(double a) const {
     constexpr auto kLast = static_cast<int>(kCells) - 1;
     const double s = std::clamp((a - from_) * per_step_, 0.0, static_cast<double>(kCells));
-    const int i = std::min(static_cast<int>(s), kLast);
+    const int i = s > 0.0 ? std::min(static_cast<int>(s), kLast) : 0;  // what is no number stays none
     return {static_cast<std::size_t>(i), s - i};
   }
 
@@ -197,7 +200,7 @@ class Teeth {
   /// up to there is taken once.
   [[nodiscard]] MomentAtFeeds at(double tip, double pitch) const {
     std::array<Integrals, kCornerPieces + 1> chip, edge;
-    double a = tip - pitch * std::floor((tip - first_) / pitch);
+    double a = tip - pitch * std::floor((tip - first_ + kEntryRad) / pitch);
     for (; a <= last_; a += pitch) {
       Upto before;
       for (std::size_t i = 0; i < all_.count; ++i) {
@@ -205,7 +208,7 @@ class Teeth {
         const Piece& p = *k.p;
         if (k.straight) {
           const double at = a - k.middle;
-          if (at < p.from || at > p.to) continue;
+          if (at < p.from - kEntryRad || at > p.to) continue;
           const double c = std::cos(at), s = std::sin(at);
           chip[i] += exact_ ? Integrals{s * c, s * s, s} : chips_.at(at);
           edge[i] += {c, s, 1.0};
@@ -318,7 +321,10 @@ EdgeLoads edge_loads(const Pieces& all, const ForceLaw& law, const Tooth& tooth)
       out.peak.take(m.chip);
     }
   };
-  const double start = all.item[0].from;
+  // Without a lag a tooth is in at once, where climbing with its thickest chip: the first angle is that one.
+  const Piece& first = all.item[0];
+  const bool straight = first.lag_high - first.lag_low < kNoLagRad;
+  const double start = first.from + (straight ? 0.5 * (first.lag_low + first.lag_high) : 0.0);
   for (int i = 0; i < kSamples; ++i) at(start + pitch * i / kSamples);
   // Extremes also sit where a piece of edge enters or leaves.
   for (std::size_t k = 0; k < all.count; ++k) {

@@ -76,7 +76,8 @@ TEST(CornerRests, APocketIsPlannedWhoseCornersNoMillMakes) {
       EXPECT_EQ(rests[0].radius_mm, narrowest_radius(p.plan));
       EXPECT_THAT(p.said, HasSubstr("a radius of " + trimmed(rests[0].radius_mm, 4) +
                                     " mm stays in place of " + radius + " mm"));
-      EXPECT_THAT(p.said, HasSubstr("to plan all of this part you need: endmill"));
+      // A mill that narrow bends at this depth: planned with it, the radius would stay, so none is named.
+      EXPECT_THAT(p.said, Not(HasSubstr("you need")));
     }
   }
 }

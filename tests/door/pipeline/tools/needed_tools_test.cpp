@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/door/pipeline/checked.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/corner_rest.h"
 #include "tests/door/pipeline/block.h"
@@ -179,6 +180,91 @@ TEST(NeededToolsProperty, OfAnEmptyShopPlanAllOfThePartInOneGo) {
     EXPECT_THAT(whole.plan.unplanned, IsEmpty()) << name << "\n" << whole.said;
     EXPECT_THAT(entries_of(whole.plan), IsEmpty()) << name;
   }
+}
+
+/// Three features that lack a tool each, and how what they need is told.
+struct Lacking {
+  model::Plan plan;
+  std::vector<model::NeededTool> needed;
+  Inputs poor;
+
+  Lacking() : poor(shop_with({"generic/spot_drill_90/8", "generic/endmill_3f_short/16"})) {
+    const auto cutters = read_list(entries_of(bound(read(kParts), poor).plan));
+    plan = read(kParts);
+    const std::vector<std::string> names = {"PLAIN", "FITTED", "POCKET"};
+    EXPECT_GE(cutters.size(), names.size());
+    for (std::size_t i = 0; i < std::min(cutters.size(), names.size()); ++i) {
+      const model::AnyRef f = feature(plan, names[i]);
+      plan.unplanned.push_back({.feature = f, .reason = "no tool"});
+      needed.push_back({f, names[i], cutters[i], names[i]});
+    }
+  }
+  /// The plan where these features are left out.
+  [[nodiscard]] model::Plan without(const std::vector<std::string>& names) const {
+    model::Plan out = plan;
+    std::erase_if(out.unplanned, [&](const model::Unplanned& u) {
+      return std::none_of(names.begin(), names.end(),
+                          [&](const std::string& n) { return feature(plan, n) == u.feature; });
+    });
+    return out;
+  }
+  [[nodiscard]] Planned named(const Planner& planner, const Inputs& inputs) const {
+    Job job;
+    auto out = name_needed(plan, needed, inputs, {}, planner, job);
+    EXPECT_TRUE(out) << (out ? "" : to_text(out.error()));
+    Planned p{out ? *std::move(out) : model::Plan{}, {}};
+    for (const auto& d : job.diagnostics()) p.said += to_text(d) + "\n";
+    return p;
+  }
+};
+
+TEST(NeededTools, OneThatBendsIsNotNamedAndTheOthersPlanMoreOfThePart) {
+  const Lacking l;
+  int plannings = 0;
+  const Planned p = l.named(
+      [&](const Inputs&, Job&) -> Result<model::Plan> {
+        ++plannings;
+        return l.without({"FITTED"});
+      },
+      l.poor);
+  EXPECT_EQ(plannings, 2);
+  EXPECT_EQ(entries_of(p.plan).size(), 2U) << p.said;
+  EXPECT_THAT(p.said, HasSubstr("to plan more of this part you need: "));
+  EXPECT_THAT(p.said, ::testing::Not(HasSubstr("'FITTED'")));
+}
+
+TEST(NeededTools, WhereTheSecondProofDropsOneTooTheRestIsToldAsNotProved) {
+  const Lacking l;
+  int plannings = 0;
+  const Planned p = l.named(
+      [&](const Inputs&, Job&) -> Result<model::Plan> {
+        return l.without(++plannings == 1 ? std::vector<std::string>{"FITTED"}
+                                          : std::vector<std::string>{"FITTED", "POCKET"});
+      },
+      l.poor);
+  EXPECT_EQ(plannings, 2);
+  EXPECT_EQ(entries_of(p.plan).size(), 1U) << p.said;
+  EXPECT_THAT(p.said, HasSubstr("to plan more of this part you need at least: "));
+  EXPECT_THAT(p.said, HasSubstr("(not proved: "));
+}
+
+TEST(NeededTools, AreToldAlsoWhereTheirProofFails) {
+  const Lacking l;
+  const Planned p = l.named(
+      [](const Inputs&, Job&) -> Result<model::Plan> { return fail("TEST", "no such luck"); }, l.poor);
+  EXPECT_EQ(entries_of(p.plan).size(), 3U) << p.said;
+  EXPECT_THAT(p.said, HasSubstr("to plan all of this part you need at least: "));
+  EXPECT_THAT(p.said, HasSubstr("(not proved: planning with them fails: no such luck)"));
+}
+
+TEST(NeededTools, OfAnEditedPlanAreNotProved) {
+  const Lacking l;
+  Inputs edited = l.poor;
+  edited.edits.emplace_back();
+  const Planned p = l.named(
+      [](const Inputs&, Job&) -> Result<model::Plan> { return fail("TEST", "not to be planned"); }, edited);
+  EXPECT_EQ(entries_of(p.plan).size(), 3U) << p.said;
+  EXPECT_THAT(p.said, HasSubstr("to plan all of this part you need at least: "));
 }
 
 TEST(NeededTools, OfOneKindAreOneToolForAllFeaturesThatAskForIt) {

@@ -120,7 +120,8 @@ TEST(MachineState, WhatIsNoRangeOrNoPlaceIsNoValue) {
                            "X=0:1,", "X=0:1,X=0:2", "X=0:1;Y=0:1"})
     EXPECT_FALSE(set(r, "axis-limits", text)) << text;
   for (const char* text : {"X=1", "X=1,Y=2", "X=1,Y=2,Z=", "X=1,Y=2,Z=3,", "X=1,Y=2,Z=3,X=4", "X=1,Y=2,W=3",
-                           "X=1,Y=2,Z=inf", ":X=1,Y=2,Z=3", "G54:X=1,Y=2,Z=3;G54:X=1,Y=2,Z=3", "X1,Y2,Z3"})
+                           "X=1,Y=2,Z=inf", ":X=1,Y=2,Z=3", "G54:X=1,Y=2,Z=3;G54:X=1,Y=2,Z=3",
+                           "X=1,Y=2,Z=3;G55:X=1,Y=2,Z=3", "G55:X=1,Y=2,Z=3;X=1,Y=2,Z=3", "X1,Y2,Z3"})
     EXPECT_FALSE(set(r, "work-offset", text)) << text;
   EXPECT_TRUE(r.state.axis_limits.empty());
   EXPECT_TRUE(r.state.work_offsets.empty());

@@ -75,6 +75,17 @@ TEST_F(OneBody, KeepsWhatIsAskedOfItsFacesAndOfTheWholePart) {
   EXPECT_EQ(second->pmi.zones.front().faces, std::vector{of_second});
 }
 
+TEST_F(OneBody, IsRefusedWhereItsNumberIsTheNameOfAnother) {
+  two_.bodies[0].name = "2";
+  const auto both = one_body(two_, "2", "two.step");
+  ASSERT_FALSE(both);
+  EXPECT_EQ(both.error().code, "CAD-BODIES");
+  EXPECT_NE(both.error().message.find("1 '2' (solid"), std::string::npos) << both.error().message;
+  EXPECT_TRUE(one_body(two_, "1", "two.step"));
+  two_.bodies[0].name = "1";
+  EXPECT_TRUE(one_body(two_, "1", "two.step"));
+}
+
 TEST_F(OneBody, IsNamedByNumberOrNameAndElseRefusedWithTheList) {
   two_.bodies[0].name = "plate";
   two_.bodies[1].name = "boss";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -108,6 +109,20 @@ TEST(Solve, ASpentBudgetIsToldToTheScopesAroundAndToNoLaterOne) {
     EXPECT_TRUE(solve(examples::tolouei_rad_milling().problem, {}, job));
     EXPECT_TRUE(inner.spent());
   }
+  EXPECT_TRUE(outer.spent());
+  EXPECT_FALSE(SpentBudgetScope().spent());
+}
+
+TEST(Solve, ASpentBudgetOfAThreadWithoutAScopeIsToldToThoseThatLive) {
+  const SpentBudgetScope outer, inner;
+  std::thread([] {
+    const SpentBudgetScope own;
+    tell_budget_spent();
+    EXPECT_TRUE(own.spent());
+  }).join();
+  EXPECT_FALSE(inner.spent());
+  std::thread([] { tell_budget_spent(); }).join();
+  EXPECT_TRUE(inner.spent());
   EXPECT_TRUE(outer.spent());
   EXPECT_FALSE(SpentBudgetScope().spent());
 }

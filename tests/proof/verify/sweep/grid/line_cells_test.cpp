@@ -89,7 +89,6 @@ TEST(LineCells, ThatTheCutterLowersAreAllGiven) {
 }
 
 TEST(LineCells, ThatStandLowerThanTheCutterComesAreMostlyKeptBack) {
-  if (!LineCells::takes_four()) GTEST_SKIP() << "this processor has no AVX2: cells are marked two at once";
   constexpr int kCells = 128;
   std::mt19937 random(11);
   std::size_t of_all = 0, given = 0;
@@ -107,7 +106,7 @@ TEST(LineCells, ThatStandLowerThanTheCutterComesAreMostlyKeptBack) {
       stock[static_cast<std::size_t>(ix)] = z < 1e300 ? z - 0.05 : 100.0;
       of_all += z < 1e300 ? 1 : 0;
     }
-    for (const bool four : {false, true}) {
+    for (const bool four : {false, LineCells::takes_four()}) {
       const LineCells cells(ball, xy(m.from), xy(m.to) - xy(m.from), m.from.z, m.to.z, four);
       cells.each(stock.data(), 0, kCells, row.first, row.cell, [&](int) { ++given; });
     }
@@ -116,7 +115,6 @@ TEST(LineCells, ThatStandLowerThanTheCutterComesAreMostlyKeptBack) {
 }
 
 TEST(LineCells, OfABallThatStandATenthLowerThanItComesAreKeptBackButAtItsEnds) {
-  if (!LineCells::takes_four()) GTEST_SKIP() << "this processor has no AVX2: cells are marked two at once";
   constexpr int kCells = 128;
   std::mt19937 random(17);
   std::size_t between = 0, given = 0;
@@ -137,7 +135,7 @@ TEST(LineCells, OfABallThatStandATenthLowerThanItComesAreKeptBackButAtItsEnds) {
       inside[static_cast<std::size_t>(ix)] = z < 1e300 && foot > past && foot < 1.0 - past;
       between += inside[static_cast<std::size_t>(ix)] ? 1 : 0;
     }
-    for (const bool four : {false, true}) {
+    for (const bool four : {false, LineCells::takes_four()}) {
       const LineCells cells(ball, xy(m.from), way, m.from.z, m.to.z, four);
       cells.each(stock.data(), 0, kCells, row.first, row.cell,
                  [&](int ix) { given += inside[static_cast<std::size_t>(ix)] ? 1 : 0; });
