@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "casebase/record/held.h"
 #include "casebase/record/sha256.h"
 #include "planner/model/features/quality.h"
 #include "planner/model/nouns/executable.h"
@@ -168,6 +169,35 @@ void take_path(const model::CutterPath& path, Bound& b) {
   b.arc_share = std::min(1.0, arcs / b.path_length_mm);
 }
 
+/// The feed per tooth that a log of the schedule at 100 % would show: the feed that is held longest over the
+/// speed that is, rapids apart. 0: there is no schedule, or no such feed.
+double held_fz_mm(const model::StepResult& step, int teeth) {
+  if (!step.path || !step.schedule) return 0.0;
+  const model::CutterPath& path = *step.path;
+  const model::FeedSchedule& schedule = *step.schedule;
+  if (schedule.feed_mm_min.size() != path.size() || schedule.spindle_rpm.size() != path.size()) return 0.0;
+  Held feed, speed;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.kind[i] == model::MoveKind::kRapid || path.kind[i] == model::MoveKind::kDwell) continue;
+    const double fed = schedule.feed_mm_min[i], rpm = std::abs(schedule.spindle_rpm[i]);
+    if (!(fed > 0.0) || !(rpm > 0.0)) continue;
+    const double seconds = 60.0 * model::move_length(path, i) / fed;
+    if (!(seconds > 0.0)) continue;
+    feed.add(fed, seconds);
+    speed.add(rpm, seconds);
+  }
+  const double rpm = speed.longest().value;
+  const double fz = rpm > 0.0 ? feed.longest().value / rpm / std::max(1, teeth) : 0.0;
+  return fz >= 1e-5 && fz <= 10.0 ? fz : 0.0;
+}
+
+/// Whether the step's path was computed here, which aims at the middle of the zone; one that the file gave
+/// aims where it says.
+bool has_computed_path(const model::Plan& plan, model::AnyRef operation) {
+  const model::Decision* path = plan.ledger.find(operation, "its_toolpath");
+  return path != nullptr && path->binder != model::Binder::kGiven;
+}
+
 /// Area of the chip: mean of the samples in the material, and peak.
 void take_sections(const model::SectionSeries& sections, Bound& b) {
   double sum = 0.0;
@@ -254,23 +284,25 @@ Result<Case> made(const model::Plan& plan, const model::StepResult& step, const 
   c.bound.ap_mm = step.axial_depth_mm;
   c.bound.ae_mm = step.radial_depth_mm;
   c.bound.corner_radius_mm = cutter->corner_radius_mm;
-  c.bound.aimed_over_mm = asked.middle_over_mm;
+  if (has_computed_path(plan, ws->its_operation))
+    c.bound.aimed_over_mm = Figure{asked.middle_over_mm, 0.0, Origin::kSimulated};
   c.bound.strategy = strategy_of(plan, ws->its_operation);
   take_allowances(plan, ws->its_operation, c.bound);
   take_contact(cutter->cutting_diameter_mm, c.bound);
   if (step.path) take_path(*step.path, c.bound);
   if (step.sections) take_sections(*step.sections, c.bound);
-  c.predicted = {.time_s = step.cutting_s + step.rapid_s,
-                 .peak_force_n = step.loads.peak_force_n,
-                 .torque_nm = step.loads.torque_nm,
-                 .power_w = step.loads.power_w,
-                 .deflection_mm = step.loads.deflection_mm,
-                 .tool_life_min = step.loads.tool_life_min,
-                 .force_margin = step.loads.force_margin,
-                 .specific_force_n_mm2 =
-                     model::is_a(ws->its_operation.type, model::TypeId::kDrillingTypeOperation)
-                         ? 0.0
-                         : model::specific_force_n_mm2(plan.material, *cutter, c.bound.mean_chip_mm)};
+  c.predicted = {
+      .time_s = step.cutting_s + step.rapid_s,
+      .peak_force_n = step.loads.peak_force_n,
+      .torque_nm = step.loads.torque_nm,
+      .power_w = step.loads.power_w,
+      .deflection_mm = step.loads.deflection_mm,
+      .tool_life_min = step.loads.tool_life_min,
+      .force_margin = step.loads.force_margin,
+      .specific_force_n_mm2 = model::is_a(ws->its_operation.type, model::TypeId::kDrillingTypeOperation)
+                                  ? 0.0
+                                  : model::specific_force_n_mm2(plan.material, *cutter, c.bound.mean_chip_mm),
+      .held_fz_mm = held_fz_mm(step, cutter->teeth)};
   const auto simulated = [](double v) {
     return v > 0.0 ? std::optional(Figure{v, 0.0, Origin::kSimulated}) : std::nullopt;
   };

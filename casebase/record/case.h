@@ -53,14 +53,23 @@ struct Question {
   bool operator==(const Question&) const = default;
 };
 
+/// One number with its origin.
+struct Figure {
+  double value = 0.0;
+  double std_dev = 0.0;  ///< of the value, in its unit; 0: not known
+  Origin origin = Origin::kMeasured;
+  bool operator==(const Figure&) const = default;
+};
+
 /// What was bound: the cut as the program commanded it. Zero or empty: not known, but vc and fz.
 struct Bound {
   double vc_m_min = 0.0, fz_mm = 0.0;
   double ap_mm = 0.0, ae_mm = 0.0;  ///< as cut
   double allowance_side_mm = 0.0, allowance_bottom_mm = 0.0;
   double corner_radius_mm = 0.0;
-  double aimed_over_mm =
-      0.0;                    ///< the size that the path aims at less the nominal one: the middle of the zone
+  /// The size that the path aims at less the nominal one: the middle of the zone. Nothing: nobody knows, as
+  /// of a path that the file gave.
+  std::optional<Figure> aimed_over_mm = {};
   std::string strategy = {};  ///< keyword, e.g. "contour_parallel"; may be empty
   // The path: of its cutting moves.
   double path_length_mm = 0.0;
@@ -83,15 +92,10 @@ struct Predicted {
   /// specific force of the plan's law at the mean chip of `Bound` (model/plan/resources/specific_force.h).
   /// Without them nobody can tell what an observed force says of the law.
   double force_margin = 0.0, specific_force_n_mm2 = 0.0;
+  /// Feed per tooth that the plan's schedule holds longest, found as of a log (record/held.h): the forces are
+  /// of the schedule, `Bound::fz_mm` is what it began from.
+  double held_fz_mm = 0.0;
   bool operator==(const Predicted&) const = default;
-};
-
-/// One observed number.
-struct Figure {
-  double value = 0.0;
-  double std_dev = 0.0;  ///< of the value, in its unit; 0: not known
-  Origin origin = Origin::kMeasured;
-  bool operator==(const Figure&) const = default;
 };
 
 /// A value that changes over the cutting time of the edge.
@@ -119,9 +123,9 @@ struct Observed {
   std::optional<Figure> wear_mm = {};   ///< flank wear (VB) at the end
   std::optional<Figure> chatter = {};   ///< 0 none, 1 heavy
   std::optional<Figure> breakage = {};  ///< 0 or 1: the tool broke
-  /// Feed per tooth as it was executed, override and control included: what forces are of. `Bound` has the
-  /// one that was commanded.
-  std::optional<Figure> executed_fz_mm = {};
+  /// Feed per tooth and cutting speed as they were executed, override and control included, those held
+  /// longest: what forces and wear are of. `Bound` has the ones that were planned.
+  std::optional<Figure> executed_fz_mm = {}, executed_vc_m_min = {};
   Series wear_series_mm;                ///< flank wear over cutting time
   Series load_series_percent;           ///< spindle load over cutting time
   Verdict verdict = Verdict::kUnknown;  ///< as recorded; a later judgement supersedes it (`CaseBase::judge`)

@@ -89,7 +89,7 @@ auto table() {
       Field{34, "peak_area_mm2", "mm2", NumberAt{at<kBound, &B::peak_area_mm2>}, 0.0, 1e4},
       Field{35, "mean_chip_mm", "mm", NumberAt{at<kBound, &B::mean_chip_mm>}, 0.0, 10.0},
       Field{36, "mean_contact_rad", "rad", NumberAt{at<kBound, &B::mean_contact_rad>}, 0.0, 2.0 * kPi},
-      Field{37, "aimed_over_mm", "mm", NumberAt{at<kBound, &B::aimed_over_mm>}, -100.0, 100.0},
+      Field{38, "aimed_over_mm", "mm", FigureAt{at<kBound, &B::aimed_over_mm>}, -100.0, 100.0},
 
       Field{50, "predicted_time_s", "s", NumberAt{at<kPredicted, &P::time_s>}, 0.0, kTimeMax},
       Field{51, "predicted_peak_force_n", "N", NumberAt{at<kPredicted, &P::peak_force_n>}, 0.0, kForceMax},
@@ -101,6 +101,7 @@ auto table() {
       Field{56, "predicted_force_margin", "1", NumberAt{at<kPredicted, &P::force_margin>}, 0.0, 100.0},
       Field{57, "predicted_specific_force_n_mm2", "N/mm2", NumberAt{at<kPredicted, &P::specific_force_n_mm2>},
             0.0, 1e6},
+      Field{58, "predicted_held_fz_mm", "mm", NumberAt{at<kPredicted, &P::held_fz_mm>}, 0.0, 10.0},
 
       Field{70, "time_s", "s", FigureAt{at<kObserved, &O::time_s>}, 0.0, kTimeMax},
       Field{71, "spindle_load_percent", "%", FigureAt{at<kObserved, &O::spindle_load_percent>}, -1000.0,
@@ -118,6 +119,7 @@ auto table() {
       Field{80, "chatter", "1", FigureAt{at<kObserved, &O::chatter>}, 0.0, 1.0},
       Field{81, "breakage", "1", FigureAt{at<kObserved, &O::breakage>}, 0.0, 1.0},
       Field{82, "executed_fz_mm", "mm", FigureAt{at<kObserved, &O::executed_fz_mm>}, 1e-5, 10.0},
+      Field{83, "executed_vc_m_min", "m/min", FigureAt{at<kObserved, &O::executed_vc_m_min>}, 0.01, 20000.0},
       Field{90, "wear_series_mm", "mm", SeriesAt{at<kObserved, &O::wear_series_mm>}, 0.0, kWearMax},
       Field{91, "load_series_percent", "%", SeriesAt{at<kObserved, &O::load_series_percent>}, -1000.0,
             1000.0},

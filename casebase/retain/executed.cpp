@@ -7,27 +7,10 @@
 namespace capstan::casebase::retain {
 namespace {
 
-constexpr double kBin = 0.005;  // values within so much are one: the resolution of `Statistic::held`
 constexpr double kLeastHeld = 1e-3;
 
 // Feed and spindle speed: the numbers whose longest held value is asked for.
 constexpr std::array kHeld = {Item::kFeed, Item::kSpindle};
-
-int bin_of(double value) { return static_cast<int>(std::lround(std::log(value) / kBin)); }
-
-void finish(Statistic& s, const std::map<int, std::pair<double, double>>& bins) {
-  // A value that lies at the edge of two bins fills both: neighbours count together.
-  for (auto at = bins.begin(); at != bins.end(); ++at) {
-    double seconds = at->second.first, sum = at->second.second;
-    if (const auto next = std::next(at); next != bins.end() && next->first == at->first + 1) {
-      seconds += next->second.first;
-      sum += next->second.second;
-    }
-    if (seconds <= s.held_s) continue;
-    s.held_s = seconds;
-    s.held = sum / seconds;
-  }
-}
 
 }  // namespace
 
@@ -54,7 +37,12 @@ void Splitter::close() {
   if (!open_) return;
   Executed& s = open_->step;
   s.longest_stop_s = std::max(s.longest_stop_s, open_->stop_s);
-  for (std::size_t i = 0; i < kHeld.size(); ++i) finish(s.number[index_of(kHeld[i])], open_->held[i]);
+  for (std::size_t i = 0; i < kHeld.size(); ++i) {
+    const Held::Longest longest = open_->held[i].longest();
+    Statistic& n = s.number[index_of(kHeld[i])];
+    n.held = longest.value;
+    n.held_s = longest.seconds;
+  }
   for (Statistic& n : s.number) {
     if (n.seconds > 0.0) n.mean /= n.seconds;
   }
@@ -80,9 +68,7 @@ void Splitter::weigh(double seconds) {
     const std::size_t n = index_of(kHeld[i]);
     const double value = std::abs(now_[n]);
     if ((known_ >> n & 1U) == 0 || value < kLeastHeld) continue;
-    auto& bin = open_->held[i][bin_of(value)];
-    bin.first += seconds;
-    bin.second += value * seconds;
+    open_->held[i].add(value, seconds);
   }
 }
 

@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "casebase/record/held.h"
 #include "casebase/retain/log.h"
 #include "casebase/retain/program_marks.h"
 
@@ -90,7 +90,7 @@ class Splitter {
  private:
   struct Open {
     Executed step;
-    std::array<std::map<int, std::pair<double, double>>, 2> held;  ///< bin: seconds, weighted sum
+    std::array<Held, 2> held;
     double stop_s = 0.0, keep_every_s = 0.0;
     std::vector<std::optional<Event>> rising;
   };

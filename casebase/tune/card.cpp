@@ -31,8 +31,9 @@ bool measured(const std::optional<Figure>& f) {
 struct Observations {
   std::vector<ForceSample> forces;
   std::vector<LifeSample> lives;
-  std::vector<std::string> forces_of, lives_of;
-  std::size_t unfed = 0;
+  std::vector<std::string> forces_of, lives_of, cut_short;
+  std::size_t unfed = 0, far = 0;  // forces
+  std::size_t unfed_lives = 0;
 };
 
 class Collector {
@@ -40,24 +41,39 @@ class Collector {
   explicit Collector(const model::WorkMaterial& card) : card_(card), group_(material_group_of(card)) {}
 
   void hear(const Case& c) {
-    const std::string edge = edge_of(c.from);
-    if (c.origin != Origin::kMeasured || c.asked.material_group != group_ || edge.empty()) return;
-    if (cut_short(c.observed)) return;
+    if (c.origin != Origin::kMeasured || c.asked.material_group != group_) return;
     const auto substrate = model::substrate_from_text(
         std::string_view(c.asked.tool_class).substr(0, c.asked.tool_class.find('/')));
     if (!substrate) return;
-    const std::size_t number = edges_.emplace(edge, edges_.size()).first->second;
     Observations& to = of_[*substrate];
-    hear_force(c, *substrate, number, to);
-    if (c.observed.wear_series_mm.origin != Origin::kMeasured) return;
-    if (const auto life = life_of(readings_of(c.observed.wear_series_mm), kWornMm)) {
-      to.lives.push_back({c.bound.vc_m_min, c.bound.fz_mm, c.bound.ap_mm, *life, number});
-      to.lives_of.push_back(c.id);
+    // What a tool bore until it broke is no figure, but a reason not to ask more of others.
+    if (cut_short(c.observed)) {
+      to.cut_short.push_back(c.id);
+      return;
     }
+    const std::string edge = edge_of(c.from);
+    if (edge.empty()) return;
+    const std::size_t number = edges_.emplace(edge, edges_.size()).first->second;
+    hear_force(c, *substrate, number, to);
+    hear_life(c, number, to);
   }
   [[nodiscard]] const std::map<model::Substrate, Observations>& of() const { return of_; }
 
  private:
+  /// A life is of the speed and feed that were executed.
+  static void hear_life(const Case& c, std::size_t edge, Observations& to) {
+    if (c.observed.wear_series_mm.origin != Origin::kMeasured) return;
+    const auto life = life_of(readings_of(c.observed.wear_series_mm), kWornMm);
+    if (!life) return;
+    const auto &speed = c.observed.executed_vc_m_min, &fed = c.observed.executed_fz_mm;
+    if (!measured(speed) || !measured(fed)) {
+      ++to.unfed_lives;
+      return;
+    }
+    to.lives.push_back({speed->value, fed->value, c.bound.ap_mm, *life, edge});
+    to.lives_of.push_back(c.id);
+  }
+
   /// A force is of the feed that was executed. Chips are as much thinner as the feed was less.
   void hear_force(const Case& c, model::Substrate substrate, std::size_t edge, Observations& to) {
     const Predicted& p = c.predicted;
@@ -66,9 +82,14 @@ class Collector {
     if (!measured(force) || !positive(p.peak_force_n) || !(p.force_margin >= 1.0) ||
         !positive(p.specific_force_n_mm2) || !positive(b.mean_chip_mm) || !positive(b.fz_mm))
       return;
-    const double share = measured(fed) ? fed->value / b.fz_mm : 0.0;
-    if (!(share >= 1.0 / kMostMultiplier && share <= kMostMultiplier)) {
+    if (!measured(fed) || !positive(p.held_fz_mm)) {
       ++to.unfed;
+      return;
+    }
+    const double share = fed->value / p.held_fz_mm;
+    constexpr double kRounding = 1e-9;
+    if (!(share >= kLeastFeedShare - kRounding && share <= kMostFeedShare + kRounding)) {
+      ++to.far;
       return;
     }
     if (!heard_.emplace(force->value, p.peak_force_n, b.vc_m_min, b.fz_mm).second) return;
@@ -94,9 +115,10 @@ class Collector {
   std::set<std::tuple<double, double, double, double>> heard_;  // copies under other names are one
 };
 
-/// Why planning does not take a correction; empty: it does. `unsafe_up`: a factor above 1 is the unsafe way.
-/// A force that the others do not explain narrows and lowers nothing; what it raises holds, with the card's
-/// spread at least.
+/// Says why planning does not take a correction, if it does not. `sign`: 1 where a factor above 1 is the
+/// unsafe way, as of forces; -1 where one below it is, as of lives. Against a case that the others do not
+/// explain, or that was cut short, nothing is lowered or narrowed; what the others raise holds, with the
+/// card's spread at least.
 void judge(CardCorrection& c, double sign, double spread_believed) {
   const double ln_unsafe = sign * std::log(c.factor);  // above 0: more force, or less life, than the card
   if (c.edges < kLeastEdges) {
@@ -104,11 +126,13 @@ void judge(CardCorrection& c, double sign, double spread_believed) {
         fmt::format("measured on {}, and {} are needed", counted(c.edges, "edge", "edges"), kLeastEdges);
   } else if (!c.beyond.empty() && ln_unsafe <= 0.0) {
     c.why_not = "nothing is lowered or narrowed against what the others do not explain";
+  } else if (!c.cut_short.empty() && ln_unsafe <= 0.0) {
+    c.why_not = "nothing is lowered or narrowed where tools broke or chattered heavily";
   } else if (ln_unsafe < -kBelievedDeviations * std::log(spread_believed)) {
     c.why_not = fmt::format("further from the card than {} standard deviations of its spread",
                             trimmed(kBelievedDeviations, 1));
   }
-  if (!c.beyond.empty()) c.spread = std::max(c.spread, c.spread_before);
+  if (!c.beyond.empty() || !c.cut_short.empty()) c.spread = std::max(c.spread, c.spread_before);
 }
 
 std::vector<std::string> at_places(const std::vector<std::string>& ids,
@@ -123,6 +147,12 @@ std::vector<std::string> sorted(std::vector<std::string> ids) {
   return ids;
 }
 
+/// "between 0.5 and 1.1 times the planned feed".
+std::string within() {
+  return fmt::format("between {} and {} times the planned feed", trimmed(kLeastFeedShare, 2),
+                     trimmed(kMostFeedShare, 2));
+}
+
 std::optional<CardCorrection> force_of(const Observations& seen, const model::WorkMaterial& card,
                                        model::Substrate substrate, double spread) {
   const model::MechanisticSet* set = model::measured_set(card, substrate);
@@ -134,10 +164,17 @@ std::optional<CardCorrection> force_of(const Observations& seen, const model::Wo
   out.spread_before = out.spread = spread;
   out.of_what = set != nullptr ? "mills as those of its set" : "mills, as for a rake of 0";
   out.unfed = seen.unfed;
+  out.far = seen.far;
+  out.cut_short = sorted(seen.cut_short);
   const auto fit = correct_force_factor(seen.forces, law, spread);
   if (!fit) {
-    if (seen.unfed == 0) return std::nullopt;
-    out.why_not = "no case says with which feed its force was measured (executed_fz_mm)";
+    if (seen.unfed == 0 && seen.far == 0) return std::nullopt;
+    if (seen.unfed > 0)
+      out.why_not =
+          "no case says with which feed its force was measured and which its plan held (executed_fz_mm, "
+          "predicted_held_fz_mm)";
+    if (seen.far > 0)
+      out.why_not += (out.why_not.empty() ? "" : "; ") + fmt::format("no force was measured {}", within());
     return out;
   }
   out.cases = fit->cases;
@@ -158,10 +195,18 @@ std::optional<CardCorrection> life_of(const Observations& seen, const model::Wor
   });
   if (law == card.life.end()) return std::nullopt;
   const auto fit = correct_life(seen.lives, *law);
-  if (!fit) return std::nullopt;
+  if (!fit && seen.unfed_lives == 0) return std::nullopt;
   const double scatter = law->scatter > 0.0 ? law->scatter : kLifeScatter;
-  CardCorrection out{.model = CardModel::kLife, .substrate = substrate, .law = fit->law, .why_not = {}};
+  CardCorrection out{.model = CardModel::kLife, .substrate = substrate, .law = *law, .why_not = {}};
   out.of_what = "tools";
+  out.unfed = seen.unfed_lives;
+  out.cut_short = sorted(seen.cut_short);
+  if (!fit) {
+    out.why_not =
+        "no case says at which speed and feed its edge was worn (executed_vc_m_min, executed_fz_mm)";
+    return out;
+  }
+  out.law = fit->law;
   out.cases = fit->how.cases;
   out.edges = fit->how.groups;
   out.factor = fit->law.life_min / law->life_min;
@@ -186,9 +231,19 @@ std::string CardCorrection::words() const {
   if (!beyond.empty())
     out += fmt::format("; {} beyond what the others explain, as {}",
                        counted(beyond.size(), "case lies", "cases lie"), beyond.front().substr(0, kIdShown));
+  if (!cut_short.empty())
+    out += fmt::format("; {} a tool that broke or chattered heavily, as {}",
+                       counted(cut_short.size(), "case is of", "cases are of"),
+                       cut_short.front().substr(0, kIdShown));
   if (unfed > 0)
-    out += fmt::format("; {} not heard, without the feed that was executed or far from the planned one",
-                       counted(unfed, "force is", "forces are"));
+    out += model == CardModel::kForce
+               ? fmt::format("; {} not heard, for nobody says with which feed, or which the plan held",
+                             counted(unfed, "force is", "forces are"))
+               : fmt::format("; {} not heard, for nobody says at which speed and feed",
+                             counted(unfed, "life is", "lives are"));
+  if (far > 0)
+    out +=
+        fmt::format("; {} not heard, for not measured {}", counted(far, "force is", "forces are"), within());
   return out;
 }
 

@@ -15,18 +15,24 @@
 /// What measured cases say of a material's card: planning takes it in place of the card's own numbers.
 ///
 /// Force   each case gives ln(kc observed / kc of the card) at its mean chip as it was executed: the feed of
-///         the case over the planned one, times the planned chip. kc observed is the specific force that the
-///         plan of the case used, times observed over predicted peak force without its margin, over that
-///         share of the feed. One factor is fitted to them, each edge a group of its own, with the card's
-///         spread as its prior. It is of the whole force of a mill: all six coefficients of a set, the
-///         axial edge force (kae) among them, are multiplied by it, for a peak force tells no two of them
-///         apart. Kienzle's law is taken for a rake of 0, and the rake of a case's mill is taken out of its
-///         force, so that what raked mills saved does not count for mills without a rake. A set of the card
-///         is of the rake of the mills that it was measured with, which nobody states.
-/// Life    the extended Taylor law, as `correct_life`.
+///         the case over the one that its plan's schedule held longest, times the planned chip. kc observed
+///         is the specific force that the plan of the case used, times observed over predicted peak force
+///         without its margin, over that share of the feed. Runout is no part of that share: a tooth that it
+///         makes cut deeper by r takes (s f + r) / (f + r) of its planned chip at a share s of the feed f,
+///         more than s below 1, so that kc comes out too high there, and less above, so that it comes out too
+///         low: by a factor of s at most, and above kMostFeedShare no force is heard. One factor is fitted to
+///         them, each edge a group of its own, with the card's spread as its prior. It is of the whole force
+///         of a mill: all six coefficients of a set, the axial edge force (kae) among them, are multiplied by
+///         it, for a peak force tells no two of them apart. Kienzle's law is taken for a rake of 0, and the
+///         rake of a case's mill is taken out of its force, so that what raked mills saved does not count for
+///         mills without a rake. A set of the card is of the rake of the mills that it was measured with,
+///         which nobody states.
+/// Life    the extended Taylor law, as `correct_life`, of the speed and feed that were executed: those of the
+///         case that holds the edge's readings stand for all of its cuts.
 ///
 /// What is unsafe is no outlier: a force above, or a life below, what the others explain forbids that
-/// anything is lowered or narrowed (`CardCorrection::beyond`).
+/// anything is lowered or narrowed (`CardCorrection::beyond`), and so does a tool of the substrate that broke
+/// or chattered heavily in this material (`cut_short`), of which no figure is heard.
 namespace capstan::casebase::tune {
 
 /// Named edges that were measured before planning takes what they say: fewer do not show how far edges
@@ -38,6 +44,10 @@ inline constexpr double kLeastForceSpread = 1.1;
 /// Standard deviations of what is held beforehand beyond which a smaller force, or a longer life, is not
 /// believed: 98 of 100 lie within. A larger force and a shorter life are.
 inline constexpr double kBelievedDeviations = 2.0;
+
+/// Executed over planned feed within which a force is heard: far below, the law of the chip carries what the
+/// cut does not show; above, see the runout. Defaults, unsourced; the upper one is kLeastForceSpread.
+inline constexpr double kLeastFeedShare = 0.5, kMostFeedShare = 1.1;
 
 enum class CardModel : unsigned char { kForce, kLife };
 
@@ -52,9 +62,12 @@ struct CardCorrection {
   model::ToolLifeLaw law;             ///< of kLife
   std::string of_what = {};           ///< which cuts it holds for: "mills, as for a rake of 0"
   std::vector<std::string> ids = {};  ///< of the cases heard, by id
-  std::vector<std::string> beyond = {};  ///< of those that the others do not explain, on the unsafe side
-  std::size_t unfed =
-      0;  ///< forces that are not heard, for their cases do not say with which feed they were cut
+  std::vector<std::string> beyond = {};     ///< of those that the others do not explain, on the unsafe side
+  std::vector<std::string> cut_short = {};  ///< of the cases whose tool broke or chattered heavily, by id
+  /// Figures that are not heard, for nobody says at which feed (of lives: speed, too) they were measured, or
+  /// which feed the plan of a force held.
+  std::size_t unfed = 0;
+  std::size_t far = 0;  ///< forces that are not heard, for their feed lies beyond kLeast- or kMostFeedShare
   std::string why_not;  ///< why planning does not take it; empty: it does
 
   [[nodiscard]] bool taken() const { return why_not.empty(); }
@@ -72,8 +85,9 @@ using SpreadOf = std::function<double(model::Substrate)>;
 
 /// What these cases say of the card, in the order of substrates; nothing where none says anything. Heard are
 /// measured figures of named edges, of cases of this material whose plan says what it expected, of forces
-/// those whose executed feed was measured, too, within kMostMultiplier of the planned one; not of cuts whose
-/// tool broke or chattered. Equal figures count once. `card`: without the correction of any case.
+/// those whose executed feed was measured, too, near enough to the one that the plan's schedule holds, of
+/// lives those whose executed speed and feed were; not of cuts whose tool broke or chattered, which are
+/// counted. Equal figures count once. `card`: without the correction of any case.
 [[nodiscard]] std::vector<CardCorrection> card_corrections(std::span<const Case> cases,
                                                            const model::WorkMaterial& card,
                                                            const SpreadOf& spread_of);

@@ -221,9 +221,12 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   load(Watched::kForce, o.peak_force_n);
   load(Watched::kPower, o.power_w);
   // Half the zone lies to either side of its middle, which the path aims at: of 20 H7 that is 20.0105 mm.
-  std::optional<Figure> size = o.size_deviation_mm;
-  if (size) size->value -= c.bound.aimed_over_mm;
-  load(Watched::kSize, size);
+  // Where nobody says what it aims at, nobody knows how far a size is off.
+  if (o.size_deviation_mm && c.bound.aimed_over_mm) {
+    Figure size = *o.size_deviation_mm;
+    size.value -= c.bound.aimed_over_mm->value;
+    load(Watched::kSize, size);
+  }
   load(Watched::kFinish, o.surface_ra_um);
   if (const auto wear = wear_at_change_mm(o, e.at, p)) load(Watched::kWear, Figure{.value = *wear});
   e.failed = o.verdict == Verdict::kBad || cut_short(o);
@@ -267,8 +270,8 @@ std::vector<BoreSample> bores_of(std::span<const Case> cases) {
     const auto& size = c.observed.size_deviation_mm;
     if (cut_short(c.observed)) continue;
     if (c.origin != Origin::kMeasured || !mills_bore(c.asked) || !evidence(size)) continue;
-    if (!positive(c.asked.cutter_diameter_mm)) continue;
-    out.push_back({size->value - c.bound.aimed_over_mm, c.bound.fz_mm * std::max(1, c.asked.teeth),
+    if (!positive(c.asked.cutter_diameter_mm) || !c.bound.aimed_over_mm) continue;
+    out.push_back({size->value - c.bound.aimed_over_mm->value, c.bound.fz_mm * std::max(1, c.asked.teeth),
                    c.asked.stick_out_mm / c.asked.cutter_diameter_mm, parts.of(part_name(c.from))});
   }
   return out;

@@ -54,6 +54,8 @@ void plan_step(PlannedJob& j, const model::StepLoads& loads) {
   c.predicted.power_w = loads.power_w;
   c.predicted.tool_life_min = j.tables.life_min;
   c.predicted.force_margin = loads.force_margin;
+  c.predicted.held_fz_mm = j.fz_mm;  // a schedule of one feed
+  c.bound.aimed_over_mm = casebase::Figure{.value = 0.0, .origin = casebase::Origin::kSimulated};
   c.bound.ae_mm = j.ae_mm;
   // Of the chord: cos(phi) = 1 - 2 ae / D, hm = fz (1 - cos(phi)) / phi.
   const double cosine = 1.0 - 2.0 * j.ae_mm / j.question.cutter.cutting_diameter_mm;
@@ -76,10 +78,12 @@ casebase::Case case_of(const PlannedJob& j, const tune::Setting& at, const CutPa
   c.origin = casebase::Origin::kMeasured;
   c.bound.vc_m_min *= std::exp(at.ln_vc);
   c.bound.fz_mm *= std::exp(at.ln_fz);
+  c.predicted.held_fz_mm = c.bound.fz_mm;
   const auto figure = [](double v) { return casebase::Figure{.value = v}; };
   c.observed.time_s = figure(part.time_s);
   c.observed.peak_force_n = figure(part.seen.force_n);
   c.observed.executed_fz_mm = figure(c.bound.fz_mm);
+  c.observed.executed_vc_m_min = figure(c.bound.vc_m_min);
   c.observed.power_w = figure(part.seen.power_w);
   c.observed.size_deviation_mm = figure(part.seen.size_mm);
   c.observed.surface_ra_um = figure(part.seen.ra_um);
@@ -296,7 +300,7 @@ ForceForecasts forecast_forces(std::uint64_t first_seed, int shops) {
     const model::WorkMaterial& card = planned.question.material;
     const mechanics::ForceMargin by_card = mechanics::force_margin(card, model::Substrate::kCarbide);
     const auto found = tune::card_corrections(cases, card, [&](model::Substrate) { return by_card.spread; });
-    if (found.empty() || !found.front().taken()) continue;
+    if (found.empty() || !found.front().taken() || !found.front().cut_short.empty()) continue;
     ++out.taken;
     const tune::CardCorrection& by = found.front();
     mechanics::ForceMargin by_cases = by_card;

@@ -82,7 +82,9 @@ struct Summary {
 /// Forces of further edges against the loads that planning holds its limits against at the usual margin: by
 /// the card, and by the card that `tune::card_corrections` corrects from the first edges of each shop.
 struct ForceForecasts {
-  int shops = 0, taken = 0;  ///< taken: those whose cases the correction is taken of
+  /// taken: those whose cases the correction is taken of, and of which no cut was seen to chatter, where
+  /// nothing is narrowed.
+  int shops = 0, taken = 0;
   int cuts = 0, over_card = 0, over_cases = 0;
   int within_90 = 0, sharp = 0;  ///< of the first cuts of edges: within 1.645 standard deviations of `spread`
   /// Of each shop that is taken: ln of the load held over the true mean force.

@@ -82,6 +82,10 @@ void join(Executed& into, const Executed& e) {
     const Statistic& more = e.number[i];
     if (std::abs(more.peak) > std::abs(s.peak)) s.peak = more.peak;
     s.seconds += more.seconds;
+    if (more.held_s > s.held_s) {
+      s.held = more.held;
+      s.held_s = more.held_s;
+    }
   }
   into.events.insert(into.events.end(), e.events.begin(), e.events.end());
 }
@@ -122,11 +126,13 @@ Case observed(Case c, const Executed& e, const LogFrom& from) {
   bind_by_log(c, e);
   c.observed = {};
   c.observed.time_s = figure(e.moving_s);
-  // What it was cut with, where the log shows speed and feed: forces that are measured beside are of it. A
-  // table of times has what somebody noted.
+  // What it was cut with, where the log shows speed and feed: forces and wear that are measured beside are of
+  // it. A table of times has what somebody noted.
   const double rpm = e.of(Item::kSpindle).held, fed = e.of(Item::kFeed).held;
   const double fz = rpm > 0.0 && e.run != kSummedUp ? fed / rpm / std::max(1, c.asked.teeth) : 0.0;
   if (fz >= 1e-5 && fz <= 10.0) c.observed.executed_fz_mm = figure(fz);
+  const double vc = e.run != kSummedUp ? kPi * c.asked.cutter_diameter_mm * rpm / 1000.0 : 0.0;
+  if (vc >= 0.01 && vc <= 20000.0) c.observed.executed_vc_m_min = figure(vc);
   if (const Statistic& lag = e.of(Item::kLag); lag.seconds > 0.0)
     c.observed.lag_mm = figure(std::abs(lag.peak));
   if (const Statistic& load = e.of(Item::kLoad); load.seconds > 0.0) {

@@ -52,7 +52,9 @@ Case cut(int i, double factor) {
   c.predicted.force_margin = kMargin;
   c.predicted.specific_force_n_mm2 = model::specific_force_n_mm2(card(), mill("endmill"), 0.05);
   c.observed.peak_force_n = Figure{.value = factor * kPlannedN / kMargin * (1.0 + 0.04 * (i % 3 - 1))};
+  c.predicted.held_fz_mm = c.bound.fz_mm;
   c.observed.executed_fz_mm = Figure{.value = c.bound.fz_mm};
+  c.observed.executed_vc_m_min = Figure{.value = c.bound.vc_m_min};
   c.from.tool_instance = "E" + std::to_string(i / 3);
   c.from.source = "log";
   return c;
@@ -210,9 +212,85 @@ TEST(CardCorrections, AForceIsOfTheFeedThatWasExecuted) {
 }
 
 TEST(CardCorrections, AForceOfAFeedFarFromThePlannedOneIsNotHeard) {
+  // Far below, and above by more than what runout may hide: a tooth that cuts deeper by a runout takes less
+  // than its share of a larger feed.
+  for (const double share : {0.4, 1.2, 2.5}) {
+    auto cases = cuts(18, 0.8);
+    for (Case& c : cases) c.observed.executed_fz_mm->value = share * c.bound.fz_mm;
+    const CardCorrection c = corrections(cases).front();
+    EXPECT_EQ(c.cases, 0U) << share;
+    EXPECT_EQ(c.far, 18U) << share;
+    EXPECT_EQ(c.unfed, 0U) << share;
+    EXPECT_EQ(c.why_not, "no force was measured between 0.5 and 1.1 times the planned feed") << share;
+  }
+  auto turned_up = cuts(18, 0.8);
+  for (Case& c : turned_up) c.observed.executed_fz_mm->value = kMostFeedShare * c.bound.fz_mm;
+  EXPECT_EQ(corrections(turned_up).front().cases, 18U);
+}
+
+TEST(CardCorrections, TellForcesWithoutAFeedAndThoseOfAFarOneApart) {
+  auto cases = cuts(18, 1.0);
+  cases[0].observed.executed_fz_mm.reset();
+  cases[1].observed.executed_fz_mm->value *= 1.5;
+  cases[2].observed.executed_fz_mm->value *= 1.5;
+  const CardCorrection c = corrections(cases).front();
+  EXPECT_EQ(c.cases, 15U);
+  EXPECT_EQ(c.unfed, 1U);
+  EXPECT_EQ(c.far, 2U);
+  EXPECT_NE(c.words().find("; 1 force is not heard, for nobody says with which feed"), std::string::npos)
+      << c.words();
+  EXPECT_NE(c.words().find("; 2 forces are not heard, for not measured between 0.5 and 1.1 times"),
+            std::string::npos)
+      << c.words();
+}
+
+TEST(CardCorrections, AForceIsHeldAgainstTheFeedThatThePlansScheduleHolds) {
+  // A schedule that holds 2.5 times the feed that it began from, cut as it is written.
   auto cases = cuts(18, 0.8);
-  for (Case& c : cases) c.observed.executed_fz_mm->value = 0.4 * c.bound.fz_mm;
-  EXPECT_EQ(corrections(cases).front().cases, 0U);
+  for (Case& c : cases) {
+    c.predicted.held_fz_mm = 2.5 * c.bound.fz_mm;
+    c.observed.executed_fz_mm->value = c.predicted.held_fz_mm;
+  }
+  const CardCorrection c = corrections(cases).front();
+  EXPECT_EQ(c.cases, 18U) << c.words();
+  EXPECT_NEAR(c.factor, corrections(cuts(18, 0.8)).front().factor, 1e-9);
+  for (Case& one : cases) one.predicted.held_fz_mm = 0.0;  // of a plan before cases kept it
+  EXPECT_EQ(corrections(cases).front().unfed, 18U);
+  EXPECT_FALSE(corrections(cases).front().taken());
+}
+
+TEST(CardCorrections, AToolThatBrokeForbidsALowerForceAndANarrowerSpread) {
+  const auto with_one = [](double factor, void (*change)(Case&)) {
+    auto cases = cuts(18, factor);
+    Case& broken = cases.emplace_back(cut(18, factor));
+    broken.id = "broken";
+    broken.observed.peak_force_n.reset();
+    broken.from.tool_instance.clear();  // nobody noted which
+    change(broken);
+    return corrections(cases).front();
+  };
+  for (const auto change : {+[](Case& c) { c.observed.breakage = Figure{.value = 1.0}; },
+                            +[](Case& c) { c.observed.chatter = Figure{.value = 1.0}; }}) {
+    const CardCorrection lower = with_one(0.8, change);
+    EXPECT_FALSE(lower.taken());
+    EXPECT_EQ(lower.cut_short, std::vector<std::string>{"broken"});
+    EXPECT_NE(lower.words().find("1 case is of a tool that broke or chattered heavily, as broken"),
+              std::string::npos)
+        << lower.words();
+    const CardCorrection higher = with_one(1.4, change);
+    EXPECT_TRUE(higher.taken()) << higher.why_not;
+    EXPECT_GE(higher.spread, kSpread);
+  }
+  EXPECT_TRUE(with_one(0.8, [](Case& c) { c.observed.chatter = Figure{.value = 0.2}; }).taken());  // light
+  // A tool of another material or of another substrate says nothing of these.
+  EXPECT_TRUE(with_one(0.8, [](Case& c) {
+                c.observed.breakage = Figure{.value = 1.0};
+                c.asked.tool_class = "hss/endmill";
+              }).taken());
+  EXPECT_TRUE(with_one(0.8, [](Case& c) {
+                c.observed.breakage = Figure{.value = 1.0};
+                c.asked.material_group = "N/6061";
+              }).taken());
 }
 
 TEST(CardCorrections, NameWhatTheForceIsOfAndItsCases) {
@@ -233,6 +311,7 @@ std::vector<Case> worn(const std::vector<double>& lives_min) {
     Case c = cut(3 * edge, 1.0);
     c.observed.peak_force_n.reset();
     c.bound.vc_m_min = 200.0;
+    c.observed.executed_vc_m_min = Figure{.value = c.bound.vc_m_min};
     const double life = lives_min[static_cast<std::size_t>(edge)] * (1.0 + 0.05 * (edge - 2));
     for (double share = 0.1; share <= 1.2; share += 0.1)
       c.observed.wear_series_mm.samples.push_back({60.0 * share * life, 0.3 * std::pow(share, 0.7)});
@@ -246,6 +325,35 @@ TEST(CardCorrections, OneEdgeThatWoreFarSoonerForbidsALongerLife) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_FALSE(found.front().taken()) << found.front().words();
   EXPECT_EQ(found.front().beyond.size(), 1U);
+}
+
+TEST(CardCorrections, AToolThatBrokeForbidsALongerLife) {
+  auto cases = worn({40.0, 40.0, 40.0, 40.0, 40.0});
+  EXPECT_TRUE(corrections(cases).front().taken()) << corrections(cases).front().words();
+  cases.push_back(cut(30, 1.0));
+  cases.back().observed.breakage = Figure{.value = 1.0};
+  const auto found = corrections(cases);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().model, CardModel::kLife);
+  EXPECT_FALSE(found.front().taken()) << found.front().words();
+  EXPECT_GE(found.front().spread, found.front().spread_before);
+}
+
+TEST(CardCorrections, ALifeIsOfTheSpeedThatWasExecuted) {
+  // The spindle was turned down to 0.8: by v T^n = C with n = 0.25 the edge lasts 1 / 0.8^4 times as long.
+  const double share = 0.8, longer = std::pow(share, -1.0 / 0.25);
+  auto slow = worn(std::vector<double>(5, 30.0 * longer));
+  for (Case& c : slow) c.observed.executed_vc_m_min->value = share * c.bound.vc_m_min;
+  const auto found = corrections(slow);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found.front().factor, corrections(worn(std::vector<double>(5, 30.0))).front().factor, 0.05);
+  // Taken as of the planned speed it would be believed at that. Nobody says so, and it is not heard.
+  for (Case& c : slow) c.observed.executed_vc_m_min.reset();
+  const CardCorrection unfed = corrections(slow).front();
+  EXPECT_FALSE(unfed.taken());
+  EXPECT_EQ(unfed.cases, 0U);
+  EXPECT_EQ(unfed.unfed, 5U);
+  EXPECT_NE(unfed.words().find("5 lives are not heard"), std::string::npos) << unfed.words();
 }
 
 TEST(CardCorrections, FindTheLifeOfFollowedEdges) {

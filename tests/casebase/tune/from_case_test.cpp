@@ -26,6 +26,7 @@ PlannedStep planned() {
   c.bound.fz_mm = 0.06;
   c.bound.path_length_mm = 1000.0;
   c.bound.mean_chip_mm = 0.03;
+  c.bound.aimed_over_mm = Figure{.value = 0.0, .origin = Origin::kSimulated};
   c.bound.path_blocks = 100;
   c.predicted.time_s = 60.0;
   c.predicted.peak_force_n = 900.0;
@@ -279,17 +280,26 @@ TEST(SamplesOfCases, LeaveOutTimesAndBoresOfToolsThatBrokeOrChattered) {
 TEST(SamplesOfCases, OfBoresAreWhatThePathMissedOfTheSizeThatItAimedAt) {
   // 20 H7, aimed at 20.0105: 0.02 mm over the nominal size is 0.0095 over what was programmed.
   Case c = milled_bore("1");
-  c.bound.aimed_over_mm = 0.0105;
+  c.bound.aimed_over_mm->value = 0.0105;
   const std::vector<Case> cases = {c};
   ASSERT_EQ(bores_of(cases).size(), 1U);
   EXPECT_NEAR(bores_of(cases).front().deviation_mm, 0.0095, 1e-12);
+}
+
+TEST(SamplesOfCases, LeaveOutSizesOfPathsOfWhichNobodySaysWhatTheyAimAt) {
+  Case c = milled_bore("1");
+  c.bound.aimed_over_mm.reset();
+  EXPECT_TRUE(bores_of(std::vector<Case>{c}).empty());
+  Case pocket = cut(1);
+  pocket.bound.aimed_over_mm.reset();
+  EXPECT_FALSE(evidence_of(pocket, planned()).ln_load[static_cast<std::size_t>(Watched::kSize)]);
 }
 
 TEST(EvidenceOf, HoldsASizeAgainstItsZoneAsDrawn) {
   // A zone of 0.1 mm on one side of the nominal size: its middle is no deviation, its edge is all of the
   // limit.
   Case c = cut(1);
-  c.bound.aimed_over_mm = 0.05;
+  c.bound.aimed_over_mm->value = 0.05;
   c.observed.size_deviation_mm = Figure{.value = 0.05};
   EXPECT_LE(load(evidence_of(c, planned()), Watched::kSize), 0.02 + 1e-12);
   c.observed.size_deviation_mm = Figure{.value = 0.0};

@@ -76,9 +76,10 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
     if (c.taken()) {
       take(c, out.card);
       out.rows.push_back({"model by cases", c.words(), "cases " + c.named()});
-      out.told.push_back({.code = "CASE-MODEL",
-                          .severity = c.beyond.empty() ? Severity::kNote : Severity::kWarning,
-                          .message = c.words() + "; by cases " + c.named()});
+      out.told.push_back(
+          {.code = "CASE-MODEL",
+           .severity = c.beyond.empty() && c.cut_short.empty() ? Severity::kNote : Severity::kWarning,
+           .message = c.words() + "; by cases " + c.named()});
     } else {
       const bool few = c.edges < tune::kLeastEdges && c.beyond.empty();
       out.told.push_back({.code = "CASE-MODEL",
@@ -100,9 +101,16 @@ void tell_without_cases(model::Plan& made, const model::Plan& read, const Inputs
   Job trial;
   trial.threads = job.threads;
   trial.evaluation_budget = job.evaluation_budget;
+  trial.set_clock(job.clock());
   trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
   const auto other = bind_checked(read, without, policy, trial, {});
-  if (!other) return;
+  if (job.stop_requested()) return;
+  if (!other) {
+    job.note("CASE-WITHOUT",
+             "what the plan would be without cases is not known, for that could not be planned: " +
+                 other.error().message);
+    return;
+  }
   std::map<std::string, const model::StepResult*> then;
   for (const model::StepResult& s : other->plan.steps) then.emplace(model::step_id(other->plan, s), &s);
   std::size_t changed = 0;

@@ -30,8 +30,8 @@ struct CorrectedCard {
 
 /// Of a plan whose card cases corrected: what it would be without any case, planned and checked once more,
 /// quietly: its time as a row of the record and a note (CASE-WITHOUT), and each step that is another as an
-/// alternative beside its speed. Costs as much as the planning did. Nothing of another plan, and nothing
-/// where `job` is stopped or has a deadline.
+/// alternative beside its speed; where that cannot be planned, the note says why. Costs as much as the
+/// planning did. Nothing of another plan, and nothing where `job` is stopped or has a deadline.
 void tell_without_cases(model::Plan& made, const model::Plan& read, const Inputs& inputs,
                         const Policy& policy, Job& job);
 

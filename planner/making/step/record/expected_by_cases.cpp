@@ -12,8 +12,6 @@
 #include "casebase/casebase.h"
 #include "casebase/tune/from_case.h"
 #include "planner/ground/base/number.h"
-#include "planner/model/nouns/executable.h"
-#include "planner/model/plan/order/step_ids.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::step {
@@ -98,30 +96,18 @@ Bores bores_of(const std::vector<Case>& cases, const std::string& tool_class) {
   return out;
 }
 
-/// The steps whose path stands in the file: it aims where the file says.
-std::set<std::string> with_given_paths(const model::Plan& plan) {
-  std::set<std::string> out;
-  for (const model::StepResult& s : plan.steps) {
-    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
-    if (ws == nullptr) continue;
-    const model::Decision* path = plan.ledger.find(ws->its_operation, "its_toolpath");
-    if (path == nullptr || path->binder == model::Binder::kGiven) out.insert(model::step_id(plan, s));
-  }
-  return out;
-}
-
 /// `cases`: of the plan's material. Bores of another material, or of another tool class, say nothing of
 /// these: other forces bend other tools.
 void tell_bores(const model::Plan& plan, const std::vector<Case>& steps, const std::vector<Case>& cases,
                 std::vector<model::Provenance>& rows, Job& job) {
-  const std::set<std::string> given = with_given_paths(plan);
   std::map<std::string, Bores> by_tool;
   for (const Case& s : steps) {
     const casebase::Question& q = s.asked;
     const bool finishes =
         q.operation.find("FINISH") != std::string::npos || !(s.bound.allowance_side_mm > 0.0);
-    if (!finishes || given.contains(s.from.workingstep) || !tune::mills_bore(q) ||
-        !(q.cutter_diameter_mm > 0.0) || !(q.stick_out_mm > 0.0))
+    // A path that the file gave aims where the file says.
+    if (!finishes || !s.bound.aimed_over_mm || !tune::mills_bore(q) || !(q.cutter_diameter_mm > 0.0) ||
+        !(q.stick_out_mm > 0.0))
       continue;
     if (!by_tool.contains(q.tool_class)) by_tool.emplace(q.tool_class, bores_of(cases, q.tool_class));
     const Bores& bores = by_tool.at(q.tool_class);
@@ -130,7 +116,7 @@ void tell_bores(const model::Plan& plan, const std::vector<Case>& steps, const s
                  ratio = q.stick_out_mm / q.cutter_diameter_mm;
     const double off = bores.correction->deviation_mm(feed_mm, ratio);
     const double half = half_90(bores.correction->std_dev_mm(feed_mm, ratio), bores.parts);
-    const double aimed = s.bound.aimed_over_mm, half_zone = 0.5 * q.tolerance_mm;
+    const double aimed = s.bound.aimed_over_mm->value, half_zone = 0.5 * q.tolerance_mm;
     const std::string value = signed_mm(aimed + off) + " +- " + fixed(half, 3) + " mm";
     const std::string by = heard(bores.cases, bores.parts, bores.correction->how.doubted);
     rows.push_back({"bore of '" + s.from.workingstep + "' by cases", value, by});

@@ -55,10 +55,24 @@ TEST(Import, TimeSpeedAndFeedOfAStepAreThoseOfTheLog) {
   EXPECT_DOUBLE_EQ(drill.observed.time_s->value, 10.0);
   EXPECT_NEAR(drill.bound.fz_mm, 0.1, 1e-9);  // 600 / 3000 / 2
   EXPECT_NEAR(drill.observed.executed_fz_mm->value, 0.1, 1e-9);
-  EXPECT_NEAR(drill.predicted.time_s, 10.0, 1e-9);               // 100 mm at 600 mm/min
-  EXPECT_NEAR(drill.bound.vc_m_min, 94.2478, 1e-3);              // 10 mm at 3000 1/min
+  EXPECT_NEAR(drill.observed.executed_vc_m_min->value, 94.2478, 1e-3);  // 10 mm at 3000 1/min
+  EXPECT_NEAR(drill.predicted.time_s, 10.0, 1e-9);                      // 100 mm at 600 mm/min
+  EXPECT_NEAR(drill.bound.vc_m_min, 94.2478, 1e-3);                     // 10 mm at 3000 1/min
   EXPECT_DOUBLE_EQ(cases->back().observed.time_s->value, 20.0);  // not the two seconds of standing still
   EXPECT_EQ(cases->back().observed.verdict, Verdict::kUnknown);
+}
+
+TEST(Import, WhatWasExecutedIsWhatHeldLongestInAllStaysAtTheStep) {
+  Job job;
+  // Tool 1 begins at 600 mm/min and 3000 1/min, and comes back for longer at 900 and 2500.
+  const auto cases = import(
+      "time_s,tool,feed_mm_min,spindle_rpm\n0,1,600,3000\n2,2,300,3000\n9,1,900,2500\n17,2,300,3000\n"
+      "18,2,0,3000\n",
+      LogFormat::kCsv, {}, job);
+  ASSERT_TRUE(cases) << to_text(cases.error());
+  ASSERT_EQ(cases->size(), 2U);
+  EXPECT_NEAR(cases->front().observed.executed_fz_mm->value, 0.18, 1e-9);        // 900 / 2500 / 2
+  EXPECT_NEAR(cases->front().observed.executed_vc_m_min->value, 78.5398, 1e-3);  // 10 mm at 2500 1/min
 }
 
 TEST(Import, AToolsSerialNumberNamesTheEdgeOfItsSteps) {
@@ -117,6 +131,8 @@ TEST(Import, TableOfTimesMakesCasesOfEachOfItsParts) {
   const auto all = import(table, LogFormat::kTimes, {}, job, "");
   ASSERT_TRUE(all) << to_text(all.error());
   EXPECT_EQ(all->size(), 4U);
+  EXPECT_FALSE(all->front().observed.executed_fz_mm);  // somebody noted them
+  EXPECT_FALSE(all->front().observed.executed_vc_m_min);
   const auto one = import(table, LogFormat::kTimes, {}, job, "2");
   ASSERT_TRUE(one);
   ASSERT_EQ(one->size(), 2U);
