@@ -45,7 +45,9 @@ class Writer {
         words_(words),
         condemned_(condemned),
         program_(plan.machine.control, words),
-        probings_(probings_before(plan)) {}
+        probings_(probings_before(plan)) {
+    for (const StepResult& s : plan.steps) uses_through_ = uses_through_ || s.through;
+  }
 
   Result<std::string> run() {
     if (!words_.first.empty()) program_.line(words_.first);
@@ -316,7 +318,7 @@ class Writer {
 
   void coolant(const StepResult& step) {
     // First, for the code that switches it off may be M9.
-    if (!step.through) through(false);
+    if (!step.through) through(false, uses_through_);
     if ((flood_ && !step.flood) || (mist_ && !step.mist) || (!step.flood && !step.mist)) program_.line("M9");
     if (step.mist) program_.line("M7");
     if (step.flood) program_.line("M8");
@@ -325,10 +327,10 @@ class Writer {
     if (step.through) through(true);
   }
 
-  // Coolant through the spindle; where it is on it is stated again at each step.
-  void through(bool on) {
+  // Coolant through the spindle; a program that has it on somewhere states it at each step.
+  void through(bool on, bool always = false) {
     const auto codes = through_codes_of(plan_.machine);  // there where a step has it on: able.h
-    if (codes && (on || through_)) program_.line(on ? codes->on : codes->off);
+    if (codes && (on || through_ || always)) program_.line(on ? codes->on : codes->off);
     through_ = on;
   }
 
@@ -471,7 +473,8 @@ class Writer {
   double speed_ = 0.0;
   std::string called_;  // speed that the change of the tool stated, until the spindle starts
   bool flood_ = false, mist_ = false, through_ = false;
-  std::string defined_;  // text of the cycle that a call would run
+  bool uses_through_ = false;  // a step of the plan does
+  std::string defined_;        // text of the cycle that a call would run
 };
 
 }  // namespace

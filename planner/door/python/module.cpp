@@ -119,6 +119,10 @@ void bind_options(py::module_& m) {
   CAPSTAN_FIELD(feed_override);
   CAPSTAN_FIELD(shop);
   CAPSTAN_FIELD(without);
+  CAPSTAN_FIELD(body);
+  CAPSTAN_FIELD(features_only);
+  CAPSTAN_FIELD(axis_limits);
+  CAPSTAN_FIELD(work_offset);
 #undef CAPSTAN_FIELD
   options.def_readwrite("from_", &PlanOptions::from);  // `from` is a word of the language
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "planner/ground/vocabulary/control_rows.h"
@@ -12,6 +13,8 @@ namespace capstan::model {
 /// options under `control`; writers and readers of programs ask `control_option`
 /// (planner/model/plan/resources/control_options.h).
 struct ControlOptionRow {
+  /// How a text must look: any; M codes with blanks between; two of them with / between.
+  enum class Form : std::uint8_t { kAny, kMCodes, kMPair };
   std::string_view name;
   /// Words that it takes, with blanks between; empty: a number from `least` to `most`, or any text where both
   /// are 0.
@@ -19,6 +22,7 @@ struct ControlOptionRow {
   double least, most;
   bool whole;  ///< of a number: without decimals
   std::string_view meaning, source;
+  Form form = Form::kAny;
 };
 
 /// Sources: FANUC Series 0i-MODEL B operator's manual B-63844EN/02 ("0i"), FANUC Series 30i user's manual
@@ -104,12 +108,12 @@ inline constexpr std::array kControlOptions{
         "M codes of the machine's builder that move no axis, turn no spindle and change no state, as M51 "
         "M52, "
         "with blanks between: the check passes over them. A code with a meaning of the control's own is none",
-        "the machine builder's list of codes"},
+        "the machine builder's list of codes", ControlOptionRow::Form::kMCodes},
     ControlOptionRow{
         "through_coolant", "", 0, 0, false,
         "the M codes that switch coolant through the spindle on and off, as M88/M89; not stated: no "
         "program of a plan that cuts with it",
-        "Haas 96-8000, M88, M89; else the machine builder's list of codes"},
+        "Haas 96-8000, M88, M89; else the machine builder's list of codes", ControlOptionRow::Form::kMPair},
     ControlOptionRow{"tool_call", "number name", 0, 0, false,
                      "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
                      "tools names it",

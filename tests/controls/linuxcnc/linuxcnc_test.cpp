@@ -271,6 +271,7 @@ TEST(LinuxCncInterpreter, MakesOfCyclesTheMovesOfThePath) {
   // The reamer comes out at feed to R, and from there by rapid; along the path at feed all the way.
   const auto differs = std::mismatch(by_moves.begin(), by_moves.end(), by_cycles.begin(), by_cycles.end());
   ASSERT_NE(differs.first, by_moves.end());
+  ASSERT_NE(differs.second, by_cycles.end());
   EXPECT_THAT(*differs.first, StartsWith("STRAIGHT_FEED(20.0000, 20.0000, 10.0000"));
   EXPECT_THAT(*differs.second, StartsWith("STRAIGHT_FEED(20.0000, 20.0000, 2.0000"));
   by_cycles.erase(differs.second);

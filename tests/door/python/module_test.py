@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -125,8 +126,9 @@ class Planned(unittest.TestCase):
                 middle = (points[i, :2] + points[i - 1, :2]) / 2.0
                 self.assertAlmostEqual(math.hypot(*(points[i, :2] - centre)), radius, 9)
                 self.assertLessEqual(radius - math.hypot(*(middle - centre)), chord * 1.0001)
-        with self.assertRaisesRegex(ValueError, "chord_mm is 0"):
-            path.points(0)
+        for chord in (0, -1.0, 1e-9, math.nan):
+            with self.assertRaisesRegex(ValueError, f"chord_mm is {chord}, and must be at least"):
+                path.points(chord)
 
     def test_points_are_as_long_as_the_moves(self):
         path = self.plan.path(1)
@@ -163,7 +165,7 @@ class Planned(unittest.TestCase):
     def test_left_open_has_no_path_and_is_bound_later(self):
         open_ = capstan.plan(example("reference_pocket.p21"), bind="strategy")
         self.assertIsNone(open_.program)
-        with self.assertRaises((capstan.Error, KeyError)):
+        with self.assertRaisesRegex(ValueError, "has no path, for its decisions are open; bind the plan first"):
             open_.path(1)
         bound = open_.bind(tools=example("reference_pocket_tools.yaml"))
         self.assertEqual([s["id"] for s in bound.steps], [s["id"] for s in self.plan.steps])
@@ -177,9 +179,24 @@ class Planned(unittest.TestCase):
                 self.assertEqual(file.read(), self.plan.forms["json"])
             with self.assertRaisesRegex(KeyError, "no form 'siemens'; the plan has"):
                 self.plan.write(path, "siemens")
+            with self.assertRaisesRegex(ValueError, "names no form"):
+                self.plan.write(os.path.join(folder, "p.foo"))
             with self.assertRaises(OSError):
                 self.plan.write(os.path.join(folder, "none", "p.json"))
             self.assertEqual(os.listdir(folder), ["p.json"])
+            self.plan.write(os.path.join(folder, "p.ngc"))
+            with open(os.path.join(folder, "p.ngc"), "rb") as file:
+                self.assertEqual(file.read(), self.plan.program)
+
+    def test_is_not_written_over_its_part(self):
+        with tempfile.TemporaryDirectory() as folder:
+            part = os.path.join(folder, "part.p21")
+            shutil.copy(example("reference_pocket.p21"), part)
+            plan = capstan.plan(part)
+            with self.assertRaisesRegex(ValueError, "is the part that was planned"):
+                plan.write(part)
+            with open(part, "rb") as file, open(example("reference_pocket.p21"), "rb") as source:
+                self.assertEqual(file.read(), source.read())
 
 
 class Failing(unittest.TestCase):

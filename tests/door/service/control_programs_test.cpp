@@ -164,6 +164,16 @@ TEST(ShopBlocks, AreReadByTheCheckAsAnyOthers) {
     EXPECT_NE(joined(with_options(id, {{"end_blocks", "M3"}}).blamed), "clean") << id;
     const std::string feed = id == "heidenhain" ? "L X+10 F500" : "G1 X10. F500.";
     EXPECT_NE(joined(with_options(id, {{"start_blocks", feed}}).blamed), "clean") << id;
+    // Nor the head start the spindle, with whatever tool is in it.
+    const std::string starts = id == "heidenhain" ? "M3" : "S99999 M3";
+    EXPECT_NE(joined(with_options(id, {{"start_blocks", starts}}).blamed), "clean") << id;
+  }
+  // The table comes forward at the end, in machine coordinates and within the travels.
+  for (const char* id : {"linuxcnc", "fanuc", "haas"}) {
+    EXPECT_EQ(joined(with_options(id, {{"end_blocks", "G0 G53 X0. Y0."}}).blamed), "clean") << id;
+    EXPECT_NE(joined(with_options(id, {{"end_blocks", "G0 G53 X9999. Y0."}}).blamed), "clean") << id;
+    EXPECT_NE(joined(with_options(id, {{"end_blocks", "G0 X0. Y0."}}).blamed), "clean") << id;
+    EXPECT_NE(joined(with_options(id, {{"start_blocks", "G0 G53 X0. Y0."}}).blamed), "clean") << id;
   }
 }
 

@@ -72,25 +72,31 @@ std::string said(const Block& b) {
   add(static_cast<int>(b.in_machine));
   add(static_cast<int>(b.mist));
   add(static_cast<int>(b.flood));
+  add(static_cast<int>(b.through));
   add(b.tolerance_mm);
   add(static_cast<int>(b.exact_stop));
   return out;
 }
 
 /// Holds each step of the program that calls its tool, begun anew, against the whole. Gives how many there
-/// are.
-int expect_restarts(const std::string& control, const std::string& part) {
+/// are. `through`: codes of coolant through the spindle, with which the second step cuts then.
+int expect_restarts(const std::string& control, const std::string& part, const std::string& through = {}) {
   Request request;
   EXPECT_TRUE(set(request, "control", control));
   Job job;
   const auto out = plan(request, {.name = testing::source_dir() + "/examples/" + part}, job);
   EXPECT_TRUE(out) << (out ? "" : to_text(out.error().what));
   if (!out) return 0;
-  const auto text = controls::write_program(out->plan, job);
+  model::Plan made = out->plan;
+  if (!through.empty()) {
+    made.machine.control_options = model::ControlOptions{{{"through_coolant", through}}};
+    made.steps[1].through = true;
+  }
+  const auto text = controls::write_program(made, job);
   EXPECT_TRUE(text) << control;
   if (!text) return 0;
   const verify::DialectReader& reader = *verify::reader_of(control);
-  const Program whole = reader.program(*text, out->plan.machine);
+  const Program whole = reader.program(*text, made.machine);
   const std::vector<std::string> lines = lines_of(*text);
   int found = 0;
   for (std::size_t k = 0; k < whole.markers.size(); ++k) {
@@ -112,7 +118,7 @@ int expect_restarts(const std::string& control, const std::string& part) {
       const bool numbered = control == "heidenhain" && digits > 0 && digits != std::string::npos;
       rest += (numbered ? std::to_string(number++) + lines[i].substr(digits) : lines[i]) + "\n";
     }
-    const Program again = reader.program(rest, out->plan.machine);
+    const Program again = reader.program(rest, made.machine);
     for (const verify::ReaderFault& f : again.faults)
       ADD_FAILURE() << control << " step " << whole.markers[k].id << ": " << f.message;
     EXPECT_EQ(again.blocks.size(), wanted.size()) << control << " " << whole.markers[k].id;
@@ -137,6 +143,11 @@ TEST(Restart, AtEachStepThatCallsItsToolMakesTheSameMovesInTheSameState) {
     if (id == "grbl") continue;  // refuses the bracket's thread; its own case below
     EXPECT_GE(expect_restarts(id, "bracket.p21"), 7) << id;
   }
+}
+
+TEST(Restart, StatesCoolantThroughTheSpindleToo) {
+  EXPECT_GE(expect_restarts("haas", "bracket.p21", "M88/M89"), 7);
+  EXPECT_GE(expect_restarts("linuxcnc", "bracket.p21", "M188/M189"), 7);
 }
 
 TEST(Restart, OfTwoSetUpsToo) {

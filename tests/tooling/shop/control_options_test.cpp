@@ -52,6 +52,9 @@ TEST(ControlOptions, OfAnotherControlOrWithAnotherValueAreRefusedWithFileLineAnd
         Wrong{"dialect: fanuc, program_number: 12.5", "MACHINE-CONTROL", "'12.5' is no whole number"},
         Wrong{"dialect: siemens, program_number: 12", "DATA-UNKNOWN", "program_number"},
         Wrong{"dialect: fanuc, smoothness: yes", "DATA-UNKNOWN", "smoothness"},
+        Wrong{"dialect: fanuc, through_coolant: m88/m89", "MACHINE-CONTROL", "two M codes as M88/M89"},
+        Wrong{"dialect: fanuc, through_coolant: M88", "MACHINE-CONTROL", "two M codes as M88/M89"},
+        Wrong{"dialect: siemens, shop_codes: \"M51, M52\"", "MACHINE-CONTROL", "M codes with a blank between"},
         Wrong{"dialect: linuxcnc, retract: g28", "DATA-UNKNOWN", "retract"}}) {
     Job job;
     const auto m = read_machine(file_with(w.control), "vmc.yaml", job);

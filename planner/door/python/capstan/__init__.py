@@ -11,7 +11,7 @@ import difflib
 import functools
 import json
 import os
-import tempfile
+import threading
 
 from . import _capstan
 from ._capstan import Message
@@ -115,12 +115,21 @@ class Plan:
         raise KeyError(f"no step {step!r}; steps are " + ", ".join(s["id"] for s in self.steps))
 
     def path(self, step):
-        """The path of a step (see `step`) as arrays: a Path. Error: the step is not bound and has no path."""
+        """The path of a step (see `step`) as arrays: a Path. ValueError: the step is not bound and has no path."""
         s = self.step(step)
         if not s.get("path"):
-            raise Error(self.diagnostics)
+            raise ValueError(f"step '{s['id']}' has no path, for its decisions are open; bind the plan first (Plan.bind)")
         return Path.of(self.data["paths"][_row(s["path"])],
                        self.data["schedules"][_row(s["schedule"])] if s.get("schedule") else None)
+
+    def _form_of(self, path):
+        ending = os.path.splitext(path)[1].lower()
+        known = {".json": "json", ".p21": "iso14649", ".stp": "iso14649", ".stpnc": "ap238", ".238": "ap238",
+                 ".tbl": "linuxcnc_tools", **{e: self.control for e in (".ngc", ".nc", ".mpf", ".h", ".gcode")}}
+        if ending not in known:
+            raise ValueError(f"the ending of '{path}' names no form; give form=..., one of " +
+                             ", ".join(sorted(self.forms)))
+        return known[ending]
 
     def explain(self, step="", attribute=""):
         """Why each value is what it is: of the whole plan, of a step (id or number), of one of its attributes."""
@@ -144,20 +153,25 @@ class Plan:
         """What is open, or no longer holds, closed with the tools of `tools`: Plan."""
         return bind(self, progress=progress, **options)
 
-    def write(self, path, form="json"):
-        """Writes a form, whole or not at all. KeyError: the plan has no such form."""
+    def write(self, path, form=None):
+        """Writes a form, whole or not at all; without `form` the one that the file's ending names (of a program's
+        ending that of the plan's control). ValueError: the ending names none, or the file is the part itself. KeyError: the plan has no such form."""
+        path = os.fspath(path)
+        if form is None:
+            form = self._form_of(path)
         if form not in self.forms:
-            raise KeyError(f"no form {form!r}; the plan has " + ", ".join(sorted(self.forms)))
+            raise KeyError(f"no form {form!r}; the plan has " + ", ".join(sorted(self.forms)) +
+                           ("" if self.program is not None else "; it has no program, see condemned"))
+        if os.path.exists(path) and os.path.exists(self.name) and os.path.samefile(path, self.name):
+            raise ValueError(f"'{path}' is the part that was planned; name another file")
         folder = os.path.dirname(os.path.abspath(path))
-        handle, part = tempfile.mkstemp(dir=folder, prefix=".capstan-")
+        part = os.path.join(folder, f".capstan-{os.getpid()}-{threading.get_ident()}")
+        handle = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(self.forms[form])
                 file.flush()
                 os.fsync(file.fileno())
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(part, 0o666 & ~mask)
             os.replace(part, path)
         except BaseException:
             os.unlink(part)

@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 
+LEAST_CHORD_MM = 1e-5  # below what a control resolves; a finer one makes millions of points of an arc
+
 # Letters of `kind` (docs/plan.schema.json).
 RAPID, LINE, CLOCKWISE, COUNTER_CLOCKWISE, DWELL = "RLWCD"
 
@@ -83,8 +85,8 @@ class Path:
     def points(self, chord_mm=0.01):
         """The path as a polyline that leaves no arc by more than `chord_mm`: points of n rows and 3 columns, mm, and
         the move that each ends or lies on."""
-        if not chord_mm > 0.0:
-            raise ValueError(f"chord_mm is {chord_mm}, and must be above 0")
+        if not chord_mm >= LEAST_CHORD_MM:
+            raise ValueError(f"chord_mm is {chord_mm}, and must be at least {LEAST_CHORD_MM} mm")
         xyz, sweeps, points, moves = self.xyz, self._sweeps(), [], []
         for i in range(len(self)):
             if sweeps[i] != 0.0:

@@ -1,5 +1,6 @@
 #include "planner/model/plan/resources/control_options.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/ground/base/number.h"
@@ -22,6 +23,29 @@ double control_number(const Machine& machine, std::string_view name, double othe
   return parse_double(control_option(machine, name)).value_or(other);
 }
 
+namespace {
+
+bool is_m_code(std::string_view s) {
+  return s.size() > 1 && s.size() < 6 && s.front() == 'M' &&
+         s.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+bool has_form(std::string_view value, ControlOptionRow::Form form) {
+  if (form == ControlOptionRow::Form::kAny) return true;
+  const char between = form == ControlOptionRow::Form::kMPair ? '/' : ' ';
+  std::size_t codes = 0;
+  while (!value.empty()) {
+    const std::size_t end = std::min(value.find(between), value.size());
+    if (!is_m_code(value.substr(0, end))) return false;
+    ++codes;
+    if (end + 1 == value.size()) return false;  // nothing behind the last separator
+    value.remove_prefix(std::min(end + 1, value.size()));
+  }
+  return form == ControlOptionRow::Form::kMPair ? codes == 2 : codes > 0;
+}
+
+}  // namespace
+
 std::string control_option_fault(std::string_view dialect, const ControlOption& option) {
   const ControlOptionRow* row = find_control_option(dialect, option.name);
   if (row == nullptr) return "the control '" + std::string(dialect) + "' has no option '" + option.name + "'";
@@ -29,6 +53,10 @@ std::string control_option_fault(std::string_view dialect, const ControlOption& 
     return has_word(row->words, option.value)
                ? std::string()
                : "'" + option.value + "' is none of: " + std::string(row->words);
+  if (!has_form(option.value, row->form))
+    return "'" + option.value + "' is not " +
+           (row->form == ControlOptionRow::Form::kMPair ? "two M codes as M88/M89"
+                                                        : "M codes with a blank between, as M51 M52");
   if (row->least == 0.0 && row->most == 0.0) return {};
   const auto v = parse_double(option.value);
   if (v && *v >= row->least && *v <= row->most && (!row->whole || *v == std::floor(*v))) return {};

@@ -102,6 +102,9 @@ class Between {
                      " is stated before the first step; the plan's steps state theirs, so take it out");
     const bool retract = b.kind == Block::Kind::kMove && b.in_machine && b.move == model::MoveKind::kRapid &&
                          !b.words[0] && !b.words[1] && at_top(b, c_.machine);
+    if (b.spindle_rpm != 0.0)
+      out_.error(15, "CHK-TEXT-STATE", c_.where(b),
+                 "the spindle turns before the first step, with whatever tool is in it; take it out");
     if (!retract)
       out_.error(33, "CHK-TEXT", c_.where(b),
                  "a move or a wait before the first step that the plan does not have");

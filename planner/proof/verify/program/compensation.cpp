@@ -133,7 +133,7 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
           29, "CHK-COOLANT-OTHER", c.where(b),
           "the program cuts with coolant through the spindle on, the step is planned without; switch "
           "it off");
-    if (!s.flood && !s.mist && (b.flood || b.mist) && said.insert({b.marker, "dry"}).second) {
+    if (!s.flood && !s.mist && !s.through && (b.flood || b.mist) && said.insert({b.marker, "dry"}).second) {
       findings.error(29, "CHK-COOLANT-DRY", c.where(b),
                      "the step is planned dry, the program cuts with coolant on; state M9");
     } else if (((b.flood && !s.flood) || (b.mist && !s.mist)) && said.insert({b.marker, "other"}).second) {
@@ -143,7 +143,8 @@ void check_program_coolant(const ProgramCase& c, Findings& findings) {
                          " on, the step is planned without; state M9" +
                          (s.flood  ? ", then M8"
                           : s.mist ? ", then M7"
-                                   : ""));
+                                   : "") +
+                         (s.through ? ", then the code of the coolant through the spindle" : ""));
     }
   }
 }

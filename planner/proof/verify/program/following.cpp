@@ -489,7 +489,9 @@ bool Following::nothing_behind() {
       return say(b.line, "a wait of " + plain(b.dwell_s) + " s follows that the plan does not have", -1);
     const bool retract =
         b.in_machine && b.move == MoveKind::kRapid && !b.words[0] && !b.words[1] && at_top(b, c_.machine);
-    if (!retract) return say(b.line, "a move follows that the plan does not have", -1);
+    const bool last = marker_ + 1 == c_.program.markers.size();
+    if (!retract && !(last && parks(b, c_.machine)))
+      return say(b.line, "a move follows that the plan does not have", -1);
   }
   return true;
 }

@@ -35,6 +35,9 @@ struct ProgramCase {
 [[nodiscard]] double top_of(const model::Machine& machine);
 /// Whether the tool stands at the top of Z after the block: proven by G53, nothing moved Z since.
 [[nodiscard]] bool at_top(const Block& b, const model::Machine& machine);
+/// Whether a block is a rapid across in machine coordinates within the travels, with the tool at the top of Z
+/// and the spindle off: as the table comes to where the piece is taken out.
+[[nodiscard]] bool parks(const Block& b, const model::Machine& machine);
 
 /// Offsets, tools, changes, compensation, restart, end: 3, 4, 5, 7, 8, 26, 27, 32.
 void check_state(const ProgramCase& c, Findings& findings);

@@ -63,6 +63,18 @@ bool at_top(const Block& b, const model::Machine& machine) {
   return b.machine_z && *b.machine_z >= top_of(machine) - 1e-6;
 }
 
+bool parks(const Block& b, const model::Machine& machine) {
+  if (!b.in_machine || b.move != model::MoveKind::kRapid || b.words[2] || b.spindle_rpm != 0.0 ||
+      !at_top(b, machine))
+    return false;
+  const double to[] = {b.to.x, b.to.y};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const model::LinearAxis& axis = machine.axes[i];
+    if (b.words[i] && !(to[i] >= axis.travel_min_mm && to[i] <= axis.travel_max_mm)) return false;
+  }
+  return true;
+}
+
 namespace {
 
 constexpr unsigned kNeededAtStart = kStatedUnits | kStatedPlane | kStatedDistance | kStatedFeedMode |

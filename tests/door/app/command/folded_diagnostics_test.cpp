@@ -92,7 +92,7 @@ TEST_F(Words, HelpSaysWhichToolsCountWhereNoneAreNamed) {
     return all;
   };
   EXPECT_THAT(help("plan"), HasSubstr("`generic` (the default)"));
-  EXPECT_THAT(help("bind"), HasSubstr("without it the plan's own count as loaded"));
+  EXPECT_THAT(help("bind"), HasSubstr("without it the plan's own, in its tool numbers"));
 }
 
 TEST_F(Words, AMachineWithoutCoolantIsToldOnceForAllOperations) {

@@ -18,9 +18,14 @@ namespace {
 
 constexpr bool is_cycle(int g) { return g == 730 || g == 740 || g == 760 || (g >= 810 && g <= 890); }
 constexpr bool is_motion(int g) { return g == 0 || g == 10 || g == 20 || g == 30 || g == 800 || is_cycle(g); }
-/// Spindle orientation, interrupts, and calls and ends of subprograms: no builder's, whatever a file lists.
-/// Source: FANUC B-63844EN/02, 11 and 12.3; Haas 96-8000, M19, M96 to M99.
-constexpr bool is_own_m(int m) { return m == 19 || (m >= 96 && m <= 99) || m == 198; }
+/// What turns the spindle, changes or unclamps tools and pallets, or leaves the program's order, is no
+/// builder's, whatever a file lists. Source: FANUC B-63844EN/02, 11 and 12.3 (M19, M96 to M99, M198); Haas
+/// 96-8000, M codes (M16, M36, M39, M41, M42, M46, M50, M75, M82, M86, M95, M109).
+constexpr bool is_own_m(int m, bool haas) {
+  if (m == 19 || (m >= 96 && m <= 99) || m == 198) return true;
+  return haas && (m == 16 || m == 36 || m == 39 || m == 41 || m == 42 || m == 46 || m == 50 || m == 75 ||
+                  m == 82 || m == 86 || m == 95 || m == 109);
+}
 
 }  // namespace
 
@@ -154,7 +159,7 @@ void Interpreter::before_move(const BlockWords& s) {
       case 30:
         break;
       default:
-        if (!is_own_m(s.m[i]) && builders(s.m[i])) break;
+        if (!is_own_m(s.m[i], ways_.haas) && builders(s.m[i])) break;
         fault(33, "CHK-CODE", "M" + std::to_string(s.m[i]) + " is not followed: what it does is not known",
               true);
     }

@@ -399,7 +399,7 @@ void Interpreter::after_move(const std::vector<int>& m, bool stop_block) {
   if (has(0) || stop_block) stop();
   if (has(0)) {
     spindle_ = 0;
-    mist_ = flood_ = false;
+    mist_ = flood_ = through_ = false;
   }
   if (!has(2) && !has(30)) return;
   Block b = block();
