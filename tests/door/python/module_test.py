@@ -165,7 +165,7 @@ class Planned(unittest.TestCase):
     def test_left_open_has_no_path_and_is_bound_later(self):
         open_ = capstan.plan(example("reference_pocket.p21"), bind="strategy")
         self.assertIsNone(open_.program)
-        with self.assertRaisesRegex(ValueError, "has no path, for its decisions are open; bind the plan first"):
+        with self.assertRaisesRegex(ValueError, "has no steps, for its decisions are open; bind it first"):
             open_.path(1)
         bound = open_.bind(tools=example("reference_pocket_tools.yaml"))
         self.assertEqual([s["id"] for s in bound.steps], [s["id"] for s in self.plan.steps])

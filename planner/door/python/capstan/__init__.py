@@ -106,7 +106,10 @@ class Plan:
         return self.forms.get(self.control)
 
     def step(self, step):
-        """The step of that id, or of that number in the order of execution, from 1. KeyError: there is none."""
+        """The step of that id, or of that number in the order of execution, from 1. KeyError: there is none.
+        ValueError: decisions are open, and no step is made yet."""
+        if not self.steps:
+            raise ValueError("the plan has no steps, for its decisions are open; bind it first (Plan.bind)")
         if isinstance(step, int) and 1 <= step <= len(self.steps):
             return self.steps[step - 1]
         for s in self.steps:
