@@ -1,4 +1,5 @@
 #include "planner/proof/verify/axis_places.h"
+#include "planner/ground/base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/base/number.h"
 #include "tests/proof/verify/checked.h"
 
 namespace capstan::verify {
@@ -85,8 +87,9 @@ TEST(AxisPlaces, WhereTheZeroOfZIsSetWithEachToolNoZIsHeldToALimit) {
     return check_axis_places({"part.nc", text, ""}, nullptr, machine, {}, places);
   };
   const std::string header = "(CAPSTAN TOOL T1 H1 length=100 diameter=10 id=\"em\" endmill)\n";
-  const std::string off = header + program("G1 Z-1 F100\n", ""),
-                    stated = header + program("G1 Z-1 F100\n", "G43.1 Z100\n");
+  const std::string top = "G53 G0 Z" + shortest(machine.axes[2].travel_max_mm) + "\n";
+  const std::string off = header + program("G1 Z-1 F100\n", top),
+                    stated = header + program("G1 Z-1 F100\n", top + "G43.1 Z100\n");
   // touch_off is the default.
   const auto found = judged_by(off, within(kZ, -kFar, kFar));
   ASSERT_EQ(found.size(), 1U) << testing::told(found);
