@@ -171,7 +171,7 @@ void take_path(const model::CutterPath& path, Bound& b) {
 
 /// The feed per tooth that a log of the schedule at 100 % would show: the feed that is held longest over the
 /// speed that is, rapids apart. 0: there is no schedule, or no such feed.
-double held_fz_mm(const model::StepResult& step, int teeth) {
+double scheduled_fz_mm(const model::StepResult& step, int teeth) {
   if (!step.path || !step.schedule) return 0.0;
   const model::CutterPath& path = *step.path;
   const model::FeedSchedule& schedule = *step.schedule;
@@ -186,9 +186,7 @@ double held_fz_mm(const model::StepResult& step, int teeth) {
     feed.add(fed, seconds);
     speed.add(rpm, seconds);
   }
-  const double rpm = speed.longest().value;
-  const double fz = rpm > 0.0 ? feed.longest().value / rpm / std::max(1, teeth) : 0.0;
-  return fz >= 1e-5 && fz <= 10.0 ? fz : 0.0;
+  return held_fz_mm(feed.longest().value, speed.longest().value, teeth);
 }
 
 /// Whether the step's path was computed here, which aims at the middle of the zone; one that the file gave
@@ -302,7 +300,7 @@ Result<Case> made(const model::Plan& plan, const model::StepResult& step, const 
       .specific_force_n_mm2 = model::is_a(ws->its_operation.type, model::TypeId::kDrillingTypeOperation)
                                   ? 0.0
                                   : model::specific_force_n_mm2(plan.material, *cutter, c.bound.mean_chip_mm),
-      .held_fz_mm = held_fz_mm(step, cutter->teeth)};
+      .held_fz_mm = scheduled_fz_mm(step, cutter->teeth)};
   const auto simulated = [](double v) {
     return v > 0.0 ? std::optional(Figure{v, 0.0, Origin::kSimulated}) : std::nullopt;
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -39,5 +40,11 @@ class Held {
   static constexpr double kBin = 0.005;
   std::map<int, std::pair<double, double>> bins_;  // seconds, weighted sum
 };
+
+/// The feed per tooth of the feed and the speed that were held longest, mm; 0 for what nobody mills with.
+inline double held_fz_mm(double feed_mm_min, double rpm, int teeth) {
+  const double fz = rpm > 0.0 ? feed_mm_min / rpm / std::max(1, teeth) : 0.0;
+  return fz >= 1e-5 && fz <= 10.0 ? fz : 0.0;
+}
 
 }  // namespace capstan::casebase

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "casebase/record/held.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -129,8 +130,8 @@ Case observed(Case c, const Executed& e, const LogFrom& from) {
   // What it was cut with, where the log shows speed and feed: forces and wear that are measured beside are of
   // it. A table of times has what somebody noted.
   const double rpm = e.of(Item::kSpindle).held, fed = e.of(Item::kFeed).held;
-  const double fz = rpm > 0.0 && e.run != kSummedUp ? fed / rpm / std::max(1, c.asked.teeth) : 0.0;
-  if (fz >= 1e-5 && fz <= 10.0) c.observed.executed_fz_mm = figure(fz);
+  const double fz = e.run != kSummedUp ? held_fz_mm(fed, rpm, c.asked.teeth) : 0.0;
+  if (fz > 0.0) c.observed.executed_fz_mm = figure(fz);
   const double vc = e.run != kSummedUp ? kPi * c.asked.cutter_diameter_mm * rpm / 1000.0 : 0.0;
   if (vc >= 0.01 && vc <= 20000.0) c.observed.executed_vc_m_min = figure(vc);
   if (const Statistic& lag = e.of(Item::kLag); lag.seconds > 0.0)

@@ -18,15 +18,12 @@ std::string tool_end_of(const model::Machine& machine) {
 }
 
 std::optional<ThroughCodes> through_codes_of(const model::Machine& machine) {
-  const std::string_view option = model::control_option(machine, "through_coolant");
-  const std::size_t slash = option.find('/');
-  if (slash == std::string_view::npos) return std::nullopt;
-  const auto is_code = [](std::string_view s) {
-    return s.size() > 1 && s.front() == 'M' && s.find_first_not_of("0123456789", 1) == std::string_view::npos;
-  };
-  ThroughCodes out{std::string(option.substr(0, slash)), std::string(option.substr(slash + 1))};
-  if (!is_code(out.on) || !is_code(out.off)) return std::nullopt;
-  return out;
+  const model::ControlOption stated{"through_coolant",
+                                    std::string(model::control_option(machine, "through_coolant"))};
+  if (stated.value.empty() || !model::control_option_fault(machine.control.dialect, stated).empty())
+    return std::nullopt;
+  const std::size_t slash = stated.value.find('/');
+  return ThroughCodes{stated.value.substr(0, slash), stated.value.substr(slash + 1)};
 }
 
 Status options_right(const model::Plan& plan) {

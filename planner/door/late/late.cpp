@@ -10,6 +10,7 @@
 #include "planner/door/late/record.h"
 #include "planner/door/late/unbound.h"
 #include "planner/door/pipeline/program_check.h"
+#include "planner/door/pipeline/trial.h"
 #include "planner/ground/base/earlier_diagnostics.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
@@ -293,10 +294,8 @@ void improve_in_time(LateOutcome& out, const Case& c, pipeline::Reopen reopen, c
                     !(until && job.now() >= *until);
   if (!more) return;
   Job trial;
-  trial.threads = job.threads;
+  pipeline::begin_trial(trial, job);
   trial.evaluation_budget = c.policy.budget;
-  trial.set_clock(job.clock());
-  trial.set_progress([&](std::string_view stage, double fraction) { job.progress(stage, fraction); });
   if (until) trial.set_deadline(*until);
   // Who stops the call stops the improvement; the fallback is what was checked by then.
   const auto nothing_more = [] {};

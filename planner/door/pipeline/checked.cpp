@@ -6,10 +6,10 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "planner/door/pipeline/trial.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/vec.h"
@@ -28,9 +28,9 @@
 // outside the raw piece is left out at once. A step around a boss that cuts nothing is left out if other
 // features' steps cut around the boss: the boss is then made, and not missing. Roughing that cuts nothing,
 // for others took the material, is left out before the finish of its feature, and what roughs the rests of a
-// surface at once. Of all tries the one with the
-// fewest errors is kept, then the one with the fewest features left out, then the first. Steps from the file
-// are never changed. Nothing is tried against features that lie farther apart than an axis travels.
+// surface at once. Of all tries the one with the fewest errors is kept, then the one with the fewest features
+// left out, then the first. Steps from the file are never changed. Nothing is tried against features that lie
+// farther apart than an axis travels.
 
 namespace capstan::pipeline {
 namespace {
@@ -143,15 +143,10 @@ class BansByCheck {
         out.emplace_back(s, found);
         continue;
       }
-      // What others cut away exists without its own step, a boss or what is roughed: leave the step out
-      // before banning anything.
-      if (o.finding->code == "CHK-CUTS-NOTHING" && s.may_cut_nothing &&
-          tries_.bans.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
-        tries_.bans.cut_nothing(s.member, s.chain, s.in_chain, found);
-        out.emplace_back(s, found);
-        continue;
-      }
-      if (s.of_rest && tries_.bans.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
+      // What others cut away exists without its own step, a boss or what is roughed, and a surface without
+      // what roughs its rests: leave the step out before banning anything.
+      const bool spare = s.of_rest || (o.finding->code == "CHK-CUTS-NOTHING" && s.may_cut_nothing);
+      if (spare && tries_.bans.cuts_nothing(s.member, s.chain, s.in_chain) == nullptr) {
         tries_.bans.cut_nothing(s.member, s.chain, s.in_chain, found);
         out.emplace_back(s, found);
         continue;
@@ -212,6 +207,10 @@ Checked checked(model::Plan plan, Job& job, memo::Memo* proofs, const model::Cut
   return out;
 }
 
+bool is_edited(const Inputs& inputs) {
+  return !inputs.edits.empty() || model::edits_are_all(inputs.provenance);
+}
+
 Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                           const Anew& anew) {
   auto until = anew.until;
@@ -238,12 +237,9 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     if (policy.bind != Bind::kAll || job.stop_requested()) break;
     const auto condemned = bans.condemn(offences, tried);
     Job trial;
-    trial.threads = job.threads;
-    trial.evaluation_budget = job.evaluation_budget;
-    trial.set_clock(job.clock());
+    begin_trial(trial, job);
     if (job.deadline()) until = until ? std::min(*until, *job.deadline()) : *job.deadline();
     if (until) trial.set_deadline(*until);
-    trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
     if (trial.stop_requested()) break;
     auto again = bind_within(plan, inputs, policy, tries, trial);
     if (!again) break;
@@ -275,14 +271,14 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
 
 Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
                              const Anew& anew) {
-  const bool edited = !inputs.edits.empty() || model::edits_are_all(inputs.provenance);
+  const bool edited = is_edited(inputs);
   const optimise::SpentBudgetScope budget;
   auto out = stoppable(
       job,
       [&]() -> Result<Checked> {
         auto made = edited ? bind_edited(plan, inputs, policy, job, anew)
                            : bind_anew(plan, inputs, policy, job, anew);
-        if (!made) return made;
+        if (!made || !anew.tells_needed) return made;
         // Planned and checked once: a feature at which the check finds an error is not planned anew here.
         const auto planned_with = [&](const Inputs& with, Job& trial) -> Result<model::Plan> {
           Tries tries;

@@ -18,6 +18,9 @@ namespace capstan::pipeline {
 [[nodiscard]] Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const Policy& policy,
                                           Job& job, const Anew& anew);
 
+/// Whether a person's edits are set into the plan, these or those that its record names.
+[[nodiscard]] bool is_edited(const Inputs& inputs);
+
 /// How a part is planned with other inputs. What it comes to has in `unplanned` also what the check condemns.
 using Planner = std::function<Result<model::Plan>(const Inputs&, Job&)>;
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "planner/door/pipeline/checked.h"
+#include "planner/door/pipeline/trial.h"
 #include "planner/model/plan/corner_rest.h"
-#include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/needed_tool.h"
 #include "tooling/library/formats/own/own_list.h"
 
@@ -62,8 +62,8 @@ void tell(model::Plan& made, const std::vector<NeededKind>& kinds, const std::st
 Result<model::Plan> name_needed(model::Plan made, std::vector<NeededTool> needed, const Inputs& inputs,
                                 const Policy& policy, const Planner& planner, Job& job) {
   auto kinds = model::needed_kinds(made, needed);
-  const bool edited = !inputs.edits.empty() || model::edits_are_all(inputs.provenance);
-  if (policy.bind != Bind::kAll || policy.window || policy.only_loaded_cutters || job.deadline() || edited) {
+  if (policy.bind != Bind::kAll || policy.window || policy.only_loaded_cutters || job.deadline() ||
+      is_edited(inputs)) {
     tell(made, kinds, "to plan all of this part you need at least: ", "", job);
     return made;
   }
@@ -82,10 +82,7 @@ Result<model::Plan> name_needed(model::Plan made, std::vector<NeededTool> needed
     Inputs richer = inputs;
     richer.library.insert(richer.library.end(), cutters->begin(), cutters->end());
     Job trial;
-    trial.threads = job.threads;
-    trial.evaluation_budget = job.evaluation_budget;
-    trial.set_clock(job.clock());
-    trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
+    begin_trial(trial, job);
     const auto with = planner(richer, trial);
     if (job.stop_requested()) return tl::unexpected(stopped_planning(made));
     if (!with) {

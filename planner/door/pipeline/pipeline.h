@@ -134,7 +134,7 @@ struct Checked {
   int replanned = 0;                     ///< which of the tries this is; 0: the first
   std::chrono::steady_clock::duration checking{};  ///< what checking it took
   bool budget_spent = true;  ///< false: planned with a larger evaluation budget it comes out the same
-  std::vector<model::NeededTool> needed = {};      ///< what its unplanned features lack; not proved
+  std::vector<model::NeededTool> needed = {};  ///< what its unplanned features lack; not proved
 };
 
 /// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a
@@ -143,10 +143,12 @@ struct Checked {
                               const model::CutBefore* before = nullptr);
 
 /// Until when plans are made anew, and which plans may be given at all (nothing: any): what it says of the
-/// first one ends `bind_checked`, of a later one only that one is passed over.
+/// first one ends `bind_checked`, of a later one only that one is passed over. `tells_needed`: tools that the
+/// plan's features lack are proved, told and recorded, which may plan it twice more.
 struct Anew {
   std::optional<std::chrono::steady_clock::time_point> until = std::nullopt;
   std::function<Status(const model::Plan&)> acceptable = {};
+  bool tells_needed = true;
 };
 
 /// `bind`, then the check (`verify::check_plan`). If it finds an error at a proposed step, the step's choice

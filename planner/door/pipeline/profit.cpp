@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "planner/door/pipeline/trial.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/cut.h"
 #include "planner/physics/motion/time.h"
@@ -39,11 +39,8 @@ Result<model::Plan> most_profit(double revenue,
   int made = 0;
   while (made < kMostPlannings && !(made > 0 && job.stop_requested())) {
     Job trial;
-    trial.threads = job.threads;
-    trial.evaluation_budget = job.evaluation_budget;
-    trial.set_clock(job.clock());
+    begin_trial(trial, job);
     if (job.deadline()) trial.set_deadline(*job.deadline());
-    trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
     auto planned = plan_for(earning, trial);
     if (!planned && !best) {
       for (auto& d : trial.take_diagnostics()) job.report(std::move(d));

@@ -165,8 +165,6 @@ constexpr const char* kStrict = "write nothing when there are findings";
 
 /// The same help for `plan` and `bind`.
 constexpr std::array<const char*, kVerbs> both(const char* text) { return {text, text, nullptr}; }
-constexpr std::array<const char*, kVerbs> of_plan(const char* text) { return {text, nullptr, nullptr}; }
-constexpr std::array<const char*, kVerbs> of_bind(const char* text) { return {nullptr, text, nullptr}; }
 
 std::vector<Option> table() {
   constexpr const char* kShop =

@@ -20,6 +20,14 @@ inline constexpr std::size_t kVerbs = 3;
 /// The kinds of values of options.
 enum class Value : std::uint8_t { kText, kWord, kWhole, kFlag };
 
+/// The help of an option that one verb alone has.
+[[nodiscard]] constexpr std::array<const char*, kVerbs> of_plan(const char* text) {
+  return {text, nullptr, nullptr};
+}
+[[nodiscard]] constexpr std::array<const char*, kVerbs> of_bind(const char* text) {
+  return {nullptr, text, nullptr};
+}
+
 /// One option of a request: a row of `options`. The command line, the C interface and other transports take
 /// it by its name; the C++ library has a field for it.
 struct Option {
@@ -30,11 +38,11 @@ struct Option {
   /// Sets it in the request. Gives what is wrong with the text, or nothing. A flag takes "yes" or "no".
   std::string (*set)(Request& request, const std::string& text) = nullptr;
   std::vector<std::string> words = {};  ///< Value::kWord: those it takes
-  unsigned least = 0, most = 0;    ///< Value::kWhole
-  std::string_view excludes = {};  ///< the option that excludes this one
-  bool of_all_commands = false;    ///< the command line takes it in front of any command
-  bool repeatable = false;         ///< each value adds to the others
-  bool of_shop = false;            ///< a shop file may give it (shop_file/shop_file.h)
+  unsigned least = 0, most = 0;         ///< Value::kWhole
+  std::string_view excludes = {};       ///< the option that excludes this one
+  bool of_all_commands = false;         ///< the command line takes it in front of any command
+  bool repeatable = false;              ///< each value adds to the others
+  bool of_shop = false;                 ///< a shop file may give it (shop_file/shop_file.h)
 
   [[nodiscard]] const char* help_of(Verb v) const { return help[static_cast<std::size_t>(v)]; }
 };

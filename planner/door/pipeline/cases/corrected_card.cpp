@@ -8,6 +8,7 @@
 #include "casebase/casebase.h"
 #include "casebase/recall/advice.h"
 #include "casebase/tune/card.h"
+#include "planner/door/pipeline/trial.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -99,11 +100,8 @@ void tell_without_cases(model::Plan& made, const model::Plan& read, const Inputs
   without.cases = nullptr;
   std::erase_if(without.provenance, [](const model::Provenance& p) { return p.what == "cases"; });
   Job trial;
-  trial.threads = job.threads;
-  trial.evaluation_budget = job.evaluation_budget;
-  trial.set_clock(job.clock());
-  trial.set_progress([&](std::string_view stage, double f) { job.progress(stage, f); });
-  const auto other = bind_checked(read, without, policy, trial, {});
+  begin_trial(trial, job);
+  const auto other = bind_checked(read, without, policy, trial, {.tells_needed = false});
   if (job.stop_requested()) return;
   if (!other) {
     job.note("CASE-WITHOUT",

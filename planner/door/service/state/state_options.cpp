@@ -39,31 +39,26 @@ std::vector<Option> state_options() {
   return {
       {.name = "spindle-power",
        .value = Value::kText,
-       .help = {nullptr,
-                "the most that the control lets the spindle give now, kW; less than the machine's own: the "
-                "steps are cut with that",
-                nullptr},
+       .help = of_bind(
+           "the most that the control lets the spindle give now, kW; less than the machine's own: the "
+           "steps are cut with that"),
        .set = &set_power},
       {.name = "axis-limits",
        .value = Value::kText,
-       .help = {nullptr,
-                "where the axes may be now, mm in machine coordinates: X=0:350,Z=-200:-5 (Z of the spindle's "
-                "gage line); a program that leaves them is not given; needs --work-offset",
-                nullptr},
+       .help = of_bind(
+           "where the axes may be now, mm in machine coordinates: X=0:350,Z=-200:-5 (Z of the spindle's "
+           "gage line); a program that leaves them is not given; needs --work-offset"),
        .set = &set_limits},
       {.name = "work-offset",
        .value = Value::kText,
-       .help = {nullptr,
-                "where the work offset lies, mm in machine coordinates: X=120,Y=80,Z=-310; of several "
-                "G54:X=120,Y=80,Z=-310;G55:X=300,Y=80,Z=-310; for --axis-limits, it moves nothing",
-                nullptr},
+       .help = of_bind("where the work offset lies, mm in machine coordinates: X=120,Y=80,Z=-310; of several "
+                       "G54:X=120,Y=80,Z=-310;G55:X=300,Y=80,Z=-310; for --axis-limits, it moves nothing"),
        .set = &set_offsets},
       {.name = "feed-override",
        .value = Value::kWhole,
-       .help = {nullptr,
-                "the feed override of the control, %, at most 100: at more a given feed makes thicker chips "
-                "than were checked; turn it back",
-                nullptr},
+       .help = of_bind(
+           "the feed override of the control, %, at most 100: at more a given feed makes thicker chips "
+           "than were checked; turn it back"),
        .set =
            [](Request& r, const std::string& t) {
              r.state.feed_override = static_cast<unsigned>(std::stoul(t));

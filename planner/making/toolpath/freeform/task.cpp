@@ -70,4 +70,13 @@ geometry::Region kept_out(const FreeformJob& task, const MillEnd& cutter) {
   return geometry::offset(task.avoid, (1.0 + kProbedShare * kProbedShare / 8.0) * cutter.radius());
 }
 
+Follower follower_of(const FreeformJob& task, const DropCutter& drop, const MillEnd& cutter) {
+  return {.drop = &drop,
+          .cutter = cutter,
+          .allowance_mm = task.allowance_mm,
+          .tolerance_mm = task.tolerance_mm,
+          .bottom_z_mm = task.bottom_z_mm,
+          .beside_is_free = task.beside_is_free};
+}
+
 }  // namespace capstan::toolpath::freeform

@@ -2,10 +2,14 @@
 
 #include <string>
 
+#include "planner/ground/geometry/vec.h"
+
 namespace capstan::verify {
 
 /// "12.5 mm" and the like, three decimals at most.
 [[nodiscard]] std::string mm(double v);
 [[nodiscard]] std::string plain(double v);
+/// "(12.5, 3, -1)", mm.
+[[nodiscard]] std::string place(geometry::Vec2 p, double z);
 
 }  // namespace capstan::verify

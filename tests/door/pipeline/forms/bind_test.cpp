@@ -344,17 +344,32 @@ std::string waves_stl() {
   return out + "endsolid waves\n";
 }
 
+/// The waves in EN AW-6061, planned once for the tests below, which only look at the plan.
+struct PlannedWaves {
+  Inputs in = shop();
+  Result<model::Plan> plan = model::Plan();
+  std::vector<Diagnostic> said;
+};
+const PlannedWaves& planned_waves() {
+  static const PlannedWaves made = [] {
+    PlannedWaves out;
+    out.in.material_name = "EN AW-6061";
+    Job job;
+    out.plan = read_plan(waves_stl(), "waves.stl", job);
+    if (out.plan) out.plan = bind(*std::move(out.plan), out.in, {}, job);
+    out.said = job.diagnostics();
+    return out;
+  }();
+  return made;
+}
+
 // The widest mill ranked first. On the waves its only level was the height of the lowest place that it could
 // be let down to: one plunge took 1 of 40 cm3, and the ball after it all the rest, 7.7 mm deep. Of the pits,
 // which a mill of some width does not reach, a narrower one takes what the next step would bite too deep
 // into.
 TEST(Bind, RoughsASurfaceAndThenItsPitsBeforeItIsEvenedOut) {
-  Inputs in = shop();
-  in.material_name = "EN AW-6061";
-  Job job;
-  auto waves = read_plan(waves_stl(), "waves.stl", job);
-  ASSERT_TRUE(waves);
-  const auto plan = bind(*std::move(waves), in, {}, job);
+  const Result<model::Plan>& plan = planned_waves().plan;
+  const std::vector<Diagnostic>& said = planned_waves().said;
   ASSERT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
   ASSERT_EQ(plan->steps.size(), 4U);
   const auto diameter = [&](std::size_t i) {
@@ -367,7 +382,6 @@ TEST(Bind, RoughsASurfaceAndThenItsPitsBeforeItIsEvenedOut) {
   // Of some 4 mm half a millimetre stays everywhere, and half of 0.7 mm of terraces on the whole.
   const double roughed = removed_mm3(plan->steps[0]) + removed_mm3(plan->steps[1]);
   EXPECT_LT(removed_mm3(plan->steps[2]), 0.25 * roughed);
-  const auto said = job.diagnostics();
   EXPECT_TRUE(std::none_of(said.begin(), said.end(), [](const Diagnostic& d) {
     return d.code == "PIP-BITE";
   })) << "the next bites no deeper than twice what is left for it";
@@ -388,18 +402,13 @@ Result<model::Plan> roughed_twice(model::Plan plan, bool foreign, const Inputs& 
 
 // The second rough has nothing or little to do. As a rest it was given up, and with it the surface.
 TEST(Bind, KeepsASurfaceWhoseSecondRoughFindsNoRest) {
-  Inputs in = shop();
-  in.material_name = "EN AW-6061";
-  Job job;
-  auto waves = read_plan(waves_stl(), "waves.stl", job);
-  ASSERT_TRUE(waves);
-  const auto plan = bind(*std::move(waves), in, {}, job);
+  const Result<model::Plan>& plan = planned_waves().plan;
   ASSERT_TRUE(plan) << (plan ? "" : to_text(plan.error()));
   ASSERT_EQ(plan->steps.size(), 4U);
   for (const bool foreign : {false, true}) {
     SCOPED_TRACE(foreign ? "a foreign file" : "a plan of ours");
     Job again;
-    const auto back = roughed_twice(*plan, foreign, in, again);
+    const auto back = roughed_twice(*plan, foreign, planned_waves().in, again);
     ASSERT_TRUE(back) << (back ? "" : to_text(back.error()));
     for (const Diagnostic& d : again.diagnostics()) EXPECT_NE(d.code, "PIP-NO-PATH") << d.message;
     ASSERT_GE(back->steps.size(), 3U);

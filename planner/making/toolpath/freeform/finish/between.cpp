@@ -51,6 +51,15 @@ double ridge_mm(double ball_mm, double apart_mm) {
   return half < ball_mm ? ball_mm - std::sqrt((ball_mm - half) * (ball_mm + half)) : ball_mm;
 }
 
+void add_gap(std::vector<Gap>& gaps, const Gap& gap) {
+  if (gaps.empty() || gap.lo > gaps.back().hi) {
+    gaps.push_back(gap);
+    return;
+  }
+  gaps.back().hi = std::max(gaps.back().hi, gap.hi);
+  gaps.back().apart_mm = std::max(gaps.back().apart_mm, gap.apart_mm);
+}
+
 std::vector<Gap> wide_gaps(const std::vector<Run>& below, const std::vector<Run>& above, const Hatch& lines,
                            double most_mm) {
   std::vector<Gap> out;
@@ -78,13 +87,7 @@ std::vector<Gap> wide_gaps(const std::vector<Run>& below, const std::vector<Run>
             std::max(std::abs(a.at(at[i]) - b.at(at[i])), std::abs(a.at(at[i + 1]) - b.at(at[i + 1])));
         const double square = dv * dv + dz * dz / (1.0 + slope * slope);
         if (square <= most_mm * most_mm) continue;
-        const double apart = std::sqrt(square);
-        if (out.empty() || at[i] > out.back().hi) {
-          out.push_back({at[i], at[i + 1], apart});
-          continue;
-        }
-        out.back().hi = std::max(out.back().hi, at[i + 1]);
-        out.back().apart_mm = std::max(out.back().apart_mm, apart);
+        add_gap(out, {at[i], at[i + 1], std::sqrt(square)});
       }
     }
   }

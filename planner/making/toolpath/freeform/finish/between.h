@@ -17,6 +17,9 @@ struct Gap {
   double lo = 0.0, hi = 0.0, apart_mm = 0.0;
 };
 
+/// Adds a gap behind those that begin before it, as one with the last where they touch.
+void add_gap(std::vector<Gap>& gaps, const Gap& gap);
+
 /// Where, along u, two neighbouring passes lie farther apart than `most_mm`, square to them and along the
 /// surface between them: each in a place where both passes run.
 /// Needs  runs that go towards greater u.

@@ -152,15 +152,6 @@ class Finisher {
     return out;
   }
 
-  [[nodiscard]] Follower follower(const FreeformJob& task) const {
-    return {.drop = &drop_,
-            .cutter = cutter_,
-            .allowance_mm = task.allowance_mm,
-            .tolerance_mm = task.tolerance_mm,
-            .bottom_z_mm = task.bottom_z_mm,
-            .beside_is_free = task.beside_is_free};
-  }
-
   /// Half of the tolerance lifts the cutter, as the Follower does.
   [[nodiscard]] Reach reach_of(const FreeformJob& task) const {
     Reach out{.task = task, .drop = drop_, .cutter = cutter_, .kept_out = kept_out_};
@@ -208,7 +199,7 @@ class Finisher {
   /// The passes of the hatch, by stripe; `only`: pieces of them.
   [[nodiscard]] std::vector<std::vector<Run>> passes(const FreeformJob& task, const Mask* only) const {
     std::vector<std::vector<Run>> found(hatch_.stripes.size());
-    const Follower follow = follower(task);
+    const Follower follow = follower_of(task, drop_, cutter_);
     parallel_for(job_, found.size(), [&](std::size_t i) {
       if (job_.stop_requested()) return;
       const Stripe& s = hatch_.stripes[i];
@@ -283,7 +274,7 @@ class Finisher {
     const std::size_t n = lines.size() - 1;
     std::vector<std::vector<Piece>> gaps(n);
     std::vector<std::vector<High>> left(n);
-    const Follower follow = follower(task);
+    const Follower follow = follower_of(task, drop_, cutter_);
     // What lies between lines that do not follow each other is none of theirs: a clamp may stand there.
     const auto are_neighbours = [&](std::size_t i) { return lines[i + 1].number == lines[i].number + 1; };
     const bool stated = task.stepover_mm > 0.0;
@@ -424,14 +415,7 @@ class Finisher {
     if (wide.size() == before) return;
     std::sort(wide.begin(), wide.end(), [](const Gap& a, const Gap& b) { return a.lo < b.lo; });
     std::vector<Gap> joined;
-    for (const Gap& gap : wide) {
-      if (joined.empty() || gap.lo > joined.back().hi) {
-        joined.push_back(gap);
-        continue;
-      }
-      joined.back().hi = std::max(joined.back().hi, gap.hi);
-      joined.back().apart_mm = std::max(joined.back().apart_mm, gap.apart_mm);
-    }
+    for (const Gap& gap : wide) add_gap(joined, gap);
     wide = std::move(joined);
   }
 

@@ -23,9 +23,25 @@ std::optional<std::size_t> nearest_point(const Mask& mask, Vec2 p) {
   return static_cast<std::size_t>(iy) * static_cast<std::size_t>(mask.nx) + static_cast<std::size_t>(ix);
 }
 
+}  // namespace
+
 bool is_place(double z) { return !std::isnan(z) && z < kBlocked; }
 
-}  // namespace
+double tangent_at(const DropGrid& grid, int ix, int iy,
+                  const std::function<bool(int x, int y, double rise)>& counts) {
+  const double z = grid.at(ix, iy);
+  const auto steeper_side = [&](int dx, int dy) {
+    double most = 0.0;
+    for (const int sign : {-1, 1}) {
+      const int x = ix + sign * dx, y = iy + sign * dy;
+      if (x < 0 || y < 0 || x >= grid.nx || y >= grid.ny || !is_place(grid.at(x, y))) continue;
+      const double rise = std::abs(grid.at(x, y) - z) / grid.step_mm;
+      if (rise > most && (!counts || counts(x, y, rise))) most = rise;
+    }
+    return most;
+  };
+  return std::hypot(steeper_side(1, 0), steeper_side(0, 1));
+}
 
 bool Mask::at(Vec2 p) const {
   const std::optional<std::size_t> i = nearest_point(*this, p);
@@ -107,23 +123,12 @@ Mask steep_of(const DropGrid& grid, const DropCutter& drop, const MillEnd& cutte
   const double limit = std::tan(angle_rad);
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
-      const double z = grid.at(ix, iy);
-      if (!is_place(z)) continue;
-      // The steeper side of each axis.
-      const auto rise = [&](int dx, int dy) {
-        double most = 0.0;
-        for (const int sign : {-1, 1}) {
-          const int x = ix + sign * dx, y = iy + sign * dy;
-          if (x < 0 || y < 0 || x >= grid.nx || y >= grid.ny || !is_place(grid.at(x, y))) continue;
-          const double here = std::abs(grid.at(x, y) - z) / grid.step_mm;
-          if (here > kSteepTangent && here > most &&
-              has_upright_step(drop, cutter, allowance_mm, grid.place(ix, iy), grid.place(x, y)))
-            continue;
-          most = std::max(most, here);
-        }
-        return most;
-      };
-      if (std::hypot(rise(1, 0), rise(0, 1)) < limit) continue;
+      if (!is_place(grid.at(ix, iy))) continue;
+      const double tangent = tangent_at(grid, ix, iy, [&](int x, int y, double rise) {
+        return !(rise > kSteepTangent &&
+                 has_upright_step(drop, cutter, allowance_mm, grid.place(ix, iy), grid.place(x, y)));
+      });
+      if (tangent < limit) continue;
       out.on[static_cast<std::size_t>(iy) * static_cast<std::size_t>(grid.nx) +
              static_cast<std::size_t>(ix)] = 1;
     }
@@ -145,9 +150,7 @@ std::vector<Run> within(const Run& run, const Mask& mask) {
     for (int k = 1; k <= n; ++k) {
       const Vec3 p = k == n ? run[i] : run[i - 1] + (static_cast<double>(k) / n) * (run[i] - run[i - 1]);
       const bool in = mask.at(xy(p));
-      if (in && piece.empty()) {
-        piece.push_back(p);
-      } else if (in && k == n) {
+      if (in && (piece.empty() || k == n)) {
         piece.push_back(p);
       } else if (!in && !piece.empty()) {
         const Vec3 last = run[i - 1] + (static_cast<double>(k - 1) / n) * (run[i] - run[i - 1]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "planner/ground/geometry/vec.h"
@@ -30,6 +31,13 @@ struct Mask {
 [[nodiscard]] Mask both(const Mask& a, const Mask& b);
 [[nodiscard]] Mask either(const Mask& a, const Mask& b);
 [[nodiscard]] Mask inverse(const Mask& mask);
+
+/// Whether the tip may stand at a height of a grid: it is one of the area, and free.
+[[nodiscard]] bool is_place(double z);
+/// The slope of the tip's places at a grid point that is one: of the steeper sides along x and y. `counts`
+/// leaves out neighbours (x, y), which rise by so much; none: all places count.
+[[nodiscard]] double tangent_at(const DropGrid& grid, int ix, int iy,
+                                const std::function<bool(int x, int y, double rise)>& counts = {});
 
 /// Where the places of the tip of a cutter rise more steeply than an angle, and are no upright step, which
 /// is an edge of the surface and no slope. `grid`: those places, 1e300 and NaN where there are none.

@@ -133,15 +133,9 @@ PassWriter::PassWriter(const FreeformJob& task, const DropCutter& drop, const Mi
     : task_(task),
       job_(job),
       avoid_(avoided(task, cutter.radius())),
+      follow_(follower_of(task, drop, cutter)),
       spacing_mm_(spacing_mm),
-      reach_mm_(kNeighbour * spacing_mm) {
-  follow_ = {.drop = &drop,
-             .cutter = cutter,
-             .allowance_mm = task.allowance_mm,
-             .tolerance_mm = task.tolerance_mm,
-             .bottom_z_mm = task.bottom_z_mm,
-             .beside_is_free = task.beside_is_free};
-}
+      reach_mm_(kNeighbour * spacing_mm) {}
 
 void PassWriter::keep(const FreeformJob& task) { follow_.allowance_mm = task.allowance_mm; }
 

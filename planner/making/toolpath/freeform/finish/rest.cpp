@@ -25,7 +25,7 @@ std::vector<double> left_by_wider(const DropGrid& grid, const DropCutter& drop, 
     std::uint32_t hint = 0, hint_of_wider = 0;
     for (int ix = 0; ix < grid.nx; ++ix) {
       const std::size_t i = row * static_cast<std::size_t>(grid.nx) + static_cast<std::size_t>(ix);
-      if (std::isnan(grid.z[i]) || grid.z[i] >= kBlocked) continue;
+      if (!is_place(grid.z[i])) continue;
       const Vec2 p = grid.place(ix, static_cast<int>(row));
       const double z = drop.drop(cutter, p.x, p.y, 0.0, hint);
       const double zx = drop.drop(cutter, p.x + step, p.y, 0.0, hint);

@@ -25,19 +25,8 @@ std::vector<double> heights(const DropGrid& grid, const Mask& where, double apar
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       const double z = grid.at(ix, iy);
-      if (std::isnan(z) || z >= kBlocked || !where.at(grid.place(ix, iy))) continue;
-      const auto rise = [&](int dx, int dy) {
-        double most = 0.0;
-        for (const int sign : {-1, 1}) {
-          const int x = ix + sign * dx, y = iy + sign * dy;
-          if (x < 0 || y < 0 || x >= grid.nx || y >= grid.ny) continue;
-          const double next = grid.at(x, y);
-          if (std::isnan(next) || next >= kBlocked) continue;
-          most = std::max(most, std::abs(next - z) / grid.step_mm);
-        }
-        return most;
-      };
-      const double tangent = std::hypot(rise(1, 0), rise(0, 1));
+      if (!is_place(z) || !where.at(grid.place(ix, iy))) continue;
+      const double tangent = tangent_at(grid, ix, iy);
       cells.push_back({z, std::max(kLeastShare, tangent / std::hypot(1.0, tangent))});
     }
   }

@@ -46,8 +46,6 @@ constexpr double kPointMm = 0.1;
 constexpr double kSpeckMm2 = 1e-3;  ///< less is rounding of outlines; default, unsourced
 constexpr double kBelowMm = 0.05;   ///< a hole's end, to see what it opens into; default, unsourced
 
-std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
-
 /// How much higher, and how much narrower than nominal the feature's tolerances let it be.
 double shallower(const Form& s) { return s.depth.given ? std::max(0.0, -s.depth.lower_mm) : 0.0; }
 double narrower(const Form& s) {

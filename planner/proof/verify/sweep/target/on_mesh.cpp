@@ -22,8 +22,6 @@ using model::ShapeKind;
 
 namespace {
 
-std::string place(Vec2 p, double z) { return "(" + plain(p.x) + ", " + plain(p.y) + ", " + plain(z) + ")"; }
-
 /// Material that stands too high in one cell.
 struct High {
   int ix = 0, iy = 0;
