@@ -176,6 +176,21 @@ TEST(Facade, AReliefThatIsLowerThanARoughLeavesIsFinishedAlone) {
   EXPECT_TRUE(told);
 }
 
+TEST(Facade, ARawPieceThatStockStatesIsNotSaidToBeMissing) {
+  const std::string surface = capstan::testing::source_dir() + "/examples/surface.stl";
+  const auto says_missing = [&](const PlanOptions& options) {
+    const PlanOutput out = plan_file(surface, options);
+    return std::any_of(out.diagnostics.begin(), out.diagnostics.end(),
+                       [](const PlanMessage& m) { return m.code == "PIP-STOCK"; });
+  };
+  PlanOptions options;
+  options.material = "6061";
+  options.bind = "none";
+  EXPECT_TRUE(says_missing(options));
+  options.stock_allowance_mm = 2.0;
+  EXPECT_FALSE(says_missing(options));
+}
+
 TEST(Facade, APersonsEditsHoldInThePlanAndComeBackAsAFile) {
   PlanOptions options;
   options.set = {"SLOT area_rough/feed=1111"};

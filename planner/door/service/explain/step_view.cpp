@@ -8,6 +8,7 @@
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::service {
@@ -76,6 +77,11 @@ StepView view_of(const model::Plan& plan, AnyRef step) {
   return v;
 }
 
+/// True if planning proposed the step and took it out again, as one with nothing to cut: no workplan has it.
+bool taken_out(const model::Plan& plan, AnyRef step, const std::set<AnyRef>& reached) {
+  return !reached.contains(step) && model::by_planning(plan.ledger.find(step, "its_operation"));
+}
+
 }  // namespace
 
 std::vector<StepView> views_of(const model::Plan& plan) {
@@ -90,10 +96,13 @@ std::vector<StepView> views_of(const model::Plan& plan) {
   }
   std::map<std::string, int> used;
   for (const StepView& v : out) ++used[v.id];
+  const std::vector<AnyRef> roots = {plan.project};
+  const auto list = model::reachable(plan.model, roots);
+  const std::set<AnyRef> reached(list.begin(), list.end());
   for (const AnyRef at : plan.model.all_below(TypeId::kWorkingstep)) {
     const bool planned = std::any_of(plan.steps.begin(), plan.steps.end(),
                                      [&](const model::StepResult& s) { return s.step == at; });
-    if (planned) continue;
+    if (planned || taken_out(plan, at, reached)) continue;
     StepView v = view_of(plan, at);
     const auto& e = plan.model.at<model::Executable>(at);
     v.id = e.persistent_id ? *e.persistent_id : e.its_id.value_or("");

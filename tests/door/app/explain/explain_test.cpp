@@ -32,6 +32,18 @@ TEST(Explain, OverviewSaysWhatIsNotPlannedAndWhy) {
   EXPECT_THAT(explain(plan), HasSubstr("#17 ROUND_HOLE 'HOLE': no drill reaches 300 mm"));
 }
 
+// A proposed step with nothing to cut is taken out of the workplan; its nouns stay in the model.
+TEST(Explain, AStepThatPlanningTookOutIsNotListedAsNotPlanned) {
+  auto plan = testing::planned_plate();
+  const auto added = plan.model.add(plan.model.at<model::MachiningWorkingstep>(plan.steps.front().step));
+  const model::AnyRef step(added);
+  plan.model.at<model::MachiningWorkingstep>(step).its_id = "REST";
+  EXPECT_THAT(explain(plan), HasSubstr("Workingsteps not planned\n  'REST'"));  // the file's own: told
+  plan.ledger.bind(step, "its_operation", model::Binder::kRule, {"freeform.rest", "a rest is roughed", "own"},
+                   {}, {});
+  EXPECT_THAT(explain(plan), Not(HasSubstr("REST")));
+}
+
 TEST(Explain, OverviewSaysWhichCornersKeepRestMaterial) {
   auto plan = testing::planned_plate();
   plan.provenance.push_back(model::provenance_of(model::CornerRest{"POCKET", 0.2, 1.5, "no mill enters"}));
