@@ -411,6 +411,22 @@ TEST_F(FromCad, AStepWithAFilletSaysThatItsFilletIsNotPlanned) {
     EXPECT_NE(why.find("fillets of 2 mm"), std::string::npos) << why;
 }
 
+// Points that are shared out over a part of 400 x 200 x 600 mm lie 9 mm apart: none lies in the fillet.
+TEST_F(FromCad, AFilletThatIsSmallOnItsPartIsNotCutAway) {
+  const auto plan = planned(extruded({{{0, 0}, {}},
+                                      {{400, 0}, {}},
+                                      {{400, 100}, {}},
+                                      {{202, 100}, Vec2{202, 102}},
+                                      {{200, 102}, {}},
+                                      {{200, 200}, {}},
+                                      {{0, 200}, {}}},
+                                     600));
+  ASSERT_TRUE(plan) << plan.error().message;
+  ASSERT_FALSE(model::not_recognised(*plan).empty());
+  for (const auto& [feature, why] : model::not_recognised(*plan))
+    EXPECT_NE(why.find("fillets of 2 mm"), std::string::npos) << why;
+}
+
 TEST_F(FromCad, AnAreaThatIsThinnerThanPointsAreToldApartIsNotDrawn) {
   const exchange::Brep brep = shape(bored({{5, 20}, {5, 10}, {0, 10}}));
   const from_cad::Part part(brep, 0, {{0, 0, 0}, {40, 40, 20}});
