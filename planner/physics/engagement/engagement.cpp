@@ -159,8 +159,8 @@ class Measurer {
   [[nodiscard]] double thickest_chip(Vec3 from, Vec3 to, double ceiling) const {
     if (!nose_) return 0.0;
     const Vec3 feed = (1.0 / norm(to - from)) * (to - from);
-    const double found = std::max(chip_over_feed(map_, *nose_, 0.5 * (from + to), feed, ceiling),
-                                  chip_over_feed(map_, *nose_, to, feed, ceiling));
+    const double middle = chip_over_feed(map_, *nose_, 0.5 * (from + to), feed, ceiling);
+    const double found = chip_over_feed(map_, *nose_, to, feed, ceiling, middle);
     constexpr double kDoubt = 1.1;  // of a cell: rows lie beside the way, heights are rounded
     return std::min(1.0, found + kDoubt * map_.cell_mm / nose_->round_mm);
   }

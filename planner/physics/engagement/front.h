@@ -27,12 +27,13 @@ struct RoundNose {
 /// Frame     that of the map; `tip` is the lowest point of the cutter, `feed` of length 1. Nothing stands
 /// over
 ///           `ceiling_mm` there, which saves time only.
+/// `known`   a share that is had already, 0 .. 1: the larger of both is said. Saves time only.
 /// Range     0 .. 1; 0 where nothing stands in the way.
 /// Accuracy  cells count when their middles do: the truth may be larger by a cell over the round's radius,
 ///           which the caller adds.
 /// Source    derived: chip thickness is the feed's component normal to the edge's surface (Altintas,
 ///           Manufacturing Automation, 2nd ed., section 2.7, for a level feed: fz sin a sin k).
 [[nodiscard]] double chip_over_feed(const stock::HeightMap& map, const RoundNose& nose, geometry::Vec3 tip,
-                                    geometry::Vec3 feed, double ceiling_mm = 1e300);
+                                    geometry::Vec3 feed, double ceiling_mm = 1e300, double known = 0.0);
 
 }  // namespace capstan::engagement

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "planner/physics/engagement/engagement.h"
 
@@ -77,6 +78,66 @@ TEST(ChipOverFeed, OfARibAsHighAsTheBallIsTheWholeFeed) {
   EXPECT_GT(chip, 0.95);
   EXPECT_LE(chip, 1.0);
   EXPECT_EQ(chip_over_feed(map, *nose, {20.0, 30.0, -20.0}, {1.0, 0.0, 0.0}), 0.0);  // in air
+}
+
+/// The same by a look at every cell of the map, without any bound.
+double over_all_cells(const stock::HeightMap& map, const RoundNose& nose, Vec3 tip, Vec3 feed) {
+  double most = 0.0;
+  for (int iy = 0; iy < map.ny; ++iy) {
+    for (int ix = 0; ix < map.nx; ++ix) {
+      const double x = map.x_of(ix) - tip.x, y = map.y_of(iy) - tip.y;
+      const double away = std::hypot(x, y);
+      const double sine = std::max(0.0, away - nose.centre_mm) / nose.round_mm;
+      if (sine > 1.0) continue;
+      const double cosine = std::sqrt(1.0 - sine * sine);
+      const double stands = static_cast<double>(map.at(ix, iy).top_mm) + map.origin.z - tip.z - 1e-3;
+      if (stands <= nose.round_mm * (1.0 - cosine)) continue;
+      const double towards = away > 0.0 ? (x * feed.x + y * feed.y) / away : 0.0;
+      most = std::max(most, sine * towards - cosine * feed.z);
+    }
+  }
+  return most;
+}
+
+TEST(ChipOverFeed, IsTheLargestOfAllCellsWhateverStandsAndWhereverTheFeedGoes) {
+  std::mt19937 random(7);
+  const auto number = [&](double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+  };
+  const double radius = 3.0, cell = 0.1;
+  int some = 0;
+  for (int nth = 0; nth < 4000; ++nth) {
+    auto map = stock::from_box({{0, 0, -10}, {8, 8, 0}}, cell);
+    // A level piece with holes, steps or bumps, so that the thickest place lies anywhere.
+    const double a = number(0.0, 7.0), b = number(0.0, 7.0), step = number(0.0, 2.0);
+    const int kind = nth % 4;
+    for (int iy = 0; iy < map.ny; ++iy) {
+      for (int ix = 0; ix < map.nx; ++ix) {
+        double h = number(5.0, 5.2);
+        if (kind == 1)
+          h = std::cos(a) * (map.x_of(ix) - 4.0) + std::sin(a) * (map.y_of(iy) - b) > 0.0 ? 7.0 : 5.0;
+        if (kind == 2) h = std::hypot(map.x_of(ix) - a, map.y_of(iy) - b) < 1.0 + step ? 4.0 : 6.0;
+        if (kind == 3) h = number(0.0, 1.0) < 0.01 ? number(5.0, 8.0) : 3.0;
+        map.set(ix, iy, {static_cast<float>(h), static_cast<float>(h), 0.0F});
+      }
+    }
+    const RoundNose nose =
+        nth % 8 < 4 ? RoundNose{radius, radius, 0.0} : RoundNose{radius, 0.8, radius - 0.8};
+    const Vec3 tip{number(0.0, 8.0), number(0.0, 8.0), -10.0 + number(4.5, 5.5)};
+    const double way = nth % 5 == 0 ? 0.5 * std::numbers::pi * (nth % 4) : number(0.0, 7.0);
+    const double rise = nth % 3 == 0 ? 0.0 : number(-1.5, 1.5);
+    const Vec3 feed{std::cos(way) * std::cos(rise), std::sin(way) * std::cos(rise), std::sin(rise)};
+    const double all = over_all_cells(map, nose, tip, feed);
+    double ceiling = 0.0;
+    for (const float top : map.top) ceiling = std::max(ceiling, static_cast<double>(top));
+    ceiling += map.origin.z;
+    EXPECT_NEAR(chip_over_feed(map, nose, tip, feed), all, 1e-9) << nth;
+    EXPECT_NEAR(chip_over_feed(map, nose, tip, feed, ceiling), all, 1e-9) << nth;
+    const double known = number(0.0, 1.0);
+    EXPECT_NEAR(chip_over_feed(map, nose, tip, feed, ceiling, known), std::max(known, all), 1e-9) << nth;
+    some += all > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(some, 2000);
 }
 
 TEST(ChipOverFeed, IsMeasuredOfRoundNosesOnly) {
