@@ -1,11 +1,9 @@
 #include "planner/door/app/large_pages.h"
 
 #if defined(__linux__) && defined(__GLIBC__)
-#include <sys/mman.h>
-#include <unistd.h>
-
-#include <cstdint>
 #include <cstdlib>
+
+#include "planner/ground/base/memory/large_pages.h"
 #endif
 
 namespace capstan::app {
@@ -18,10 +16,7 @@ void ask_for_large_pages() {
   std::free(apart);
   void* const block = std::malloc(kStartOfHeap);
   if (block == nullptr) return;
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto from = (reinterpret_cast<std::uintptr_t>(block) + page - 1) / page * page;
-  const auto to = (reinterpret_cast<std::uintptr_t>(block) + kStartOfHeap) / page * page;
-  (void)madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
+  capstan::ask_for_large_pages(block, kStartOfHeap);
   std::free(block);
 }
 #else

@@ -1,15 +1,13 @@
 #pragma once
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <type_traits>
 #include <utility>
+
+#include "planner/ground/base/memory/large_pages.h"
 
 namespace capstan::p21::detail {
 
@@ -55,7 +53,6 @@ class Buffer {
 
  private:
   static T* allocate(std::size_t n) {
-    constexpr std::size_t kLargePage = std::size_t{2} << 20;
     std::size_t bytes = n * sizeof(T);
     void* memory = nullptr;
     if (bytes < 2 * kLargePage) {
@@ -63,9 +60,7 @@ class Buffer {
     } else {
       bytes = (bytes + kLargePage - 1) / kLargePage * kLargePage;
       memory = std::aligned_alloc(kLargePage, bytes);
-#ifdef __linux__
-      if (memory != nullptr) ::madvise(memory, bytes, MADV_HUGEPAGE);  // a wish; refusal does no harm
-#endif
+      ask_for_large_pages(memory, bytes);
     }
     if (memory == nullptr) throw std::bad_alloc();
     return static_cast<T*>(memory);

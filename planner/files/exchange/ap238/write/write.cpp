@@ -10,6 +10,7 @@
 #include "planner/files/exchange/records/seal.h"
 #include "planner/files/p21/print.h"
 #include "planner/files/p21/read/parse.h"
+#include "planner/ground/base/memory/large_pages.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {
@@ -81,6 +82,7 @@ Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   std::string rest = head + between;
   // A file may have hundreds of megabytes, which are written once, where they stay.
   out.bytes.reserve(rest.size() + bytes_of_exact_paths(plan) + writer.bytes());
+  ask_for_large_pages(out.bytes.data(), out.bytes.capacity());
   out.bytes += head;
   append_exact_paths(out.bytes, plan, copy.model, name, &already);
   const std::size_t seals_at = out.bytes.size();
