@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
 
 #include "planner/door/pipeline/pipeline.h"
 #include "tests/removal/drawing.h"
@@ -13,16 +16,19 @@
 namespace capstan::testing::sweep {
 namespace {
 
-/// M8 in C45, on a machine whose control does not synchronise spindle and feed.
+/// M8 on a machine whose control does not synchronise spindle and feed.
+Outcome thread_in(const std::string& material) {
+  Case c;
+  for (std::size_t i = 0; i < features().size(); ++i)
+    if (features()[i].name == "tapped hole") c.feature = i;
+  while (kMaterials[c.material].name != material) ++c.material;
+  c.machine = 1;
+  return Sweep().plan(c);
+}
+
+/// The same in C45.
 const Outcome& milled_thread() {
-  static const Outcome made = [] {
-    Case c;
-    for (std::size_t i = 0; i < features().size(); ++i)
-      if (features()[i].name == "tapped hole") c.feature = i;
-    c.material = 0;
-    c.machine = 1;
-    return Sweep().plan(c);
-  }();
+  static const Outcome made = thread_in("C45");
   return made;
 }
 
@@ -72,6 +78,41 @@ model::StepResult& milling_step(model::Plan& plan) {
   return *std::find_if(plan.steps.begin(), plan.steps.end(), [&](const model::StepResult& s) {
     return model::find_cutter(plan, s.cutter_id)->cutter_class == model::CutterClass::kThreadMill;
   });
+}
+
+/// Arcs of its path that cut, in turns.
+double turns_of(const model::StepResult& s) {
+  double out = 0.0;
+  for (std::size_t i = 1; i < s.path->size(); ++i) {
+    if (!model::is_arc(s.path->kind[i]) || s.path->role[i] != model::MoveRole::kCut) continue;
+    const double r = std::hypot(s.path->x[i] - s.path->cx[i], s.path->y[i] - s.path->cy[i]);
+    out += std::sqrt(std::max(0.0, std::pow(model::move_length(*s.path, i), 2.0) -
+                                       std::pow(s.path->z[i] - s.path->z[i - 1], 2.0))) /
+           (2.0 * std::numbers::pi * r);
+  }
+  return out;
+}
+
+// One turn, and a half to lead in and to lead out. The thread is 15 mm deep.
+TEST(ThreadMill, OfProfilesOverTheWholeThreadTakesOneTurnWhereItsForceIsBorne) {
+  Outcome o = thread_in("POM");
+  ASSERT_TRUE(o.whole());
+  for (const auto& f : o.findings) EXPECT_NE(f.severity, Severity::kError) << f.code << " " << f.message;
+  const model::StepResult& s = milling_step(o.made.plan);
+  const model::Cutter& c = *model::find_cutter(o.made.plan, s.cutter_id);
+  EXPECT_GE(c.maximum_depth_of_cut_mm, 15.0) << c.id;
+  EXPECT_NEAR(turns_of(s), 2.0, 1e-6);
+  EXPECT_LE(s.loads.deflection_mm, 0.05) << "all its profiles bend it at once";
+}
+
+// In steel all profiles at once bend a mill too far: one profile, by the shorter of the necks that reach.
+TEST(ThreadMill, OfOneProfileIsTheStiffestThatReaches) {
+  model::Plan plan = milled_thread().made.plan;
+  const model::StepResult& s = milling_step(plan);
+  const model::Cutter& c = *model::find_cutter(plan, s.cutter_id);
+  EXPECT_LT(c.maximum_depth_of_cut_mm, 2.0 * c.thread_pitch_mm) << c.id;
+  EXPECT_LT(c.neck_length_mm, 2.5 * 8.0) << c.id;
+  EXPECT_NEAR(turns_of(s), 15.0 / 1.25 + 1.0, 1e-6);
 }
 
 /// What the check says where the step ends in the middle of its thread: `kind` straight up from there.

@@ -21,6 +21,7 @@
 #include "planner/making/step/path/given_path.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/progress.h"
+#include "planner/making/step/path/shift.h"
 #include "planner/making/step/path/stocks.h"
 #include "planner/making/step/path/surface_rest.h"
 #include "planner/making/step/record/from_cases.h"
@@ -353,13 +354,10 @@ class PathMaker {
   /// Surfaces may.
   [[nodiscard]] std::optional<std::string> longer_than_a_shift(const StepDraft& step,
                                                                const step::MeasuredCut& t) const {
-    constexpr double kShiftS = 8.0 * 3600.0;
     if (!step.proposed || plan_.model.holds<model::FreeformOperation>(step.operation)) return std::nullopt;
     const auto seconds = step::seconds_of(plan_.machine, *t.path, t.feeds.schedule);
-    if (!seconds || *seconds <= kShiftS) return std::nullopt;
-    return "it cuts " + trimmed(*seconds / 3600.0, 1) + " h, longer than a shift of " +
-           trimmed(kShiftS / 3600.0, 0) +
-           " h; take a machine that turns a wider tool in this material (--machine), or change the feature";
+    if (!seconds || *seconds <= step::kShiftS) return std::nullopt;
+    return step::longer_than_a_shift_text(trimmed(*seconds / 3600.0, 1) + " h");
   }
 
   /// Takes a try: into nouns, ledger and plan.

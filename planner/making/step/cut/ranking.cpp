@@ -11,6 +11,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/step/cut/drilled_hole.h"
 #include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/question.h"
@@ -155,9 +156,9 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<StepDraft>&
 void rank_by_path(model::Plan& plan, std::vector<StepDraft>& steps, StepDraft& step,
                   const std::vector<std::string>& used,
                   const std::function<std::optional<double>(std::size_t)>& seconds) {
-  if (step.candidates.size() < 2 || step.shapes.empty() ||
-      !model::has(step.candidates.front().cutter.cutter_class, model::CutterTrait::kSlotForm))
-    return;
+  if (step.candidates.size() < 2 || step.shapes.empty()) return;
+  const model::CutterClass first = step.candidates.front().cutter.cutter_class;
+  if (!model::has(first, model::CutterTrait::kSlotForm) && !model::mills_threads(first)) return;
   std::vector<std::pair<double, std::size_t>> times;
   for (std::size_t i = 0; i < std::min(kCompared, step.candidates.size()); ++i) {
     const double change = is_used(used, step.candidates[i].cutter) ? 0.0 : plan.machine.tool_change_s;

@@ -15,6 +15,7 @@
 #include "planner/making/step/path/given_path.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/remembered/pieces.h"
+#include "planner/making/step/path/shift.h"
 #include "planner/making/step/path/surface.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
@@ -233,6 +234,11 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
     if (out.depth_open) job.axial_depth_mm = out.answer.ap_mm;
     if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
     if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
+    if (out.width_open && out.depth_open) {
+      if (const auto why = surely_longer_than_a_shift(step, job, out.question, out.answer,
+                                                      means.stocks.of(step.setup)))
+        return fail("PIP-SHIFT", *why);
+    }
     if (cuts_under_overhang(step.cutter)) {
       // A stated feed is lowered where that holds the limits, and otherwise by the teeth that cut.
       auto loads = hold_under_overhang(out.question, out.answer,
