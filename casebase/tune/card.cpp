@@ -11,6 +11,7 @@
 
 #include "casebase/planned.h"
 #include "casebase/record/failing.h"
+#include "casebase/tune/advise.h"
 #include "casebase/tune/evidence.h"
 #include "casebase/tune/from_case.h"
 #include "planner/ground/base/number.h"
@@ -32,6 +33,8 @@ struct Observations {
   std::vector<ForceSample> forces;
   std::vector<LifeSample> lives;
   std::vector<std::string> forces_of, lives_of, cut_short;
+  std::vector<ForceSample> far_forces;  // at least as large at the planned feed or above
+  std::vector<std::string> far_forces_of;
   std::size_t unfed = 0, far = 0;  // forces
   std::size_t unfed_lives = 0;
 };
@@ -88,14 +91,14 @@ class Collector {
     }
     const double share = fed->value / p.held_fz_mm;
     constexpr double kRounding = 1e-9;
-    if (!(share >= kLeastFeedShare - kRounding && share <= kMostFeedShare + kRounding)) {
-      ++to.far;
-      return;
-    }
+    const bool far = !(share >= kLeastFeedShare - kRounding && share <= kMostFeedShare + kRounding);
+    if (far) ++to.far;
     if (!heard_.emplace(force->value, p.peak_force_n, b.vc_m_min, b.fz_mm).second) return;
-    const double kc = p.specific_force_n_mm2 * force->value * p.force_margin / p.peak_force_n / share;
-    to.forces.push_back({share * b.mean_chip_mm, kc / rake_share(substrate, c.asked.tool_class), edge});
-    to.forces_of.push_back(c.id);
+    const double at = far ? std::max(share, 1.0) : share;  // a far force: no less than at the planned feed
+    const double kc = p.specific_force_n_mm2 * force->value * p.force_margin / p.peak_force_n / at;
+    (far ? to.far_forces : to.forces)
+        .push_back({at * b.mean_chip_mm, kc / rake_share(substrate, c.asked.tool_class), edge});
+    (far ? to.far_forces_of : to.forces_of).push_back(c.id);
   }
 
   /// Kienzle's law is the card's for a rake of 0. What a raked mill saves is in its own force: without
@@ -115,12 +118,22 @@ class Collector {
   std::set<std::tuple<double, double, double, double>> heard_;  // copies under other names are one
 };
 
+/// ln of the factor that is taken of one that cases have; `sign` as of `judge`, `std_dev` of its logarithm.
+/// `step`: ln of how far it may go the safe way by kLeastEdges edges.
+double bounded(double ln_seen, double sign, double std_dev, std::size_t edges, double step) {
+  if (sign * ln_seen >= 0.0) return ln_seen;
+  const double freedom = edges > 1 ? static_cast<double>(edges - 1) : 1.0;
+  const double by_interval = sign * ln_seen + deviations_90(freedom) * std_dev;
+  const double by_count = -step * static_cast<double>(edges / kLeastEdges);
+  return sign * std::min(0.0, std::max(by_interval, by_count));
+}
+
 /// Says why planning does not take a correction, if it does not. `sign`: 1 where a factor above 1 is the
 /// unsafe way, as of forces; -1 where one below it is, as of lives. Against a case that the others do not
 /// explain, or that was cut short, nothing is lowered or narrowed; what the others raise holds, with the
 /// card's spread at least.
 void judge(CardCorrection& c, double sign, double spread_believed) {
-  const double ln_unsafe = sign * std::log(c.factor);  // above 0: more force, or less life, than the card
+  const double ln_unsafe = sign * std::log(c.seen);  // above 0: more force, or less life, than the card
   if (c.edges < kLeastEdges) {
     c.why_not =
         fmt::format("measured on {}, and {} are needed", counted(c.edges, "edge", "edges"), kLeastEdges);
@@ -179,11 +192,18 @@ std::optional<CardCorrection> force_of(const Observations& seen, const model::Wo
   }
   out.cases = fit->cases;
   out.edges = fit->edges;
-  out.factor = fit->factor;
+  out.seen = fit->factor;
+  out.factor = std::exp(bounded(std::log(fit->factor), 1.0, fit->ln_std_dev, fit->edges, TuneOptions{}.step));
   out.spread = std::max(kLeastForceSpread, fit->spread);
   out.chip_mm = fit->chip_mm;
   out.ids = sorted(seen.forces_of);
   out.beyond = at_places(seen.forces_of, fit->beyond);
+  const double most = out.seen * std::pow(out.spread, kBelievedDeviations);
+  for (std::size_t i = 0; i < seen.far_forces.size(); ++i) {
+    const ForceSample& far = seen.far_forces[i];
+    if (far.kc_n_mm2 > most * law(far.chip_mm)) out.beyond.push_back(seen.far_forces_of[i]);
+  }
+  std::sort(out.beyond.begin(), out.beyond.end());
   judge(out, 1.0, spread);
   return out;
 }
@@ -209,7 +229,10 @@ std::optional<CardCorrection> life_of(const Observations& seen, const model::Wor
   out.law = fit->law;
   out.cases = fit->how.cases;
   out.edges = fit->how.groups;
-  out.factor = fit->law.life_min / law->life_min;
+  out.seen = fit->law.life_min / law->life_min;
+  out.factor = std::exp(
+      bounded(std::log(out.seen), -1.0, fit->how.fit.std_dev(0), out.edges, TuneOptions{}.step / law->n));
+  out.law.life_min = out.factor * law->life_min;
   out.spread_before = std::exp(std::hypot(kLifeSpread, scatter));
   out.spread = std::exp(fit->law.scatter);
   out.ids = sorted(seen.lives_of);
@@ -225,7 +248,10 @@ std::string CardCorrection::words() const {
   std::string out = fmt::format("{} of {} {}", model == CardModel::kForce ? "cutting force" : "life",
                                 model::to_text(substrate), of_what);
   if (cases > 0)
-    out += fmt::format(": {} of the card's, spread {} instead of {} ({} on {})", trimmed(factor, 2),
+    out += fmt::format(": {} of the card's{}, spread {} instead of {} ({} on {})", trimmed(seen, 2),
+                       trimmed(factor, 2) == trimmed(seen, 2) || !taken()
+                           ? std::string()
+                           : ", of which " + trimmed(factor, 2) + " is taken",
                        trimmed(spread, 2), trimmed(spread_before, 2), counted(cases, "case", "cases"),
                        counted(edges, "edge", "edges"));
   if (!beyond.empty())
@@ -241,10 +267,13 @@ std::string CardCorrection::words() const {
                              counted(unfed, "force is", "forces are"))
                : fmt::format("; {} not heard, for nobody says at which speed and feed",
                              counted(unfed, "life is", "lives are"));
-  if (far > 0)
-    out +=
-        fmt::format("; {} not heard, for not measured {}", counted(far, "force is", "forces are"), within());
   return out;
+}
+
+std::string CardCorrection::far_words() const {
+  if (far == 0) return {};
+  return fmt::format("{} of {} {} not heard, for not measured {}", counted(far, "force", "forces"),
+                     model::to_text(substrate), far == 1 ? "mills is" : "mills are", within());
 }
 
 std::string CardCorrection::named() const {

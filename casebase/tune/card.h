@@ -30,9 +30,17 @@
 /// Life    the extended Taylor law, as `correct_life`, of the speed and feed that were executed: those of the
 ///         case that holds the edge's readings stand for all of its cuts.
 ///
+/// Bound  what goes the safe way, a lower force or a longer life, is taken no further than two bounds allow:
+///        the end of its interval of 90 % that is nearer to the card, and one step of tuning's trust region
+///        (TuneOptions::step) for every `kLeastEdges` edges. Of a life that step is of the speed, so that its
+///        life may be longer by the step over Taylor's exponent. The other way is taken in full.
+///
 /// What is unsafe is no outlier: a force above, or a life below, what the others explain forbids that
 /// anything is lowered or narrowed (`CardCorrection::beyond`), and so does a tool of the substrate that broke
-/// or chattered heavily in this material (`cut_short`), of which no figure is heard.
+/// or chattered heavily in this material (`cut_short`), of which no figure is heard. A force of a feed that
+/// is not heard is still held against the others: at less feed than planned it is at most that of the planned
+/// feed, and above it runout hides a part of it; where even so it lies `kBelievedDeviations` of the spread
+/// above what they say, it is beyond.
 namespace capstan::casebase::tune {
 
 /// Named edges that were measured before planning takes what they say: fewer do not show how far edges
@@ -55,13 +63,14 @@ struct CardCorrection {
   CardModel model = CardModel::kForce;
   model::Substrate substrate = model::Substrate::kCarbide;
   std::size_t cases = 0, edges = 0;
-  double factor = 1.0;                ///< force at `chip_mm`, or life at the law's reference, over the card's
-  double spread_before = 1.0;         ///< factor of one standard deviation: the card's,
-  double spread = 1.0;                ///< and of a further edge by these cases
-  double chip_mm = 0.0;               ///< mean of the chips observed (geometric)
-  model::ToolLifeLaw law;             ///< of kLife
-  std::string of_what = {};           ///< which cuts it holds for: "mills, as for a rake of 0"
-  std::vector<std::string> ids = {};  ///< of the cases heard, by id
+  /// Force at `chip_mm`, or life at the law's reference, over the card's: as cases have it, and as bounded.
+  double seen = 1.0, factor = 1.0;
+  double spread_before = 1.0;               ///< factor of one standard deviation: the card's,
+  double spread = 1.0;                      ///< and of a further edge by these cases
+  double chip_mm = 0.0;                     ///< mean of the chips observed (geometric)
+  model::ToolLifeLaw law;                   ///< of kLife
+  std::string of_what = {};                 ///< which cuts it holds for: "mills, as for a rake of 0"
+  std::vector<std::string> ids = {};        ///< of the cases heard, by id
   std::vector<std::string> beyond = {};     ///< of those that the others do not explain, on the unsafe side
   std::vector<std::string> cut_short = {};  ///< of the cases whose tool broke or chattered heavily, by id
   /// Figures that are not heard, for nobody says at which feed (of lives: speed, too) they were measured, or
@@ -71,9 +80,12 @@ struct CardCorrection {
   std::string why_not;  ///< why planning does not take it; empty: it does
 
   [[nodiscard]] bool taken() const { return why_not.empty(); }
-  /// "cutting force of carbide mills, as for a rake of 0: 0.82 of the card's, spread 1.14 instead of 1.5 (18
-  /// cases on 6 edges)", and what is not heard or not explained.
+  /// "cutting force of carbide mills, as for a rake of 0: 0.82 of the card's, of which 0.85 is taken, spread
+  /// 1.14 instead of 1.5 (18 cases on 6 edges)", and what is not heard or not explained.
   [[nodiscard]] std::string words() const;
+  /// "2 forces of carbide mills are not heard, for not measured between 0.5 and 1.1 times the planned feed";
+  /// empty where there are none.
+  [[nodiscard]] std::string far_words() const;
   /// "1f0c53c2, 2b77a901 and 16 more".
   [[nodiscard]] std::string named() const;
 };

@@ -131,6 +131,7 @@ std::optional<FactorCorrection> correct_force_factor(std::span<const ForceSample
   const std::vector<double> here = {1.0};
   FactorCorrection out{.factor = std::exp(fit.coefficient[0]),
                        .spread = std::exp(fit.predictive_std_dev_at(here)),
+                       .ln_std_dev = fit.std_dev(0),
                        .chip_mm = std::exp(ln_h / static_cast<double>(rows.size())),
                        .cases = rows.size(),
                        .edges = fit.groups};

@@ -58,6 +58,7 @@ struct ForceCorrection {
 /// One factor on a law of force, whatever its form.
 struct FactorCorrection {
   double factor = 1.0, spread = 1.0;  ///< spread: of a further edge, one standard deviation
+  double ln_std_dev = 0.0;            ///< of the logarithm of the factor itself
   double chip_mm = 0.0;               ///< mean of the chips observed (geometric)
   std::size_t cases = 0, edges = 0;
   /// Samples, by their place, of more force than the others explain (`kBeyondChance`): nobody may lower or

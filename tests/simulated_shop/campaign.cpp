@@ -306,9 +306,10 @@ ForceForecasts forecast_forces(std::uint64_t first_seed, int shops) {
     mechanics::ForceMargin by_cases = by_card;
     by_cases.spread = by.spread;
     const double expected = planned.planned.step.predicted.peak_force_n / planned.planned.force_margin;
-    const double corrected = expected * by.factor;
+    const double seen = expected * by.seen;
     // The set that planning makes of it is Kienzle's law for no rake.
-    const double held = corrected / model::kienzle_share(card, planned.question.cutter) * by_cases.factor();
+    const double held =
+        expected * by.factor / model::kienzle_share(card, planned.question.cutter) * by_cases.factor();
     double truth = 0.0;
     int cuts = 0;
     for (int k = 0; k < kFurtherEdges; ++k) {
@@ -322,7 +323,7 @@ ForceForecasts forecast_forces(std::uint64_t first_seed, int shops) {
         if (part > 0) continue;
         ++out.sharp;
         constexpr double kTwoSided90 = 1.645;
-        out.within_90 += std::abs(std::log(force_n / corrected)) <= kTwoSided90 * std::log(by.spread) ? 1 : 0;
+        out.within_90 += std::abs(std::log(force_n / seen)) <= kTwoSided90 * std::log(by.spread) ? 1 : 0;
       }
     }
     out.cuts += cuts;

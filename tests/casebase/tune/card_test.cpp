@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casebase/casebase.h"
+#include "casebase/tune/advise.h"
 #include "planner/model/plan/resources/specific_force.h"
 
 namespace capstan::casebase::tune {
@@ -76,7 +77,7 @@ TEST(CardCorrections, FindTheFactorOfTheForceAndNarrowItsSpread) {
   EXPECT_TRUE(c.taken()) << c.why_not;
   EXPECT_EQ(c.edges, 6U);
   EXPECT_EQ(c.cases, 18U);
-  EXPECT_NEAR(c.factor, 0.8, 0.02);
+  EXPECT_NEAR(c.seen, 0.8, 0.02);
   EXPECT_GE(c.spread, kLeastForceSpread);
   EXPECT_LT(c.spread, 0.5 * (1.0 + kSpread));
   EXPECT_NEAR(c.chip_mm, 0.05, 1e-9);
@@ -239,9 +240,72 @@ TEST(CardCorrections, TellForcesWithoutAFeedAndThoseOfAFarOneApart) {
   EXPECT_EQ(c.far, 2U);
   EXPECT_NE(c.words().find("; 1 force is not heard, for nobody says with which feed"), std::string::npos)
       << c.words();
-  EXPECT_NE(c.words().find("; 2 forces are not heard, for not measured between 0.5 and 1.1 times"),
-            std::string::npos)
-      << c.words();
+  EXPECT_EQ(c.far_words(),
+            "2 forces of carbide mills are not heard, for not measured between 0.5 and 1.1 times the planned "
+            "feed");
+  EXPECT_EQ(corrections(cuts(18, 1.0)).front().far_words(), "");
+}
+
+TEST(CardCorrections, LowerAForceNoFurtherThanItsIntervalAndItsEdgesAllow) {
+  // Poisoned: a dynamometer that reads 0.6 of the force on every edge. All cases agree, so that their
+  // interval is narrow; what is taken is a step of tuning's trust region for every three edges.
+  const double step = TuneOptions{}.step;
+  for (const int edges : {3, 5, 6, 8, 9}) {
+    const CardCorrection c = corrections(cuts(3 * edges, 0.6)).front();
+    ASSERT_TRUE(c.taken()) << c.why_not;
+    EXPECT_LT(c.seen, 0.66) << edges;
+    EXPECT_NEAR(c.factor, std::exp(-step * (edges / 3)), 1e-9) << edges;  // whole steps
+  }
+  // Within the steps the end of the interval holds: edges that differ say less than edges that agree.
+  const CardCorrection alike = corrections(cuts(27, 0.8)).front();
+  EXPECT_GT(alike.factor, alike.seen);
+  EXPECT_GT(alike.factor, std::exp(-3.0 * step));
+  auto apart = cuts(27, 0.8);
+  for (int i = 0; i < 27; ++i) {
+    constexpr double kEdge[] = {0.9, 1.0, 1.1};
+    apart[static_cast<std::size_t>(i)].observed.peak_force_n->value *= kEdge[i / 3 % 3];
+  }
+  const CardCorrection differ = corrections(apart).front();
+  EXPECT_GT(differ.factor / differ.seen, alike.factor / alike.seen);
+  EXPECT_NE(alike.words().find(" of which "), std::string::npos) << alike.words();
+}
+
+TEST(CardCorrections, EightForcesOfAThirdOfTheCardLowerItByOneStepAtMost) {
+  std::vector<Case> poisoned;
+  for (int i = 0; i < 8; ++i) {
+    poisoned.push_back(cut(i, 0.36));
+    poisoned.back().from.tool_instance = "E" + std::to_string(i % 4);
+  }
+  // With a spread wide enough that two standard deviations of it believe them.
+  const auto found = card_corrections(poisoned, card(), [](model::Substrate) { return 1.8; });
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found.front().taken()) << found.front().why_not;
+  EXPECT_GE(found.front().factor, std::exp(-TuneOptions{}.step));
+}
+
+TEST(CardCorrections, AHigherForceIsTakenInFull) {
+  const CardCorrection c = corrections(cuts(9, 1.6)).front();
+  EXPECT_EQ(c.factor, c.seen);
+  EXPECT_GT(c.factor, 1.5);
+}
+
+TEST(CardCorrections, AForceOfAFarFeedThatEvenSoIsTooHighForbidsToLower) {
+  const auto with_far = [](double share, double factor) {
+    auto cases = cuts(18, 0.8);
+    Case far = cut(18, factor);
+    far.id = "far";
+    far.observed.executed_fz_mm->value = share * far.bound.fz_mm;
+    cases.push_back(far);
+    return corrections(cases).front();
+  };
+  // At 0.4 of the planned feed it is more than twice what the others say of the whole feed.
+  EXPECT_FALSE(with_far(0.4, 2.0).taken());
+  EXPECT_EQ(with_far(0.4, 2.0).beyond, std::vector<std::string>{"far"});
+  EXPECT_EQ(with_far(0.4, 2.0).far, 1U);
+  EXPECT_FALSE(with_far(2.0, 6.0).taken());
+  // What the others explain at that feed forbids nothing.
+  EXPECT_TRUE(with_far(0.4, 0.4).taken());
+  EXPECT_TRUE(with_far(2.0, 1.4).taken());
 }
 
 TEST(CardCorrections, AForceIsHeldAgainstTheFeedThatThePlansScheduleHolds) {

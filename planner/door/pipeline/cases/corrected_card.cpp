@@ -74,6 +74,11 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
   const auto heard = cases.measured_in(casebase::material_group_of(out.of), machine_id, kMostHeard);
   const auto spread_of = [&](model::Substrate s) { return mechanics::force_margin(out.of, s).spread; };
   for (const tune::CardCorrection& c : tune::card_corrections(heard, out.of, spread_of)) {
+    if (std::string far = c.far_words(); !far.empty())
+      out.told.push_back({.code = "CASE-FEED",
+                          .severity = c.cases == 0 ? Severity::kWarning : Severity::kNote,
+                          .message = std::move(far),
+                          .hint = "measure forces at the planned feed, with the override at 100 %"});
     if (c.taken()) {
       take(c, out.card);
       out.rows.push_back({"model by cases", c.words(), "cases " + c.named()});
