@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "planner/controls/controls.h"
 #include "tests/support/corpus.h"
@@ -105,6 +108,38 @@ inline Plan holes_plan(const char* dialect) {
   add_hole(plan, "H3 ream", "r8", 20, 20, true, 0.0);
   add_tap(plan, "H4 tap", 60, 20);
   return plan;
+}
+
+/// Equal holes at these places, drilled in one step.
+inline Plan pattern_plan(const char* dialect, const std::vector<geometry::Vec2>& places) {
+  Plan plan = plan_for(dialect);
+  model::Cutter drill = plan.cutters[0];
+  drill.id = "d8";
+  drill.cutter_class = model::CutterClass::kTwistDrill;
+  drill.cutting_diameter_mm = 8;
+  drill.pocket = 3;
+  plan.cutters.push_back(drill);
+  CutterPath p;
+  p.start({places.front().x, places.front().y, 10});
+  for (const geometry::Vec2 at : places) {
+    if (at != places.front()) p.rapid({at.x, at.y, 10});
+    p.rapid({at.x, at.y, 2});
+    p.line({at.x, at.y, -18.2}, MoveRole::kDrill);
+    p.rapid({at.x, at.y, 10}, MoveRole::kRetract);
+  }
+  capstan::testing::add_step(plan, "pattern", "d8", std::move(p), 1200, 180);
+  return plan;
+}
+
+/// So many places on a circle, counter-clockwise.
+inline std::vector<geometry::Vec2> ring(geometry::Vec2 centre, double radius, double first_deg,
+                                        double step_deg, int number) {
+  std::vector<geometry::Vec2> out;
+  for (int i = 0; i < number; ++i) {
+    const double angle = (first_deg + i * step_deg) * std::numbers::pi / 180.0;
+    out.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return out;
 }
 
 /// The program in the words of the plan's control.

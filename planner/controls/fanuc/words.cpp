@@ -3,6 +3,7 @@
 #include <string>
 
 #include "planner/controls/fanuc/fanuc.h"
+#include "planner/controls/gcode/moves/patterns.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/resources/control_options.h"
@@ -35,12 +36,14 @@ std::string place_words(const HoleCycle& h) {
          with_point(h.bottom_z, h.decimals) + " R" + with_point(h.r_z, h.decimals);
 }
 
-std::string hole_text(const HoleCycle& h, bool in_seconds) {
+/// Modal: at each further place of a block with X or Y again, from the initial level (G98).
+std::string hole_text(const HoleCycle& h, std::span<const geometry::Vec2> places, bool in_seconds) {
   const bool waits = rounded(h.dwell_s, 3) > 0.0;
   const char* code = h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
   return "G98 " + std::string(code) + place_words(h) +
          (waits ? " " + dwell_word(h.dwell_s, in_seconds) : "") + " F" +
-         with_point(h.feed_mm_min, h.feed_decimals) + "\nG80";
+         with_point(h.feed_mm_min, h.feed_decimals) +
+         gcode::place_blocks(places, h.decimals, {}, &with_point) + "\nG80";
 }
 
 struct Tapping {
@@ -106,7 +109,9 @@ gcode::Words words_of(const model::Machine& machine) {
   w.tap = [tapping](const HoleCycle& h) { return tap_text(h, tapping); };
   w.tap_stops_spindle = true;
   if (is("cycles", "feature"))
-    w.cycle = [in_seconds](const HoleCycle& h) { return std::optional(hole_text(h, in_seconds)); };
+    w.cycle = [in_seconds](const HoleCycle& h, std::span<const geometry::Vec2> places) {
+      return std::optional(gcode::CycleText{hole_text(h, places, in_seconds)});
+    };
   if (is("ai_contour", "yes")) {
     w.smooth_on = "G5.1 Q1";
     w.smooth_off = "G5.1 Q0";

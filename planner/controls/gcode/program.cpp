@@ -180,9 +180,10 @@ std::string Program::arc_text(const ArcBlock& arc) const {
   return text + arc.feed;
 }
 
-void Program::moved(std::string_view text, Vec3 to) {
+void Program::moved(std::string_view text, Vec3 to, bool restate) {
   line(text);
   arrive(to);
+  restate_xy_ = restate;
 }
 
 }  // namespace capstan::controls::gcode

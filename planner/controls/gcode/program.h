@@ -52,8 +52,9 @@ class Program {
   /// A helix in one block, with its turns beyond the first.
   void helix(const Helix& h, bool clockwise, double feed_mm_min);
   [[nodiscard]] ArcForm arc_form() const;
-  /// A word by word line whose motion ends at `to`.
-  void moved(std::string_view text, geometry::Vec3 to);
+  /// A word by word line whose motion ends at `to`; `restate`: only to half a unit, so that the next move
+  /// across says both X and Y.
+  void moved(std::string_view text, geometry::Vec3 to, bool restate = false);
 
   /// The last known position; nothing after `forget` or a move in machine coordinates.
   [[nodiscard]] std::optional<geometry::Vec3> at() const;

@@ -26,6 +26,14 @@ struct HoleCycle {
   int decimals = 0, feed_decimals = 0;      ///< of the control
 };
 
+/// The blocks of a cycle at one or more places.
+struct CycleText {
+  std::string text;
+  /// The control has computed the last place itself: it is that of the plan to half a unit only, so that X
+  /// and Y are stated again behind it.
+  bool computed_place = false;
+};
+
 /// The blocks that number themselves with N; kLines: each line from 0 by a number alone, comments too, but
 /// not those that go on with a block (the line before ends with ~), and no line is blank.
 enum class BlockNumbers : unsigned char { kNone, kSteps, kAll, kLines };
@@ -113,12 +121,16 @@ struct Words {
   std::function<std::string(const HoleCycle& hole)> tap = {};
   /// The control has stopped the spindle when a tap is out.
   bool tap_stops_spindle = false;
-  /// A hole as a canned cycle, cancelled behind it; nothing where this control has none that makes these
-  /// moves. Null: explicit moves always.
-  std::function<std::optional<std::string>(const HoleCycle& hole)> cycle = {};
+  /// Equal holes, one or more, as a canned cycle at each of these places (as planned, not rounded), the tool
+  /// over the first; cancelled behind the last. Nothing where this control has none that makes these moves.
+  /// Null: explicit moves always.
+  std::function<std::optional<CycleText>(const HoleCycle& hole, std::span<const geometry::Vec2> places)>
+      cycle = {};
   /// The last line of `cycle` where it runs what the lines before it define: for equal holes of a step these
-  /// stand once. Empty: each hole has its whole text.
+  /// stand once. Empty: each run of equal holes has its whole text.
   std::string_view cycle_call = {};
+  /// Of such a control: in the block of the way to a place, it runs the cycle there.
+  std::string_view cycle_call_there = {};
   /// Around the moves of a milling step; nothing where they are empty.
   std::string smooth_on = {}, smooth_off = {};
   /// Arcs: decimals of I and J beyond those of ends; how far the radii at both ends may differ (0: by a unit

@@ -66,7 +66,7 @@ class Writer {
       const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
       const bool measured = probe(step.step);
       enter(step, cutter, ids[n], n, measured);
-      const bool smooth = !words_.smooth_on.empty() && mills(*step.path);
+      const bool smooth = !words_.smooth_on.empty() && cuts_across(*step.path);
       if (smooth) program_.line(words_.smooth_on);
       if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
       if (smooth) program_.line(words_.smooth_off);
@@ -267,16 +267,6 @@ class Writer {
     return w != nullptr && model::has(w->its_operation.type, model::OperationTrait::kRoughs);
   }
 
-  /// Whether the path has a cut across.
-  static bool mills(const CutterPath& path) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      if (path.kind[i] == MoveKind::kRapid || path.kind[i] == MoveKind::kDwell) continue;
-      if (path.x[i] != path.x[i - 1] || path.y[i] != path.y[i - 1] || model::is_arc(path.kind[i]))
-        return true;
-    }
-    return false;
-  }
-
   static double speed(const StepResult& step, std::size_t move) {
     return step.schedule ? step.schedule->spindle_rpm[move] : step.spindle_rpm;
   }
@@ -406,20 +396,30 @@ class Writer {
     return {};
   }
 
-  // From move `i` on a hole as a canned cycle, where the control has one that makes the same moves. Gives its
-  // last move.
+  // From move `i` on equal holes as a canned cycle, where the control has one that makes the same moves.
+  // Gives their last move.
   std::optional<std::size_t> cycle(const StepResult& step, std::size_t i) {
     if (!words_.cycle || !program_.at()) return std::nullopt;
-    auto hole = hole_at(step, i, *program_.at(), plan_.machine.control);
-    if (!hole) return std::nullopt;
-    const auto text = words_.cycle(hole->cycle);
+    const auto holes = holes_at(step, i, *program_.at(), plan_.machine.control);
+    if (!holes) return std::nullopt;
+    const auto text = words_.cycle(holes->cycle, holes->places);
     if (!text) return std::nullopt;
+    const double z = program_.at()->z;
     program_.write_waiting();
-    const bool same = !words_.cycle_call.empty() && *text == defined_;
-    program_.moved(same ? std::string(words_.cycle_call) : *text, *program_.at());
-    defined_ = *text;
+    const bool same = !words_.cycle_call.empty() && text->text == defined_;
+    const bool by_calls = !words_.cycle_call_there.empty();
+    const geometry::Vec2 last = by_calls ? holes->places.front() : holes->places.back();
+    program_.moved(same ? std::string(words_.cycle_call) : text->text, program_.round({last.x, last.y, z}),
+                   text->computed_place);
+    defined_ = text->text;
+    if (by_calls) {
+      for (std::size_t n = 1; n < holes->places.size(); ++n) {
+        program_.with_next_move(" " + std::string(words_.cycle_call_there));
+        program_.rapid(program_.round({holes->places[n].x, holes->places[n].y, z}));
+      }
+    }
     program_.forget_feed();
-    return hole->last_move;
+    return holes->last_move;
   }
 
   // The control goes down in step with the spindle, reverses it, and comes back to where it began: the move

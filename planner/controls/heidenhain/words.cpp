@@ -215,7 +215,11 @@ gcode::Words words_of(const model::Plan& plan) {
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
   w.cycle_call = kCall;
-  if (is("cycles", "feature")) w.cycle = [](const HoleCycle& h) { return std::optional(hole_text(h)); };
+  w.cycle_call_there = "M99";
+  if (is("cycles", "feature"))
+    w.cycle = [](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {
+      return std::optional(gcode::CycleText{hole_text(h)});
+    };
   w.more_centre_decimals = std::max(0, kMostDecimals - machine.control.decimals);
   w.turns = true;
   return w;

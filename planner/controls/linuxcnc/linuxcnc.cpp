@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "planner/controls/gcode/moves/patterns.h"
 #include "planner/controls/gcode/writer.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/resources/control_options.h"
@@ -19,14 +20,16 @@ constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",
 constexpr int kPitchDecimals = 6, kDwellDecimals = 3;
 
 /// A hole as G81 (out by rapid) or G85 (out at feed to R, from there by rapid), with a dwell as G82 or G89.
-/// The tool is over the hole, so that G98 brings it back to where it is. Source: LinuxCNC 2.9, G-codes.
-std::string hole_text(const gcode::HoleCycle& h) {
+/// The tool is over the first, so that G98 brings it back to where it is; a block with X or Y again is a
+/// further hole. Source: LinuxCNC 2.9, G-codes.
+std::string hole_text(const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
   const bool waits = rounded(h.dwell_s, kDwellDecimals) > 0.0;
   const char* code = h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
   return "G98 " + std::string(code) + " X" + trimmed(h.at.x, h.decimals) + " Y" +
          trimmed(h.at.y, h.decimals) + " Z" + trimmed(h.bottom_z, h.decimals) + " R" +
          trimmed(h.r_z, h.decimals) + (waits ? " P" + trimmed(h.dwell_s, kDwellDecimals) : "") + " F" +
-         trimmed(h.feed_mm_min, h.feed_decimals) + "\nG80";
+         trimmed(h.feed_mm_min, h.feed_decimals) + gcode::place_blocks(places, h.decimals, {}, &trimmed) +
+         "\nG80";
 }
 
 gcode::Words words(const model::Machine& machine) {
@@ -49,7 +52,9 @@ gcode::Words words(const model::Machine& machine) {
           },
   };
   if (model::control_option(machine, "cycles") == "feature")
-    out.cycle = [](const gcode::HoleCycle& h) { return std::optional(hole_text(h)); };
+    out.cycle = [](const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
+      return std::optional(gcode::CycleText{hole_text(h, places)});
+    };
   return out;
 }
 

@@ -29,12 +29,14 @@ namespace capstan::controls::siemens {
 ///
 /// Holes    `MCALL CYCLE81`, `82`, `85` and `84`, a positioning block, `MCALL`: RTP is where the tool came
 ///          from, RFP + SDIS where it is fed from, DP absolute. Pecks are explicit moves: the plan counts the
-///          first from the raw piece, and CYCLE83 counts it from RFP. Modes of the later lists of parameters
+///          first from the raw piece, and CYCLE83 counts it from RFP. Equal holes of a step stand between one
+///          MCALL and its end: `HOLES1` for a row, `HOLES2` for a circle, else a block per place. Modes of
+///          the later lists of parameters
 ///          (_GMODE, _DMODE, _AMODE) are left out: 0, as the shorter lists.
 ///
 /// Stops    `MSG("...")` of 124 characters at most, `M0`, and `MSG()`, which takes the text away.
 ///
-/// Not written yet: POCKET3, POCKET4, SLOT1, HOLES1, HOLES2, CYCLE61, 71, 72, CYCLE800.
+/// Not written yet: POCKET3, POCKET4 (docs/programs.md says why), SLOT1, CYCLE61, 71, 72, CYCLE800.
 ///
 /// Source   SINUMERIK NC programming 12/2019, 6FC5398-2EP40 (helices, CYCLE832, CTOL); fundamentals 10.2004,
 ///          6FC5298-7AB00 (G641); 802D sl 06/2006, 6FC5398-3CP10 (G710); function manual W1 11/2006 (tools);

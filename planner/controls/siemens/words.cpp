@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "planner/controls/gcode/moves/patterns.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/controls/siemens/siemens.h"
 #include "planner/ground/base/number.h"
@@ -30,26 +31,46 @@ std::string planes(const HoleCycle& h) {
   return n(h.initial_z) + "," + n(h.r_z - clearance) + "," + n(clearance) + "," + n(h.bottom_z) + ",";
 }
 
-/// The call, the hole's place, and the end of the call.
-std::string called(const HoleCycle& h, const std::string& call) {
-  return "MCALL " + call + "\nG0 X" + trimmed(h.at.x, h.decimals) + " Y" + trimmed(h.at.y, h.decimals) +
-         "\nMCALL";
+using Places = std::span<const geometry::Vec2>;
+
+/// The call, the places, and the end of the call. Three holes and more on a line or a circle are HOLES1 or
+/// HOLES2: the tool is over the first, so that HOLES1, which begins at the nearer end, begins there.
+gcode::CycleText called(const HoleCycle& h, const std::string& call, Places places) {
+  const auto n = [](double v) { return trimmed(v, gcode::kPatternDecimals); };
+  const std::string begin = "MCALL " + call + "\n", number = std::to_string(places.size()) + ")\nMCALL";
+  if (const auto row = gcode::row_of(places, h.decimals))
+    return {begin + "HOLES1(" + n(row->first.x) + "," + n(row->first.y) + "," + n(row->angle_deg) + ",0," +
+                n(row->step_mm) + "," + number,
+            true};
+  if (const auto ring = gcode::ring_of(places, h.decimals))
+    return {begin + "HOLES2(" + n(ring->centre.x) + "," + n(ring->centre.y) + "," + n(ring->radius_mm) + "," +
+                n(ring->first_deg) + "," + n(ring->step_deg) + "," + number,
+            true};
+  return {begin + "G0 X" + trimmed(h.at.x, h.decimals) + " Y" + trimmed(h.at.y, h.decimals) +
+              gcode::place_blocks(places, h.decimals, "G0", &trimmed) + "\nMCALL",
+          false};
 }
 
-std::string hole_text(const HoleCycle& h) {
+gcode::CycleText hole_text(const HoleCycle& h, Places places) {
   const std::string feed = trimmed(h.feed_mm_min, h.feed_decimals), dwell = trimmed(h.dwell_s, 3);
-  if (h.feeds_out) return called(h, "CYCLE85(" + planes(h) + "," + dwell + "," + feed + "," + feed + ")");
-  const std::string f = "F" + feed + "\n";
-  if (rounded(h.dwell_s, 3) > 0.0) return f + called(h, "CYCLE82(" + planes(h) + "," + dwell + ")");
-  return f + called(h, "CYCLE81(" + planes(h) + ")");
+  if (h.feeds_out)
+    return called(h, "CYCLE85(" + planes(h) + "," + dwell + "," + feed + "," + feed + ")", places);
+  gcode::CycleText out = rounded(h.dwell_s, 3) > 0.0
+                             ? called(h, "CYCLE82(" + planes(h) + "," + dwell + ")", places)
+                             : called(h, "CYCLE81(" + planes(h) + ")", places);
+  out.text.insert(0, "F" + feed + "\n");
+  return out;
 }
 
 /// SDAC 5: the spindle stands behind it; PIT below 0 for left-hand threads; POSS 0; SST and SST1 alike.
 std::string tap_text(const HoleCycle& h) {
   const std::string rpm = trimmed(rounded(std::abs(h.rpm), 0), 0);
   const double pitch = h.rpm < 0.0 ? -h.pitch_mm : h.pitch_mm;
-  return called(
-      h, "CYCLE84(" + planes(h) + ",0,5,," + trimmed(pitch, kPitchDecimals) + ",0," + rpm + "," + rpm + ")");
+  return called(h,
+                "CYCLE84(" + planes(h) + ",0,5,," + trimmed(pitch, kPitchDecimals) + ",0," + rpm + "," + rpm +
+                    ")",
+                {&h.at, 1})
+      .text;
 }
 
 std::string path_mode(std::string_view smoothing, const std::string& tolerance, bool finishes) {
@@ -110,7 +131,8 @@ gcode::Words words_of(const model::Machine& machine) {
   w.dwell = [](const std::string& seconds) { return "G4 F" + seconds; };
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
-  if (is("cycles", "feature")) w.cycle = [](const HoleCycle& h) { return std::optional(hole_text(h)); };
+  if (is("cycles", "feature"))
+    w.cycle = [](const HoleCycle& h, Places places) { return std::optional(hole_text(h, places)); };
   w.more_centre_decimals = kMoreCentreDecimals;
   w.turns = is("turns", "yes");
   return w;

@@ -43,6 +43,11 @@ TEST(FanucGolden, HolesAreWrittenAsReviewedWithCyclesAndWithExplicitMoves) {
   EXPECT_EQ(program_of(plan), golden("holes_explicit.nc"));
 }
 
+TEST(FanucProgram, EqualHolesOfAStepAreFurtherPlacesOfOneCycle) {
+  EXPECT_THAT(program_of(plans::pattern_plan("fanuc", {{10, 10}, {86, 10}, {10, 70}, {86, 70}})),
+              HasSubstr("\nG98 G81 X10. Y10. Z-18.2 R2. F180.\nX86.\nX10. Y70.\nX86.\nG80\n"));
+}
+
 TEST(FanucProgram, EachOptionOfTheMachineChangesWhatItSays) {
   const auto with = [](const char* name, const char* value) {
     Plan plan = holes_plan("fanuc");

@@ -135,11 +135,13 @@ std::size_t count(const std::string& text, const std::string& part) {
 TEST(HeidenhainProgram, EqualHolesOfAStepAreCallsOfOneDefinition) {
   const std::string equal = bare(row_of_holes(0.0));
   EXPECT_EQ(count(equal, "CYCL DEF 200"), 1U) << equal;
-  EXPECT_EQ(count(equal, "\nCYCL CALL\n"), 3U);
-  EXPECT_THAT(equal, HasSubstr("\nCYCL CALL\nL X+20 R0 FMAX\nCYCL CALL\nL X+30 R0 FMAX\nCYCL CALL\n"));
+  EXPECT_THAT(equal, HasSubstr("\nCYCL CALL\nL X+20 R0 FMAX M99\nL X+30 R0 FMAX M99\n"));
+  EXPECT_EQ(count(equal, "\nCYCL CALL\n"), 1U);
+  EXPECT_EQ(count(equal, " M99\n"), 2U);
   const std::string other = bare(row_of_holes(1.0));
   EXPECT_EQ(count(other, "CYCL DEF 200"), 2U) << other;
-  EXPECT_EQ(count(other, "\nCYCL CALL\n"), 3U);
+  EXPECT_EQ(count(other, "\nCYCL CALL\n"), 2U);
+  EXPECT_EQ(count(other, " M99\n"), 1U);
 }
 
 TEST(HeidenhainProgram, AProgramIsNamedByThePartsFile) {

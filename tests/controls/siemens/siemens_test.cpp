@@ -51,6 +51,19 @@ TEST(SiemensGolden, HolesAreWrittenAsReviewedWithCyclesAndWithExplicitMoves) {
   EXPECT_EQ(program_of(plan), golden("holes_explicit.mpf"));
 }
 
+// Row: 20 mm apart from X20 on. Circle: six holes of 60 degrees. The grid of four is neither.
+TEST(SiemensProgram, EqualHolesOnALineOrACircleAreAPatternOfTheControlAndOthersAreItsPlaces) {
+  const std::string row = program_of(plans::pattern_plan("siemens", {{20, 20}, {40, 20}, {60, 20}}));
+  EXPECT_THAT(row, HasSubstr("\nF180\nMCALL CYCLE81(10,1,1,-18.2,)\nHOLES1(20,20,0,0,20,3)\nMCALL\n"));
+  const std::string ring = program_of(plans::pattern_plan("siemens", plans::ring({50, 40}, 30, 0, 60, 6)));
+  EXPECT_THAT(ring, HasSubstr("\nMCALL CYCLE81(10,1,1,-18.2,)\nHOLES2(50,40,30,0,60,6)\nMCALL\n"));
+  const std::string four =
+      program_of(plans::pattern_plan("siemens", {{10, 10}, {86, 10}, {10, 70}, {86, 70}}));
+  EXPECT_THAT(four, HasSubstr("\nMCALL CYCLE81(10,1,1,-18.2,)\nG0 X10 Y10\nG0 X86\nG0 X10 Y70\nG0 "
+                              "X86\nMCALL\n"));
+  EXPECT_THAT(four, Not(HasSubstr("HOLES")));
+}
+
 TEST(SiemensProgram, EachOptionOfTheMachineChangesWhatItSays) {
   const auto with = [](const char* name, const char* value) {
     Plan plan = holes_plan("siemens");

@@ -32,28 +32,39 @@ std::vector<std::string> lines_of(const std::string& text) {
   return out;
 }
 
-/// The bracket with mounting holes of 12 mm, which are drilled without pecks: its own of 6.6 mm peck.
-std::string wide_holes() {
-  std::string text = testing::slurp(testing::source_dir() + "/examples/" + kPart);
-  const std::string own = "#83=TOLERANCED_LENGTH_MEASURE(6.6,", wide = "#83=TOLERANCED_LENGTH_MEASURE(12.,";
+std::string with(std::string text, const std::string& own, const std::string& other) {
   const std::size_t at = text.find(own);
-  EXPECT_NE(at, std::string::npos);
-  return at == std::string::npos ? text : text.replace(at, own.size(), wide);
+  EXPECT_NE(at, std::string::npos) << own;
+  return at == std::string::npos ? text : text.replace(at, own.size(), other);
 }
 
-/// The part's program for that control, `cycles` as its machine's option.
-std::string program(const std::string& control, const std::string& cycles) {
+/// The bracket with mounting holes of 12 mm, which are drilled without pecks: its own of 6.6 mm peck. `row`:
+/// three of them on a line, 38 mm apart, in place of four at the corners.
+std::string wide_holes(bool row) {
+  const std::string text = testing::slurp(testing::source_dir() + "/examples/" + kPart);
+  const std::string wide =
+      with(text, "#83=TOLERANCED_LENGTH_MEASURE(6.6,", "#83=TOLERANCED_LENGTH_MEASURE(12.,");
+  if (!row) return wide;
+  return with(with(wide, "#87=TOLERANCED_LENGTH_MEASURE(76.,", "#87=TOLERANCED_LENGTH_MEASURE(38.,"),
+              "#22,2,2,#88", "#22,1,3,#88");
+}
+
+/// The part's program for that control, `cycles` as its machine's option, with " row" behind it for the row.
+std::string program(const std::string& control, std::string cycles) {
   static std::map<std::string, model::Plan> plans;
-  if (!plans.contains(control)) {
+  const bool row = cycles.ends_with(" row");
+  if (row) cycles.resize(cycles.size() - 4);
+  const std::string key = control + (row ? " row" : "");
+  if (!plans.contains(key)) {
     Request request;
     EXPECT_TRUE(set(request, "control", control));
     Job job;
-    const auto out = plan(request, {.name = kPart, .bytes = wide_holes()}, job);
+    const auto out = plan(request, {.name = kPart, .bytes = wide_holes(row)}, job);
     EXPECT_TRUE(out) << (out ? "" : to_text(out.error().what));
     if (!out) return {};
-    plans[control] = out->plan;
+    plans[key] = out->plan;
   }
-  model::Plan& plan = plans[control];
+  model::Plan& plan = plans[key];
   if (model::find_control_option(control, "cycles") != nullptr)
     plan.machine.control_options = model::ControlOptions{{{"cycles", cycles}}};
   plan.file_name = kPart;
@@ -63,7 +74,7 @@ std::string program(const std::string& control, const std::string& cycles) {
   return text.value_or("");
 }
 
-/// The block that the page shows for `<!-- program CONTROL CYCLES "STEP" -->`.
+/// The block that the page shows for `<!-- program CONTROL CYCLES "STEP" -->`, or `CYCLES row`.
 std::string shown(const std::string& order) {
   const std::size_t first = order.find("program ") + 8, second = order.find(' ', first);
   const std::size_t quote = order.find('"'), last = order.rfind('"');

@@ -68,7 +68,9 @@ std::vector<Class> dangerous_in_siemens() {
       {"cycle elsewhere", Kind::kDangerous, false,
        [](const Emitted& e, Random& r) {
          Lines lines = split(e.text);
-         const auto i = pick(lines, r, [&](std::size_t k) { return k > 0 && is_cycle(lines[k - 1]); });
+         const auto i = pick(lines, r, [&](std::size_t k) {
+           return k > 0 && is_cycle(lines[k - 1]) && has(lines[k], 'X') && has(lines[k], 'Y');
+         });
          if (!i) return Made{};
          const char letter = r.below(2) == 0 ? 'X' : 'Y';
          lines[*i] = with(lines[*i], letter, moved(word(lines[*i], letter).value, r, 0.02, 5.0));
@@ -77,7 +79,8 @@ std::vector<Class> dangerous_in_siemens() {
       {"modal call not ended", Kind::kDangerous, true,
        [](const Emitted& e, Random& r) {
          Lines lines = split(e.text);
-         const auto i = pick(lines, r, [&](std::size_t k) { return k > 1 && is_cycle(lines[k - 2]); });
+         const auto i = pick(
+             lines, r, [&](std::size_t k) { return k > 1 && lines[k] == "MCALL" && is_cycle(lines[k - 2]); });
          if (!i) return Made{};
          lines.erase(lines.begin() + static_cast<long>(*i));
          return Made{Edit{joined(lines), e.table}};

@@ -87,4 +87,36 @@ std::optional<HoleInPath> hole_at(const StepResult& step, std::size_t move, Vec3
   return out;
 }
 
+std::optional<HolesInPath> holes_at(const StepResult& step, std::size_t move, Vec3 at,
+                                    const model::Control& control) {
+  const auto first = hole_at(step, move, at, control);
+  if (!first) return std::nullopt;
+  const HoleCycle& h = first->cycle;
+  HolesInPath out{h, {xy(step.path->point(move))}, first->last_move};
+  const Moves m(step, control);
+  while (out.last_move + 2 < m.size()) {
+    const std::size_t across = out.last_move + 1;
+    const Vec3 to = m.to(across);
+    if (m.kind(across) != MoveKind::kRapid || to.z != h.initial_z || m.rpm(across) != h.rpm) break;
+    if (xy(to) == xy(m.to(out.last_move))) break;
+    const auto next = hole_at(step, across + 1, to, control);
+    if (!next) break;
+    const HoleCycle& n = next->cycle;
+    const bool equal = n.r_z == h.r_z && n.bottom_z == h.bottom_z && n.feeds_out == h.feeds_out &&
+                       n.feed_mm_min == h.feed_mm_min && n.dwell_s == h.dwell_s && n.rpm == h.rpm;
+    if (!equal) break;
+    out.places.push_back(xy(step.path->point(across)));
+    out.last_move = next->last_move;
+  }
+  return out;
+}
+
+bool cuts_across(const model::CutterPath& path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path.kind[i] == MoveKind::kRapid || path.kind[i] == MoveKind::kDwell) continue;
+    if (path.x[i] != path.x[i - 1] || path.y[i] != path.y[i - 1] || model::is_arc(path.kind[i])) return true;
+  }
+  return false;
+}
+
 }  // namespace capstan::controls::gcode

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "planner/ground/base/number.h"
 #include "planner/proof/verify/findings.h"
@@ -131,6 +133,67 @@ std::optional<CycleCall> Interpreter::parameters(const Item& call) {
   return out;
 }
 
+/// HOLES1, a row: reference point SPCA, SPCO, its angle STA1, FDIS to the first hole, DBH between holes, NUM;
+/// it is begun at the end that is nearer to the tool. HOLES2, a circle: centre CPA, CPO, radius RAD, angle
+/// STA1 of the first hole, INDA from each to the next (0: NUM holes divide the circle). Each place is reached
+/// by rapid, and the modal call runs there. Source: SINUMERIK cycles 11.02, 2.2 (drilling patterns).
+void Interpreter::pattern(const Item& call, bool modal) {
+  constexpr std::size_t kParameters = 6;
+  constexpr double kMostHoles = 10000.0, kDegrees = 180.0 / std::numbers::pi;
+  const auto wrong = [&](const std::string& why) { fault(26, "CHK-CYCLE", call.name + ": " + why); };
+  if (modal) return wrong("a pattern is no cycle to call modally; it runs the one that is");
+  if (!modal_) return wrong("no cycle is called modally (MCALL): nothing would be made at its places");
+  if (!absolute_) return fault(26, "CHK-CYCLE", "cycles in G91 are not followed", true);
+  std::array<double, kParameters> v{};
+  for (std::size_t i = 0; i < call.params.size(); ++i) {
+    const std::string& p = call.params[i];
+    const auto value = p.empty() ? 0.0 : parse_double(p.front() == '+' ? p.substr(1) : p);
+    if (!value || !std::isfinite(*value) || (i >= kParameters && *value != 0.0))
+      return fault(33, "CHK-UNVERIFIABLE",
+                   "parameter " + std::to_string(i + 1) + " of " + call.name + ", " + p.substr(0, 20) +
+                       ", is no number or a mode that is not followed",
+                   true);
+    if (i < kParameters) v[i] = *value;
+  }
+  const double u = units(), number = v[5];
+  if (call.params.size() < kParameters || !(number >= 1.0) || number > kMostHoles ||
+      number != std::floor(number))
+    return wrong("NUM " + plain(number) + " is no number of holes from 1 to " + plain(kMostHoles));
+  const auto n = static_cast<std::size_t>(number);
+  std::vector<geometry::Vec2> places;
+  const bool row = call.name == "HOLES1";
+  if (row ? v[3] < 0.0 || v[4] < 0.0 : !(v[2] > 0.0))
+    return wrong(row ? "FDIS and DBH are distances; one of them is below zero"
+                     : "RAD is " + mm(v[2] * u) + "; it must be above zero");
+  const double first = (row ? v[2] : v[3]) / kDegrees;
+  if (!(first > -std::numbers::pi) || first > std::numbers::pi + kClose)
+    return wrong("STA1 is an angle above -180 and to 180 degrees");
+  for (std::size_t i = 0; i < n; ++i) {
+    const double k = static_cast<double>(i);
+    if (row) {
+      const double along = (v[3] + k * v[4]) * u;
+      places.push_back({v[0] * u + along * std::cos(first), v[1] * u + along * std::sin(first)});
+    } else {
+      const double angle = first + k * (v[4] != 0.0 ? v[4] / kDegrees : 2.0 * std::numbers::pi / number);
+      places.push_back({v[0] * u + v[2] * u * std::cos(angle), v[1] * u + v[2] * u * std::sin(angle)});
+    }
+  }
+  if (!known_[0] || !known_[1] || !known_[2]) return wrong("it begins where the position is not known");
+  if (row && n > 1) {
+    const double to_first = norm(places.front() - xy(at_)), to_last = norm(places.back() - xy(at_));
+    if (std::abs(to_first - to_last) <= kClose)
+      return fault(26, "CHK-UNVERIFIABLE",
+                   "HOLES1 begins at the end that is nearer to the tool, and both are equally far", true);
+    if (to_last < to_first) std::reverse(places.begin(), places.end());
+  }
+  const CycleCall cycle = *modal_;
+  for (const geometry::Vec2 p : places) {
+    if (cycle_blocks_ > kCycleBlockCap) return;
+    to({p.x, p.y, at_.z}, MoveKind::kRapid);
+    run_cycle(cycle);
+  }
+}
+
 void Interpreter::call_block(const Item& call, bool modal) {
   constexpr std::size_t kLongestMessage = 124;
   if (call.name == "MSG") {
@@ -142,6 +205,7 @@ void Interpreter::call_block(const Item& call, bool modal) {
           "MSG takes one text between quotes, of " + std::to_string(kLongestMessage) + " characters at most");
     return;
   }
+  if (call.name == "HOLES1" || call.name == "HOLES2") return pattern(call, modal);
   const auto c = parameters(call);
   if (!c) return;
   if (c->number == 832) {

@@ -72,6 +72,7 @@ class Interpreter : private BlockState {
   void wait(const BlockWords& s);
   // Cycles: cycles.cpp.
   void call_block(const Item& call, bool modal);
+  void pattern(const Item& call, bool modal);
   std::optional<CycleCall> parameters(const Item& call);
   void tolerance_cycle(const CycleCall& c);
   void run_cycle(const CycleCall& c);

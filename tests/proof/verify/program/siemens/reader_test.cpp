@@ -104,6 +104,44 @@ TEST(SiemensCycles, PecksGrowShorterByDamAndBreakOrClearTheChips) {
   EXPECT_TRUE(finds(read("F100\nCYCLE83(15,1,1,-8,,-3,,0,0,0,1,1,1)\n"), "CHK-UNVERIFIABLE"));  // along X
 }
 
+// HOLES1: from the end nearer to the tool (5, 6); FDIS before the first.
+TEST(SiemensCycles, ARowOfHolesIsMadeFromTheEndNearerToTheTool) {
+  const auto p = read("F100\nMCALL CYCLE81(20,1,1,-8,)\nHOLES1(0,6,0,5,10,2)\nMCALL\nG0 X0\n");
+  EXPECT_EQ(faults(p), "");
+  const Moves near = {"R 5 6 2",  "L 5 6 -8",  "R 5 6 20",  "R 15 6 20",
+                      "R 15 6 2", "L 15 6 -8", "R 15 6 20", "R 0 6 20"};
+  EXPECT_EQ(moves(p), near);
+  // The same row named from its other end; where its last place is comes of an angle, and is reached anew.
+  Moves other = moves(read("F100\nMCALL CYCLE81(20,1,1,-8,)\nHOLES1(15,6,180,0,10,2)\nMCALL\nG0 X0\n"));
+  ASSERT_FALSE(other.empty());
+  EXPECT_EQ(other.front(), "R 5 6 20");
+  other.erase(other.begin());
+  EXPECT_EQ(other, near);
+}
+
+// HOLES2: STA1 from +X, INDA further each time; INDA 0: NUM holes divide the circle.
+TEST(SiemensCycles, ACircleOfHolesBeginsAtItsAngleAndGoesOnByTheNext) {
+  const Moves quarter = {"R 10 6 20", "R 10 6 2", "L 10 6 -8", "R 10 6 20",
+                         "R 5 11 20", "R 5 11 2", "L 5 11 -8", "R 5 11 20"};
+  EXPECT_EQ(moves(read("F100\nMCALL CYCLE81(20,1,1,-8,)\nHOLES2(5,6,5,0,90,2)\nMCALL\n")), quarter);
+  const Moves half = {"R 10 6 20", "R 10 6 2", "L 10 6 -8", "R 10 6 20",
+                      "R 0 6 20",  "R 0 6 2",  "L 0 6 -8",  "R 0 6 20"};
+  EXPECT_EQ(moves(read("F100\nMCALL CYCLE81(20,1,1,-8,)\nHOLES2(5,6,5,0,0,2)\nMCALL\n")), half);
+}
+
+TEST(SiemensCycles, APatternThatIsNotFollowedIsAFault) {
+  const std::string call = "F100\nMCALL CYCLE81(20,1,1,-8,)\n";
+  EXPECT_TRUE(finds(read("F100\nHOLES2(5,6,5,0,90,2)\n"), "CHK-CYCLE"));  // nothing is called modally
+  EXPECT_TRUE(finds(read("MCALL HOLES2(5,6,5,0,90,2)\nMCALL\n"), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(read(call + "HOLES2(5,6,0,0,90,2)\nMCALL\n"), "CHK-CYCLE"));  // no radius
+  EXPECT_TRUE(finds(read(call + "HOLES2(5,6,5,0,90)\nMCALL\n"), "CHK-CYCLE"));    // no number
+  EXPECT_TRUE(finds(read(call + "HOLES2(5,6,5,0,90,1.5)\nMCALL\n"), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(read(call + "HOLES2(5,6,5,270,90,2)\nMCALL\n"), "CHK-CYCLE"));  // STA1
+  EXPECT_TRUE(finds(read(call + "HOLES1(0,6,0,0,-10,2)\nMCALL\n"), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(read(call + "HOLES2(5,6,5,0,90,2,,1)\nMCALL\n"), "CHK-UNVERIFIABLE"));  // on the arc
+  EXPECT_TRUE(finds(read(call + "HOLES1(0,6,0,0,10,2)\nMCALL\n"), "CHK-UNVERIFIABLE"));     // equally far
+}
+
 // CYCLE84: PIT with the sign of the thread, SST down and SST1 up, the spindle behind it as SDAC says.
 TEST(SiemensCycles, TappingHoldsStepBothWaysAndLeavesTheSpindleAsItSays) {
   const auto p = read("CYCLE84(15,4,1,-12,,0,5,,1.5,0,400,600)\n");
