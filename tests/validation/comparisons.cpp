@@ -82,7 +82,8 @@ std::vector<Comparison> all_comparisons(const std::string& corpus, Extent extent
   out.push_back(edits());
   out.push_back(plan_edits());
   out.push_back(productivity(corpus));
-  out.push_back(catalogue_times(extent));
+  out.push_back(catalogue_times(
+      capstan::testing::source_dir() + "/docs/validation/catalogue_times.csv", extent));
   out.push_back(freecad(capstan::testing::source_dir() + "/docs/validation/freecad.csv", extent));
   out.push_back(tuning(extent));
   out.push_back(plates(corpus));

@@ -45,8 +45,9 @@ namespace capstan::validation {
 /// Machining times against a good shop's estimates, and what holds the parts that take longer.
 [[nodiscard]] Comparison productivity(const std::string& corpus);
 
-/// Times of plans over a catalogue's, for a sample of features, materials and machines.
-[[nodiscard]] Comparison catalogue_times(Extent extent);
+/// Times of plans over a catalogue's: all features, materials and machines as `capstan_catalogue_times`
+/// recorded them in a file, and a sample planned now, which is held against the record.
+[[nodiscard]] Comparison catalogue_times(const std::string& record, Extent extent);
 /// Tuned speeds and feeds in simulated shops: no cases, regression only, Gaussian process.
 [[nodiscard]] Comparison tuning(Extent extent);
 

@@ -20,6 +20,11 @@ add_executable(capstan_bind_times ${validation}/late/bind_times_main.cpp)
 target_link_libraries(capstan_bind_times PRIVATE $<BUILD_INTERFACE:capstan_options> capstan_test_support
   capstan::service)
 
+# Records the times of all plans of the sweep: capstan_catalogue_times FOLDER.
+add_executable(capstan_catalogue_times ${validation}/catalogue/catalogue_times_main.cpp)
+target_link_libraries(capstan_catalogue_times PRIVATE capstan_validation_comparisons capstan_sweep
+  capstan::service)
+
 # Records cycle times on LinuxCNC's simulated machine: capstan_cycle_times FOLDER.
 if(TARGET capstan_simulated)
   add_executable(capstan_cycle_times ${validation}/linuxcnc/cycle_times_main.cpp)

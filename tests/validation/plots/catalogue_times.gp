@@ -1,4 +1,4 @@
-# Times of plans over a catalogue's, as shares of all plans of a machine.
+# Times of all recorded plans over a catalogue's, as shares of all plans of a machine.
 load plots."/style.gp"
 set output out."/catalogue_times.svg"
 set terminal svg size 720,480 dynamic font "Helvetica,12" background rgb "white"
@@ -8,7 +8,7 @@ set logscale x
 set xlabel "time ÷ catalogue's time"
 set ylabel "share of plans up to it"
 set grid
-set xrange [0.5:30]
+set xrange [0.4:35]
 set xtics (0.5, 1, 2, 3, 5, 10, 20, 30)
 set yrange [0:1.02]
 set key below Left reverse samplen 1.5

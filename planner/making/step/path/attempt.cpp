@@ -9,13 +9,13 @@
 #include "planner/ground/memo/remembered.h"
 #include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/step/cut/question.h"
+#include "planner/making/step/cut/shift.h"
 #include "planner/making/step/cut/thread_bound.h"
 #include "planner/making/step/cut_samples.h"
 #include "planner/making/step/path/freeform.h"
 #include "planner/making/step/path/given_path.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/remembered/pieces.h"
-#include "planner/making/step/path/shift.h"
 #include "planner/making/step/path/surface.h"
 #include "planner/making/step/record/record.h"
 #include "planner/making/step/record/results.h"
@@ -235,8 +235,8 @@ Result<PathWithCut> path_with_cut(const PlanSoFar& p, const StepDraft& step,
     if (out.width_open && out.answer.ae_mm > 0.0) job.radial_depth_mm = out.answer.ae_mm;
     if (out.question.ae_mm) job.radial_depth_mm = *out.question.ae_mm;
     if (out.width_open && out.depth_open) {
-      if (const auto why = surely_longer_than_a_shift(step, job, out.question, out.answer,
-                                                      means.stocks.of(step.setup)))
+      if (const auto why =
+              surely_longer_than_a_shift(step, job, out.question, out.answer, means.stocks.of(step.setup)))
         return fail("PIP-SHIFT", *why);
     }
     if (cuts_under_overhang(step.cutter)) {

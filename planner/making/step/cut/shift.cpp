@@ -1,4 +1,4 @@
-#include "planner/making/step/path/shift.h"
+#include "planner/making/step/cut/shift.h"
 
 #include <algorithm>
 #include <cmath>

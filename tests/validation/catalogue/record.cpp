@@ -1,0 +1,91 @@
+#include "tests/validation/catalogue/record.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/ground/base/number.h"
+#include "tests/validation/report.h"
+
+namespace capstan::validation::catalogue {
+namespace {
+
+using testing::sweep::Case;
+
+constexpr const char* kHead = "machine,feature,material,plan_s,catalogue_s,features_not_made,first_reason\n";
+constexpr std::size_t kColumns = 7;
+constexpr double kRounding = 0.1;  // s, of what stands in the record
+
+double tenths(double s) { return std::round(10.0 * s) / 10.0; }
+
+/// Without what would end a cell.
+std::string beginning(const std::string& reason) {
+  constexpr std::size_t kMost = 240;
+  std::string out = reason.substr(0, kMost);
+  std::replace(out.begin(), out.end(), ',', ';');
+  std::replace(out.begin(), out.end(), '\n', ' ');
+  return out;
+}
+
+}  // namespace
+
+Row row_of(const Case& c, const testing::sweep::Outcome& o) {
+  const auto& unplanned = o.made.plan.unplanned;
+  Row out{testing::sweep::kMachines[c.machine],
+          testing::sweep::features().at(c.feature).name,
+          testing::sweep::kMaterials[c.material].name,
+          0.0,
+          tenths(o.catalogue_s),
+          o.failed.empty() ? unplanned.size() : 1,
+          beginning(!o.failed.empty()   ? o.failed
+                    : unplanned.empty() ? ""
+                                        : unplanned.front().reason)};
+  if (out.whole()) out.plan_s = tenths(o.plan_s);
+  return out;
+}
+
+std::optional<Row> row_for(const std::vector<Row>& record, const Case& c) {
+  for (const Row& r : record) {
+    if (r.machine == testing::sweep::kMachines[c.machine] &&
+        r.feature == testing::sweep::features().at(c.feature).name &&
+        r.material == testing::sweep::kMaterials[c.material].name)
+      return r;
+  }
+  return std::nullopt;
+}
+
+std::string written(const std::vector<Row>& rows) {
+  std::string out = kHead;
+  for (const Row& r : rows)
+    out += r.machine + "," + r.feature + "," + r.material + "," + fixed(r.plan_s, 1) + "," +
+           fixed(r.catalogue_s, 1) + "," + std::to_string(r.not_made) + "," + r.refused + "\n";
+  return out;
+}
+
+std::vector<Row> read(const std::string& text) {
+  std::vector<Row> out;
+  const auto rows = cells_of(text);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto& cells = rows[i];
+    if (cells.size() != kColumns) continue;
+    out.push_back({cells[0], cells[1], cells[2], parse_double(cells[3]).value_or(0.0),
+                   parse_double(cells[4]).value_or(0.0),
+                   static_cast<std::size_t>(parse_double(cells[5]).value_or(0.0)), cells[6]});
+  }
+  return out;
+}
+
+std::string apart(const Row& recorded, const Row& now) {
+  const auto differs = [](double a, double b) { return std::abs(a - b) > kRounding * (1.0 + 1e-9); };
+  std::string out;
+  const auto say = [&](const std::string& what, double was, double is) {
+    out += (out.empty() ? "" : ", ") + what + " " + fixed(is, 1) + ", recorded " + fixed(was, 1);
+  };
+  if (differs(recorded.plan_s, now.plan_s)) say("plan, s", recorded.plan_s, now.plan_s);
+  if (differs(recorded.catalogue_s, now.catalogue_s))
+    say("catalogue, s", recorded.catalogue_s, now.catalogue_s);
+  if (recorded.not_made != now.not_made)
+    say("features not made", static_cast<double>(recorded.not_made), static_cast<double>(now.not_made));
+  return out;
+}
+
+}  // namespace capstan::validation::catalogue
