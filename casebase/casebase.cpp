@@ -1,6 +1,7 @@
 #include "casebase/casebase.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -240,18 +241,43 @@ std::vector<Case> CaseBase::cut_with(std::string_view tool_class) const {
   });
 }
 
+namespace {
+
+/// Whether an entry is a measured case of these; an empty name: of any.
+bool is_measured_in(const Log& log, const Entry& e, std::string_view material_group,
+                    std::string_view machine_class) {
+  const std::string& categories = log.categories(e);
+  const auto is = [](std::string_view asked, std::string_view there) {
+    return asked.empty() || asked == there;
+  };
+  return e.origin == Origin::kMeasured && is(material_group, material_group_in(categories)) &&
+         is(machine_class, machine_class_in(categories));
+}
+
+}  // namespace
+
 std::vector<Case> CaseBase::measured_in(std::string_view material_group, std::string_view machine_class,
                                         std::size_t most) const {
   return impl_->live_where(
-      [&](const Entry& e) {
-        const std::string& categories = impl_->log.categories(e);
-        const auto is = [](std::string_view asked, std::string_view there) {
-          return asked.empty() || asked == there;
-        };
-        return e.origin == Origin::kMeasured && is(material_group, material_group_in(categories)) &&
-               is(machine_class, machine_class_in(categories));
-      },
-      most);
+      [&](const Entry& e) { return is_measured_in(impl_->log, e, material_group, machine_class); }, most);
+}
+
+CaseBase::MeasuredState CaseBase::state_of_measured(std::string_view material_group,
+                                                    std::string_view machine_class,
+                                                    std::string_view with) const {
+  Sum all = sum_of(with);
+  std::size_t cases = 0;
+  for (const Entry& e : impl_->log.entries()) {
+    tick();
+    if (e.removed || !is_measured_in(impl_->log, e, material_group, machine_class)) continue;
+    const std::array<std::uint64_t, 5> said = {e.id.high, e.id.low, e.body.high, e.body.low,
+                                               static_cast<std::uint64_t>(e.verdict)};
+    const Sum one = sum_of({reinterpret_cast<const char*>(said.data()), sizeof said});
+    all.high += one.high;  // in whatever order the rows stand
+    all.low += one.low;
+    ++cases;
+  }
+  return {cases, digits_of(all)};
 }
 
 std::vector<Diagnostic> CaseBase::take_faults() const { return impl_->log.take_faults(); }

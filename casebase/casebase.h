@@ -111,6 +111,15 @@ class CaseBase {
   /// the least ids, which are a sample that neither time nor order chose; else as `cases`.
   [[nodiscard]] std::vector<Case> measured_in(std::string_view material_group, std::string_view machine_class,
                                               std::size_t most) const;
+  /// What `measured_in` would read, without reading it: how many cases, and a sum of 32 hexadecimal digits
+  /// over what the heads say of them (ids, sums of their bodies, verdicts), whatever their order, and over
+  /// the bytes of `with`. While it stays, they do.
+  struct MeasuredState {
+    std::size_t cases = 0;
+    std::string sum;
+  };
+  [[nodiscard]] MeasuredState state_of_measured(std::string_view material_group,
+                                                std::string_view machine_class, std::string_view with) const;
   /// What was found altered or gone since this was asked last, as warnings (CASE-ROW).
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 

@@ -62,9 +62,13 @@ bool made_for(const Plan& plan, const pipeline::Inputs& in) {
          model::told_differences(*at, model::without_cases(plan.material)).empty();
 }
 
-/// Whether the plan's card has of cases what these cases say of it now: nothing where there are none.
+/// Whether the plan's card has of cases what these cases say of it now: nothing where there are none. They
+/// are read where the plan's record does not name them, or names others.
 bool by_the_same_cases(const Plan& plan, const pipeline::Inputs& in) {
   if (!in.cases) return !model::corrected_by_cases(plan.material);
+  const model::Provenance* then = row(plan.provenance, pipeline::kCardByCases);
+  if (then != nullptr && then->value == pipeline::state_of_card(*in.cases, plan.material, plan.machine.id))
+    return true;
   return pipeline::corrected_card(*in.cases, plan.material, plan.machine.id).card == plan.material;
 }
 

@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "casebase/casebase.h"
 #include "planner/door/late/late.h"
+#include "planner/door/pipeline/cases/corrected_card.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/resources/by_cases.h"
 #include "planner/model/plan/resources/specific_force.h"
@@ -214,6 +216,78 @@ TEST(LateKept, ACardOfCasesThatSayNothingMoreIsNotKept) {
   ASSERT_TRUE(bound) << to_text(bound.error());
   EXPECT_FALSE(bound->kept);
   EXPECT_EQ(bound->plan.material, bracket().plan.material);
+}
+
+/// A bracket's mills as cut on four edges with nine tenths of the force that was expected.
+std::vector<casebase::Case> measured_cuts() {
+  Job job;
+  std::vector<casebase::Case> out;
+  for (int edge = 0; edge < 4; ++edge) {
+    for (casebase::Case c : casebase::cases_of(bracket().plan, job)) {
+      if (!(c.predicted.specific_force_n_mm2 > 0.0)) continue;
+      c.origin = casebase::Origin::kMeasured;
+      c.observed = {};
+      c.observed.peak_force_n = casebase::Figure{.value = (0.9 + 0.01 * edge) * c.predicted.peak_force_n /
+                                                          c.predicted.force_margin};
+      c.observed.executed_fz_mm = casebase::Figure{.value = c.predicted.held_fz_mm};
+      c.from.tool_instance = "E" + std::to_string(edge);
+      c.from.part = std::to_string(edge);
+      c.from.source = "log";
+      out.push_back(c);
+    }
+  }
+  return out;
+}
+
+TEST(LateKept, APlanWhoseCardStandsByTheseCasesIsHeldAgainstTheirHeadsAlone) {
+  const std::string file = capstan::testing::scratch_file("late_state.db");
+  std::remove(file.c_str());
+  Job job;
+  pipeline::Inputs in = shop_of(bracket().table);
+  auto base = casebase::CaseBase::open_or_create(file, job);
+  ASSERT_TRUE(base);
+  ASSERT_TRUE(base->add(measured_cuts()));
+  in.cases = std::make_shared<casebase::CaseBase>(*std::move(base));
+  const auto corrected =
+      pipeline::corrected_card(*in.cases, bracket().plan.material, bracket().plan.machine.id);
+  ASSERT_TRUE(model::corrected_by_cases(corrected.card));
+  model::Plan plan = bracket().plan;
+  plan.material = corrected.card;
+  plan.provenance.insert(plan.provenance.end(), corrected.rows.begin(), corrected.rows.end());
+  const auto kept = [&] {
+    Job quiet;
+    const auto bound = bind(plan, in, kInTime, quiet);
+    EXPECT_TRUE(bound) << to_text(bound.error());
+    return bound && bound->kept;
+  };
+  EXPECT_TRUE(kept());
+  // The record alone is asked: what it says of the card as it is.
+  const auto state = [&](const model::WorkMaterial& card) {
+    return pipeline::state_of_card(*in.cases, card, plan.machine.id);
+  };
+  const auto row = std::find_if(plan.provenance.begin(), plan.provenance.end(),
+                                [](const auto& p) { return p.what == pipeline::kCardByCases; });
+  ASSERT_NE(row, plan.provenance.end());
+  EXPECT_EQ(row->value, state(plan.material));
+  model::WorkMaterial altered = plan.material;
+  altered.mechanistic.front().ktc_n_mm2 *= 0.99;
+  EXPECT_NE(row->value, state(altered));
+  EXPECT_NE(row->value, state(bracket().plan.material));
+  plan.material = altered;
+  EXPECT_FALSE(kept()) << "a card that somebody altered in the file";
+  plan.material = corrected.card;
+  // Another case of this machine and material, and a verdict on one, are other cases; those elsewhere are
+  // not.
+  auto again = casebase::CaseBase::open(file, job);
+  ASSERT_TRUE(again);
+  casebase::Case elsewhere = measured_cuts().front();
+  elsewhere.asked.machine_class = "another";
+  ASSERT_TRUE(again->add(elsewhere));
+  EXPECT_EQ(pipeline::state_of_card(*again, plan.material, plan.machine.id), row->value);
+  casebase::Case more = measured_cuts().front();
+  more.from.part = "further";
+  ASSERT_TRUE(again->add(more));
+  EXPECT_NE(pipeline::state_of_card(*again, plan.material, plan.machine.id), row->value);
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "planner/door/pipeline/cases/corrected_card.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <map>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "casebase/casebase.h"
@@ -13,6 +16,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/by_cases.h"
+#include "planner/model/plan/resources/material_fields.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/motion/time.h"
 
@@ -57,6 +61,26 @@ model::Decision* speed_of(model::Plan& plan, model::AnyRef step) {
   return plan.ledger.find(op->its_technology, "spindle");
 }
 
+/// Its fields that count, one behind the other.
+template <class T>
+void write(std::string& out, const T& value) {
+  if constexpr (model::HasFields<T>) {
+    model::for_each_field(value, [&](const auto& row, const auto& v) {
+      if (row.not_told == nullptr) write(out, v);
+    });
+  } else if constexpr (std::is_floating_point_v<T>) {
+    out += fmt::format("{:.9g};", value);
+  } else if constexpr (std::is_convertible_v<T, std::string_view>) {
+    out.append(value).push_back(';');
+  } else if constexpr (requires { value.first; }) {
+    write(out, value.first);
+    write(out, value.second);
+  } else {
+    for (const auto& one : value) write(out, one);
+    out.push_back(';');
+  }
+}
+
 std::string time_text(const model::Plan& plan) {
   const auto time = motion::time_of(plan);
   std::string out = time ? motion::duration_text(time->total_s()) : std::string("an unknown time");
@@ -93,7 +117,18 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
                           .message = c.words() + "; not taken: " + c.why_not});
     }
   }
+  if (std::string state = state_of_card(cases, out.card, machine_id, heard.size()); !state.empty())
+    out.rows.push_back({std::string(kCardByCases), std::move(state),
+                        counted(heard.size(), "measured case", "measured cases")});
   return out;
+}
+
+std::string state_of_card(const casebase::CaseBase& cases, const model::WorkMaterial& card,
+                          const std::string& machine_id, std::optional<std::size_t> heard) {
+  std::string bytes;
+  write(bytes, card);
+  const auto state = cases.state_of_measured(casebase::material_group_of(card), machine_id, bytes);
+  return state.cases == 0 || state.cases != heard.value_or(state.cases) ? std::string() : state.sum;
 }
 
 void tell_without_cases(model::Plan& made, const model::Plan& read, const Inputs& inputs,

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/door/pipeline/pipeline.h"
@@ -27,6 +30,16 @@ struct CorrectedCard {
 /// still counts wear and override; only the spread is by evidence.
 [[nodiscard]] CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkMaterial& card,
                                            const std::string& machine_id);
+
+/// The row of a plan's record that says by which measured cases its card stands, as it is with what they put
+/// into it: `state_of_card`. There is none where no case was measured on that machine in that material.
+inline constexpr std::string_view kCardByCases = "card by cases";
+/// What `CorrectedCard` would be made of, and what it gave: the same for the same cases and the same card,
+/// numbers to nine digits. Reads no case, so that a plan can be held against 100,000 of them in time. Empty
+/// where there is no case, or where not all of them could be `heard`.
+[[nodiscard]] std::string state_of_card(const casebase::CaseBase& cases, const model::WorkMaterial& card,
+                                        const std::string& machine_id,
+                                        std::optional<std::size_t> heard = std::nullopt);
 
 /// Of a plan whose card cases corrected: what it would be without any case, planned and checked once more,
 /// quietly: its time as a row of the record and a note (CASE-WITHOUT), and each step that is another as an
