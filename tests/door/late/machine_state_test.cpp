@@ -159,6 +159,48 @@ TEST(LateState, AProgramThatTakesAnAxisBeyondALimitIsNotGiven) {
   }
 }
 
+/// The travels of the machine that the plate is planned for, as its file states them.
+std::vector<model::LinearAxis> travels() {
+  const auto plan = brought(kPlate, pipeline::Format::kJson).plan;
+  return {plan.machine.axes.begin(), plan.machine.axes.end()};
+}
+
+TEST(LateState, LimitsWiderThanTheTravelOfTheMachineAreNoLeaveToGoBeyondIt) {
+  const Reach r = reach_of(bound({}, {}).program);
+  const double most = travels()[0].travel_max_mm;
+  const double length = r.x_most - r.x_least;
+  // The farthest place of X ends at the travel's end, and beyond it by a little.
+  const double at_end = kOffsetX + most - r.x_most;
+  ASSERT_LT(length, most - travels()[0].travel_min_mm);
+  const auto offset = [](double x) { return "X=" + fixed(x, 4) + ",Y=0,Z=-95.125"; };
+  const Bound kept = within("X=-10000:10000", offset(at_end - kLittle));
+  EXPECT_EQ(kept.code, service::Code::kDone) << kept.message;
+  const Bound beyond = within("X=-10000:10000", offset(at_end + kLittle));
+  EXPECT_EQ(beyond.code, service::Code::kImpossible);
+  EXPECT_EQ(beyond.program, "");
+  EXPECT_THAT(beyond.message, HasSubstr("axis X to " + trimmed(most + kLittle, 3) + " mm"));
+}
+
+TEST(LateState, AnAxisWithoutALimitOfItsOwnKeepsToItsTravel) {
+  const Reach r = reach_of(bound({}, {}).program);
+  const double at_end = kOffsetX + travels()[0].travel_max_mm - r.x_most;
+  const auto y_only = [](double x) { return within("Y=-1000:1000", "X=" + fixed(x, 4) + ",Y=0,Z=-95.125"); };
+  const Bound kept = y_only(at_end - kLittle);
+  EXPECT_EQ(kept.code, service::Code::kDone) << kept.message;
+  const Bound beyond = y_only(at_end + kLittle);
+  EXPECT_EQ(beyond.code, service::Code::kImpossible);
+  EXPECT_EQ(beyond.program, "");
+  EXPECT_THAT(beyond.message, HasSubstr("LATE-PLACE"));
+}
+
+TEST(LateState, LimitsThatDoNotMeetTheTravelOfTheMachineAreRefused) {
+  const double most = travels()[0].travel_max_mm;
+  const Bound out = within(range("X", most + 1.0, most + 500.0));
+  EXPECT_EQ(out.code, service::Code::kImpossible);
+  EXPECT_EQ(out.program, "");
+  EXPECT_THAT(out.message, HasSubstr("nowhere is within both"));
+}
+
 TEST(LateState, ALimitNamesTheStepThatLeavesIt) {
   const Reach r = reach_of(bound({}, {}).program);
   ASSERT_NE(r.deepest, "");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/controls/controls.h"
+#include "planner/ground/base/number.h"
 #include "planner/proof/verify/axis_places.h"
 
 namespace capstan::service {
@@ -15,6 +16,18 @@ Diagnostic fault(const model::Plan& plan, std::string message) {
           .message = std::move(message),
           .file = plan.file_name,
           .hint = "retract and stop; nothing may be cut from this plan as the machine stands"};
+}
+
+/// Where an axis may be: within its travel, where its machine states one, and within `limit`, where it is
+/// told; nothing where neither is. Least not below most where the two do not meet.
+std::optional<AxisLimit> range_of(const model::LinearAxis& axis, const AxisLimit* limit) {
+  const bool travels = axis.travel_max_mm > axis.travel_min_mm;
+  if (!travels) return limit == nullptr ? std::nullopt : std::optional(*limit);
+  AxisLimit out{axis.name, axis.travel_min_mm, axis.travel_max_mm};
+  if (limit == nullptr) return out;
+  out.least_mm = std::max(out.least_mm, limit->least_mm);
+  out.most_mm = std::min(out.most_mm, limit->most_mm);
+  return out;
 }
 
 }  // namespace
@@ -35,11 +48,22 @@ std::optional<Diagnostic> leaves_limits(const MachineState& state, const model::
   verify::AxisPlaces places;
   for (const AxisLimit& l : state.axis_limits) {
     const auto& axes = plan.machine.axes;
-    const auto axis = std::find_if(axes.begin(), axes.end(), [&](const auto& a) { return a.name == l.axis; });
-    if (axis == axes.end())
+    if (std::none_of(axes.begin(), axes.end(), [&](const auto& a) { return a.name == l.axis; }))
       return fault(plan, "machine '" + plan.machine.id + "' has no axis '" + l.axis + "'; it has " +
                              axes[0].name + ", " + axes[1].name + " and " + axes[2].name);
-    places.ranges.push_back({static_cast<std::size_t>(axis - axes.begin()), l.least_mm, l.most_mm});
+  }
+  for (std::size_t i = 0; i < plan.machine.axes.size(); ++i) {
+    const model::LinearAxis& axis = plan.machine.axes[i];
+    const auto limit = std::find_if(state.axis_limits.begin(), state.axis_limits.end(),
+                                    [&](const AxisLimit& l) { return l.axis == axis.name; });
+    const auto range = range_of(axis, limit == state.axis_limits.end() ? nullptr : &*limit);
+    if (!range) continue;
+    if (!(range->least_mm < range->most_mm))
+      return fault(plan, "axis " + axis.name + " may be from " + trimmed(limit->least_mm, 3) + " to " +
+                             trimmed(limit->most_mm, 3) + " mm by the limits of the axes, and travels from " +
+                             trimmed(axis.travel_min_mm, 3) + " to " + trimmed(axis.travel_max_mm, 3) +
+                             " mm by the file of machine '" + plan.machine.id + "': nowhere is within both");
+    places.ranges.push_back({i, range->least_mm, range->most_mm});
   }
   for (const WorkOffset& o : state.work_offsets) places.offsets.push_back({o.name, o.at_mm});
   if (program.empty() && !plan.steps.empty())

@@ -10,8 +10,9 @@
 namespace capstan::service {
 
 /// Why the program of a plan, with its tool table, cannot be run within the limits of the axes that the
-/// control tells: LATE-PLACE with step, axis, place and limit. Nothing where no limits are told, or none is
-/// left.
+/// control tells and the travels of its machine, both of which hold, of each axis: LATE-PLACE with step,
+/// axis, place and the narrower limit, or that the two do not meet. Nothing where no limits are told, or none
+/// is left: then the place of a work offset is not known, and travels are for the control to hold.
 [[nodiscard]] std::optional<Diagnostic> leaves_limits(const MachineState& state, const model::Plan& plan,
                                                       const std::string& program, const std::string& table);
 
