@@ -36,14 +36,6 @@ TEST(ThreadBound, IsTheArcFromTheWallToWhereTheCircleLeavesTheCore) {
 }
 
 // By hand: (10 - 8) / 10; of M20 and 13.8 mm (20 - 13.8) / 20.
-// By hand: R 4, r 5.5 - 4 = 1.5, k 3.3; cos t = (10.89 - 2.25 - 16) / 12 = -0.6133, ae = 4 (1 + 0.6133).
-TEST(WidthOnACircle, IsMostOfTheMillWhereAShoulderIsOpenedAtOnce) {
-  EXPECT_NEAR(width_on_a_circle_mm(8.0, 6.6, 11.0), 6.45333, 1e-5);
-  EXPECT_EQ(width_on_a_circle_mm(8.0, 2.0, 11.0), 8.0) << "a slot";
-  EXPECT_EQ(width_on_a_circle_mm(8.0, 6.6, 8.0), 8.0) << "no circle";
-  EXPECT_NEAR(width_on_a_circle_mm(8.0, 10.6, 11.0), 4.0 * (1.0 - (28.09 - 2.25 - 16.0) / 12.0), 1e-12);
-}
-
 TEST(ThreadBound, FeedsTheCentreSlowerThanTheEdgeByTheirCircles) {
   EXPECT_NEAR(thread_bound(mill(8.0, 1.5), m10()).centre_share, 0.2, 1e-12);
   model::FeatureShape m20 = m10();

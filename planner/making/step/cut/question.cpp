@@ -398,14 +398,6 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     // unknown, the usual finishing allowance.
     q.width_mm = std::max(0.05, job.left_on_side_mm.value_or(0.5) - job.allowance_side_mm);
     if (job.left_on_side_mm) q.width_mm += left_by_bending_mm(p, step);
-    // A shoulder that nothing roughed: all of the ring around the hole that is there.
-    const double hole = std::max(q.pre_hole_mm, job.hole_below_mm);
-    if (!job.left_on_side_mm && job.shape.kind == ShapeKind::kHole && hole > 0.0 &&
-        job.shape.diameter.nominal_mm > hole && toolpath::helix_suits(job)) {
-      const double widened = job.shape.diameter.nominal_mm - 2.0 * job.allowance_side_mm;
-      q.width_mm = std::max(q.width_mm, width_on_a_circle_mm(d, hole, widened));
-      q.as_measured = true;
-    }
     q.deflection_limit_mm = bending_of_finish_mm(zone_across(p, step, job, width_of(job.shape)));
     // A semi-finishing pass may bend as a rough one: the tolerance is for the next step.
     if (job.allowance_side_mm > 0.0) q.deflection_limit_mm = rough_bending_mm(p, step, job, q);

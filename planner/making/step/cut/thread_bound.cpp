@@ -27,25 +27,16 @@
 
 namespace capstan::step {
 
-double width_on_a_circle_mm(double mill_mm, double hole_mm, double widened_mm) {
-  const double big = 0.5 * mill_mm, r = 0.5 * widened_mm - big, k = 0.5 * hole_mm;
-  if (!(r > 0.0) || !(big > 0.0)) return mill_mm;
-  const double cosine = std::clamp((k * k - r * r - big * big) / (2.0 * r * big), -1.0, 1.0);
-  return big * (1.0 - cosine);
-}
-
 ThreadBound thread_bound(const model::Cutter& cutter, const model::FeatureShape& thread) {
   const double big = 0.5 * cutter.cutting_diameter_mm;
   const double pitch = thread.thread_pitch_mm, rows = cutter.maximum_depth_of_cut_mm;
   const double depth = thread.thread_depth_mm > 0.0 ? thread.thread_depth_mm : thread.depth_mm;
   // Less than two pitches of teeth are one profile.
   const double ap = rows >= 2.0 * pitch ? std::max(pitch, std::min(rows, depth)) : pitch;
-  const double r = 0.5 * thread.thread_major_mm - big;
+  const double r = 0.5 * thread.thread_major_mm - big, k = 0.5 * thread.diameter.nominal_mm;
   if (!(r > 0.0) || !(big > 0.0)) return {ap, cutter.cutting_diameter_mm};
-  return {
-      ap,
-      width_on_a_circle_mm(cutter.cutting_diameter_mm, thread.diameter.nominal_mm, thread.thread_major_mm),
-      r / (r + big)};
+  const double cosine = std::clamp((k * k - r * r - big * big) / (2.0 * r * big), -1.0, 1.0);
+  return {ap, big * (1.0 - cosine), r / (r + big)};
 }
 
 std::vector<optimise::CutSample> bound_samples(const ThreadBound& bound, const model::CutterPath& path) {

@@ -18,10 +18,6 @@ struct ThreadBound {
 };
 [[nodiscard]] ThreadBound thread_bound(const model::Cutter& cutter, const model::FeatureShape& thread);
 
-/// Width of a straight cut with the contact angle of a mill that widens a round hole on a circle about its
-/// axis, mm: the whole diameter where the hole is narrower than what the mill leaves in the middle.
-[[nodiscard]] double width_on_a_circle_mm(double mill_mm, double hole_mm, double widened_mm);
-
 /// That rectangle on every arc of a thread mill's path that cuts, as feeds ask for it.
 [[nodiscard]] std::vector<optimise::CutSample> bound_samples(const ThreadBound& bound,
                                                              const model::CutterPath& path);
