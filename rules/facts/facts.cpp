@@ -265,6 +265,8 @@ FeatureFacts facts_of(const FeatureShape& s, const Context& c) {
   } else if (model::has(s.kind, ShapeTrait::kSurface)) {
     f.set("surface_radius_mm", c.surface_radius_mm);
     f.set("surface_form", !c.surface_walls ? "curved" : c.surface_curved ? "walls" : "prismatic");
+    f.set("wall_ratio", std::clamp(c.surface_wall_ratio, 0.0, kUnknownLength));
+    f.set("floor_ratio", std::clamp(c.surface_floor_ratio, 0.0, kUnknownLength));
   }
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/mesh/surface_form.h"
+#include "planner/making/piece/mesh/thin_places.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
@@ -94,6 +95,7 @@ class Proposer {
     const std::optional<Core> core = core_of(shapes);
     if (core) context.core_diameter_mm = core->diameter_mm;
     judge_tolerances(shapes.front());
+    piece::ThinPlaces thin;
     for (const auto& s : shapes) {
       for (const std::string& a : s.assumptions) {
         if (said_.insert({f, a}).second) job_.warn("PIP-ASSUMED", "feature '" + s.name + "': " + a);
@@ -108,6 +110,9 @@ class Proposer {
         context.surface_curved = form.curved;
         context.surface_corner_mm = form.corner_mm;
         context.surface_sharp_mm = piece::sharp_corner_of(form);
+        thin = piece::thin_places(*plan_.target_mesh, plan_.stock.box);
+        if (thin.wall) context.surface_wall_ratio = thin.wall->ratio();
+        if (thin.floor) context.surface_floor_ratio = thin.floor->ratio();
         if (form.walls)
           context.surface_height_mm = geometry::bounds(*plan_.target_mesh).hi.z - plan_.stock.box.lo.z;
         // Of what is curved, too, a ball finishes the places that no mill enters.
@@ -117,7 +122,10 @@ class Proposer {
     }
     std::vector<FeatureShape> in_material = shapes;
     for (FeatureShape& s : in_material) s.corner_radius_mm = piece::corner_in_material(choice_.piece, s);
-    const auto proposals = rules::propose_members(sources_.rules, in_material, context);
+    auto proposals = rules::propose_members(sources_.rules, in_material, context);
+    for (model::Proposal& p : proposals) {
+      if (!p.cannot.empty()) p.cannot += words_of(thin);
+    }
     const auto order = rules::member_order(shapes);
     const auto within = rules::made_within(shapes);
     std::vector<std::vector<std::size_t>> made(shapes.size());  // indices of steps by shape
@@ -163,6 +171,19 @@ class Proposer {
   }
 
  private:
+  /// The thin places of a surface, for the reason why it is not planned.
+  static std::string words_of(const piece::ThinPlaces& thin) {
+    std::string out;
+    const auto tell = [&](const char* what, const std::optional<piece::ThinPlace>& t, const char* extent) {
+      if (!t) return;
+      out += std::string("; its thinnest ") + what + " is " + trimmed(t->thickness_mm, 2) + " mm thick and " +
+             trimmed(t->extent_mm, 2) + " mm " + extent + " at (" + trimmed(t->at.x, 2) + ", " +
+             trimmed(t->at.y, 2) + ", " + trimmed(t->at.z, 2) + ")";
+    };
+    tell("wall", thin.wall, "high");
+    tell("floor", thin.floor, "wide");
+    return out;
+  }
   /// Whether an earlier try left this feature out; said again in this one.
   bool left_out(AnyRef f, const FeatureShape& first) {
     const draft::LeftOut* out = choice_.bans.left_out(f);
