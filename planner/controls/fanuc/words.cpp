@@ -108,10 +108,10 @@ gcode::Words words_of(const model::Machine& machine) {
   };
   w.tap = [tapping](const HoleCycle& h) { return tap_text(h, tapping); };
   w.tap_stops_spindle = true;
-  if (is("cycles", "feature"))
-    w.cycle = [in_seconds](const HoleCycle& h, std::span<const geometry::Vec2> places) {
-      return std::optional(gcode::CycleText{hole_text(h, places, in_seconds)});
-    };
+  w.by_cycles = is("cycles", "feature");
+  w.cycle = [in_seconds](const HoleCycle& h, std::span<const geometry::Vec2> places) {
+    return std::optional(gcode::CycleText{hole_text(h, places, in_seconds)});
+  };
   if (is("ai_contour", "yes")) {
     w.smooth_on = "G5.1 Q1";
     w.smooth_off = "G5.1 Q0";

@@ -126,6 +126,8 @@ struct Words {
   /// Null: explicit moves always.
   std::function<std::optional<CycleText>(const HoleCycle& hole, std::span<const geometry::Vec2> places)>
       cycle = {};
+  /// Whether the machine asks for them; an edit may say otherwise of a step.
+  bool by_cycles = true;
   /// The last line of `cycle` where it runs what the lines before it define: for equal holes of a step these
   /// stand once. Empty: each run of equal holes has its whole text.
   std::string_view cycle_call = {};

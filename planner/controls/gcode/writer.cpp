@@ -19,6 +19,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/model/nouns/executable.h"
+#include "planner/model/plan/edit/cycles.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/control_options.h"
 
@@ -45,7 +46,8 @@ class Writer {
         words_(words),
         condemned_(condemned),
         program_(plan.machine.control, words),
-        probings_(probings_before(plan)) {
+        probings_(probings_before(plan)),
+        cycles_(model::cycles_by_step(plan)) {
     for (const StepResult& s : plan.steps) uses_through_ = uses_through_ || s.through;
   }
 
@@ -66,6 +68,7 @@ class Writer {
       const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
       const bool measured = probe(step.step);
       enter(step, cutter, ids[n], n, measured);
+      by_cycles_ = cycles_[n].empty() ? words_.by_cycles : cycles_[n] == model::kFeatureCycles;
       const bool smooth = !words_.smooth_on.empty() && cuts_across(*step.path);
       if (smooth) program_.line(words_.smooth_on);
       if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
@@ -399,7 +402,7 @@ class Writer {
   // From move `i` on equal holes as a canned cycle, where the control has one that makes the same moves.
   // Gives their last move.
   std::optional<std::size_t> cycle(const StepResult& step, std::size_t i) {
-    if (!words_.cycle || !program_.at()) return std::nullopt;
+    if (!words_.cycle || !by_cycles_ || !program_.at()) return std::nullopt;
     const auto holes = holes_at(step, i, *program_.at(), plan_.machine.control);
     if (!holes) return std::nullopt;
     const auto text = words_.cycle(holes->cycle, holes->places);
@@ -468,6 +471,8 @@ class Writer {
   const std::vector<model::Condemnation>& condemned_;
   Program program_;
   std::map<model::AnyRef, std::vector<model::AnyRef>> probings_;  // by the step they precede
+  std::vector<std::string> cycles_;                               // by step: what edits say of them
+  bool by_cycles_ = false;                                        // of the step at hand
   int tool_ = 0;
   std::size_t setup_ = 0;
   double speed_ = 0.0;

@@ -216,10 +216,10 @@ gcode::Words words_of(const model::Plan& plan) {
   w.tap_stops_spindle = true;
   w.cycle_call = kCall;
   w.cycle_call_there = "M99";
-  if (is("cycles", "feature"))
-    w.cycle = [](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {
-      return std::optional(gcode::CycleText{hole_text(h)});
-    };
+  w.by_cycles = is("cycles", "feature");
+  w.cycle = [](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {
+    return std::optional(gcode::CycleText{hole_text(h)});
+  };
   w.more_centre_decimals = std::max(0, kMostDecimals - machine.control.decimals);
   w.turns = true;
   return w;

@@ -51,10 +51,10 @@ gcode::Words words(const model::Machine& machine) {
             return "G33.1 Z" + trimmed(h.bottom_z, h.decimals) + " K" + trimmed(h.pitch_mm, kPitchDecimals);
           },
   };
-  if (model::control_option(machine, "cycles") == "feature")
-    out.cycle = [](const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
-      return std::optional(gcode::CycleText{hole_text(h, places)});
-    };
+  out.by_cycles = model::control_option(machine, "cycles") == "feature";
+  out.cycle = [](const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
+    return std::optional(gcode::CycleText{hole_text(h, places)});
+  };
   return out;
 }
 

@@ -131,8 +131,8 @@ gcode::Words words_of(const model::Machine& machine) {
   w.dwell = [](const std::string& seconds) { return "G4 F" + seconds; };
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
-  if (is("cycles", "feature"))
-    w.cycle = [](const HoleCycle& h, Places places) { return std::optional(hole_text(h, places)); };
+  w.by_cycles = is("cycles", "feature");
+  w.cycle = [](const HoleCycle& h, Places places) { return std::optional(hole_text(h, places)); };
   w.more_centre_decimals = kMoreCentreDecimals;
   w.turns = is("turns", "yes");
   return w;

@@ -36,7 +36,8 @@ std::vector<Option> edit_options() {
        .help = {kFile, kFile, nullptr},
        .set = [](Request& r, const std::string& t) { return r.edits_file = t, std::string(); }},
       row<EditKind::kSet>("set a value of some steps and plan anew what depends on it: 'POCKET*/tool=T5', "
-                          "'SLOT*/feed=900'; tool, feed, speed or depth; the part before / names features or "
+                          "'SLOT*/feed=900', 'HOLE*/cycles=explicit'; tool, feed, speed, depth or cycles; "
+                          "the part before / names features or "
                           "workingsteps, with * and ?"),
       row<EditKind::kPin>("hold a value as it is planned: 'POCKET*/tool'"),
       row<EditKind::kLimit>("bound a number: 'feed<=2000', 'POCKET*/tool.diameter<=8'; feed, speed, "

@@ -8,6 +8,7 @@
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/text.h"
 #include "planner/model/nouns/arena/walk.h"
+#include "planner/model/plan/edit/cycles.h"
 #include "planner/model/plan/edit/restrictions.h"
 
 namespace capstan::service {
@@ -89,6 +90,8 @@ Status known_names(const std::vector<Edit>& edits, const std::vector<model::Cutt
     if (e.of == EditOf::kTool) ok = known_tool(e, library, plan);
     if (e.of == EditOf::kOperation) ok = known_word(e, "kind of operation", operation_words());
     if (e.of == EditOf::kStrategy) ok = known_word(e, "strategy", strategy_words());
+    if (e.of == EditOf::kCycles)
+      ok = known_word(e, "cycles", {std::string(model::kFeatureCycles), std::string(model::kExplicitMoves)});
     if (!ok) return ok;
   }
   return {};

@@ -7,12 +7,14 @@
 
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/control_options.h"
 #include "planner/making/given/edits/edited_steps.h"
 #include "planner/making/given/edits/operator_edits.h"
 #include "planner/making/given/edits/value_limits.h"
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/record/record.h"
 #include "planner/model/plan/decision/reopen_all.h"
+#include "planner/model/plan/edit/cycles.h"
 #include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/edit/restrictions.h"
 #include "planner/model/plan/range/ranges.h"
@@ -107,6 +109,7 @@ class Taker {
     }
     leave_without(e, meant);
     if (meant.empty()) return no_value(e, "'" + e.where + "' names no workingstep that has it");
+    if (e.of == EditOf::kCycles) return take_cycles(e);
     std::optional<Edit> resolved;
     std::set<const Edit*> yielded;
     for (const std::size_t i : meant) {
@@ -130,6 +133,15 @@ class Taker {
       }
     }
     if (!e.value.empty()) out_.edits.push_back(resolved ? *resolved : e);
+    return {};
+  }
+
+  /// The plan keeps it, and whoever writes its program asks for it: no value of the part changes.
+  Status take_cycles(const Edit& e) {
+    const std::string& control = machine_.control.dialect;
+    if (e.value == model::kFeatureCycles && model::find_control_option(control, "cycles") == nullptr)
+      return no_value(e, "the control of machine '" + machine_.id + "' (" + control + ") has no cycles");
+    out_.edits.push_back(e);
     return {};
   }
 

@@ -36,6 +36,7 @@ constexpr std::array kRows = {
     Row{EditOf::kToolTeeth, "tool.teeth", "", bit(EditKind::kLimit), true, true},
     Row{EditOf::kOperation, "operation", "", bit(EditKind::kForbid), false, false},
     Row{EditOf::kStrategy, "strategy", "", bit(EditKind::kForbid), false, false},
+    Row{EditOf::kCycles, "cycles", "", bit(EditKind::kSet), false, false},
 };
 
 const Row& row_of(EditOf of) {
@@ -52,7 +53,8 @@ std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"
 
 auto no_edit(EditKind kind, std::string_view text, std::string what) {
   static constexpr std::array kForms = {
-      "[PATTERN/]tool=T5, or feed, speed or depth with a number", "[PATTERN/]tool, feed, speed or depth",
+      "[PATTERN/]tool=T5, feed, speed or depth with a number, or cycles=explicit",
+      "[PATTERN/]tool, feed, speed or depth",
       "[PATTERN/]feed<=2000, or speed, tool.diameter, tool.stick_out, tool.teeth",
       "[PATTERN/]tool=NAME, operation=KIND or strategy=KIND", "PATTERN<PATTERN, features or workingsteps"};
   return fail({.code = "EDIT-SYNTAX",

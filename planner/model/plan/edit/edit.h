@@ -28,11 +28,12 @@ enum class EditOf : std::uint8_t {
   kToolTeeth,
   kOperation,  ///< the kind: "reaming"
   kStrategy,   ///< of a milling operation: "bidirectional"
+  kCycles,     ///< of its program alone: holes as the control's cycles, or as moves (cycles.h)
 };
 
 /// One edit. Its text is
 ///
-///     set    [PATTERN/]tool=T5, [PATTERN/]feed=2000       tool, feed, speed, depth
+///     set    [PATTERN/]tool=T5, [PATTERN/]feed=2000       tool, feed, speed, depth, cycles
 ///     pin    [PATTERN/]tool, or with the value that is held as `set`
 ///     limit  [PATTERN/]feed<=2000                          feed, speed, depth, tool.diameter, ...
 ///     forbid [PATTERN/]tool=em1*, [PATTERN/]operation=reaming

@@ -14,15 +14,16 @@ constexpr const char* kAll =
     "  - pin: SLOT rough/feed=900\n"
     "  - limit: tool.diameter<=8\n"
     "  - forbid: operation=reaming\n"
+    "  - set: HOLE*/cycles=explicit\n"
     "  - order: HOLE<POCKET\n";
 
 TEST(EditsFile, IsReadWithTheNumberOfEachEditAndTheFilesName) {
   Job job;
   const auto edits = read_edits(kAll, "shop/part.edits.yaml", job);
   ASSERT_TRUE(edits) << to_text(edits.error());
-  ASSERT_EQ(edits->size(), 5U);
+  ASSERT_EQ(edits->size(), 6U);
   EXPECT_EQ(words_of(edits->front()), "edit 1 of part.edits.yaml: set POCKET*/tool=T5");
-  EXPECT_EQ(words_of(edits->back()), "edit 5 of part.edits.yaml: order HOLE<POCKET");
+  EXPECT_EQ(words_of(edits->back()), "edit 6 of part.edits.yaml: order HOLE<POCKET");
 }
 
 TEST(EditsFile, MayBeJson) {

@@ -17,7 +17,8 @@ TEST(KnownNames, AreLookedUpBeforeAnythingIsPlanned) {
   using model::EditKind;
   EXPECT_TRUE(known_names({edit(EditKind::kSet, "tool=em8"), edit(EditKind::kForbid, "tool=em*"),
                            edit(EditKind::kForbid, "operation=*_rough_milling"),
-                           edit(EditKind::kForbid, "strategy=constant_engagement")},
+                           edit(EditKind::kForbid, "strategy=constant_engagement"),
+                           edit(EditKind::kSet, "HOLE*/cycles=explicit")},
                           library, plan));
   const auto tool = known_names({edit(EditKind::kSet, "tool=em9")}, library, plan);
   ASSERT_FALSE(tool);
@@ -27,6 +28,8 @@ TEST(KnownNames, AreLookedUpBeforeAnythingIsPlanned) {
   ASSERT_FALSE(operation);
   EXPECT_NE(operation.error().message.find("'reaming'"), std::string::npos) << operation.error().message;
   EXPECT_EQ(known_names({edit(EditKind::kForbid, "strategy=zigzag")}, library, plan).error().code,
+            "NAME-UNKNOWN");
+  EXPECT_EQ(known_names({edit(EditKind::kSet, "cycles=explicitly")}, library, plan).error().code,
             "NAME-UNKNOWN");
 }
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 // A person's own decisions: examples/bracket.p21 planned with one thing set, held, bounded, ruled out or put
 // first, end to end.
 
@@ -49,6 +51,41 @@ TEST_F(Edits, FeedSpeedAndDepthThatAreSetStandInTheProgram) {
   EXPECT_NE(std::find(f.begin(), f.end(), 1111.0), f.end());
   EXPECT_THAT(why("a", "SLOT area_rough", "feedrate"), HasSubstr("--set: set SLOT area_rough/feed=1111"));
   EXPECT_EQ(run("check a.json a.ngc").code, 0);
+}
+
+// LinuxCNC's holes are moves where nothing else is said.
+TEST_F(Edits, TheCyclesOfAStepAreWhatIsSaidOfItAndAllElseStays) {
+  const auto steps_with_cycles = [&](const std::string& file) {
+    std::vector<std::string> out;
+    std::string step;
+    std::istringstream lines(slurp(folder_ / file));
+    for (std::string l; std::getline(lines, l);) {
+      if (l.starts_with("(CAPSTAN STEP ")) step = l.substr(0, l.find(" n="));
+      if (l.starts_with("G98 G8") && (out.empty() || out.back() != step)) out.push_back(step);
+    }
+    return out;
+  };
+  const Ran r = plan("a", "--set 'DOWEL*/cycles=feature' -o a.edits.yaml");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto made = steps_with_cycles("a.ngc");
+  ASSERT_FALSE(made.empty());
+  for (const std::string& step : made) EXPECT_THAT(step, HasSubstr("DOWEL"));
+  EXPECT_EQ(run("check a.json a.ngc").code, 0);
+  ASSERT_EQ(plan("plain", "").code, 0);
+  EXPECT_THAT(steps_with_cycles("plain.ngc"), ::testing::IsEmpty());
+  auto before = steps_of("plain"), after = steps_of("a");
+  for (auto& [name, step] : before) EXPECT_EQ(kept(after.at(name)), kept(step)) << name;
+  // Kept beside the plan and in it.
+  EXPECT_THAT(slurp(folder_ / "a.edits.yaml"), HasSubstr("cycles=feature"));
+  ASSERT_EQ(plan("b", "--edits a.edits.yaml").code, 0);
+  EXPECT_EQ(slurp(folder_ / "b.ngc"), slurp(folder_ / "a.ngc"));
+}
+
+TEST_F(Edits, CyclesAreRefusedForAControlThatHasNone) {
+  const Ran r = plan("a", "--control grbl --set 'DOWEL*/cycles=feature'");
+  EXPECT_NE(r.code, 0);
+  EXPECT_THAT(r.err, HasSubstr("EDIT-VALUE"));
+  EXPECT_THAT(r.err, HasSubstr("has no cycles"));
 }
 
 TEST_F(Edits, APinHoldsWhatWasPlannedAndIsWrittenWithIt) {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/model/plan/plan.h"
+
+namespace capstan::model {
+
+/// What an edit of `cycles` may say, as the control's option of that name does.
+inline constexpr std::string_view kFeatureCycles = "feature", kExplicitMoves = "explicit";
+
+/// By step of the plan: what the edits that it was made with say of its cycles, one of the words above;
+/// empty: none says anything, and the machine's option holds.
+[[nodiscard]] std::vector<std::string> cycles_by_step(const Plan& plan);
+
+}  // namespace capstan::model
