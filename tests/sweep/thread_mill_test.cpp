@@ -21,7 +21,8 @@ Outcome thread_in(const std::string& material) {
   Case c;
   for (std::size_t i = 0; i < features().size(); ++i)
     if (features()[i].name == "tapped hole") c.feature = i;
-  while (kMaterials[c.material].name != material) ++c.material;
+  while (c.material + 1 < std::size(kMaterials) && kMaterials[c.material].name != material) ++c.material;
+  EXPECT_EQ(kMaterials[c.material].name, material);
   c.machine = 1;
   return Sweep().plan(c);
 }

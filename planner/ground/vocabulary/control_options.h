@@ -34,8 +34,9 @@ inline constexpr std::array kControlOptions{
     ControlOptionRow{
         "cycles", "feature explicit", 0, 0, false,
         "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
-        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84; Heidenhain: CYCL DEF 200, 201, 207; "
-        "LinuxCNC: G81, G82, G85, G89, and G33.1 for threads); or explicit moves",
+        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84, with HOLES1 and HOLES2; Heidenhain: "
+        "CYCL DEF 200, 201, 207 with M99; LinuxCNC: G81, G82, G85, G89, and G33.1 for threads), equal holes "
+        "of a step at once; or explicit moves",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
         "2.9, G-codes, canned cycles"},
     ControlOptionRow{

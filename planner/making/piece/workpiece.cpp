@@ -166,7 +166,8 @@ void look_for_raw_piece(const model::Plan& plan, const WorkpieceWish& wish, mode
   if (stock.box.empty() && plan.target_mesh) {
     stock.box = geometry::bounds(*plan.target_mesh);
     stock.source = "inferred: the box of the surface";
-    // --stock states how much stands around the surface: then the raw piece is given.
+    // --stock states how much stands around the surface: then the raw piece is given. Around features it is
+    // not: what the part is beside them is still a guess.
     if (!wish.allowance_mm)
       job.warn("PIP-STOCK", "no raw piece is given; taken as the box of the surface: " + words(stock.box));
   }

@@ -62,6 +62,17 @@ TEST(LeastClearing, KnowsNothingOfARestOrAPocketAsNarrowAsItsSlots) {
   EXPECT_EQ(narrow.seconds(), 0.0);
 }
 
+// By hand: of 2400 mm2 an island of 20 x 10 mm stays; outlines of 200 + 60 mm, 2 mm wide, leave 1680 mm2,
+// 13440 mm3.
+TEST(LeastClearing, CountsNoIsland) {
+  Pocket with(5.0);
+  with.job.shape.islands.push_back({.area = geometry::rectangle({-10.0, -5.0}, {10.0, 5.0})});
+  EXPECT_NEAR(with.seconds(), 13440.0 * 60.0, 1e-3);
+  // Of a contour the island is the part: here nothing surely lasts.
+  with.job.shape.islands.front().area = geometry::rectangle({-25.0, -15.0}, {25.0, 15.0});
+  EXPECT_LT(with.seconds(), (2400.0 - 1500.0) * 8.0 * 60.0);
+}
+
 TEST(LongerThanAShift, IsSaidWithBothTimesAndWhatWouldHelp) {
   const Pocket slow(5.0);
   const auto why = [](const Pocket& p) {

@@ -128,7 +128,7 @@ Comparison catalogue_times(const std::string& file, Extent extent) {
   if (extent == Extent::kSample) {
     out.lines = lines_of(all.table);
     for (std::string& line : lines_of(plans)) out.lines.push_back(std::move(line));
-    // No such line stands in the document.
+    // The test of the document fails at such a line.
     if (!apart.empty()) out.lines.push_back(apart);
     return out;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "planner/ground/base/number.h"
 #include "tests/validation/report.h"
@@ -66,10 +67,18 @@ std::vector<Row> read(const std::string& text) {
   const auto rows = cells_of(text);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& cells = rows[i];
-    if (cells.size() != kColumns) continue;
-    out.push_back({cells[0], cells[1], cells[2], parse_double(cells[3]).value_or(0.0),
-                   parse_double(cells[4]).value_or(0.0),
-                   static_cast<std::size_t>(parse_double(cells[5]).value_or(0.0)), cells[6]});
+    const auto number = [&](std::size_t k) {
+      const auto value = k < cells.size() ? parse_double(cells[k]) : std::nullopt;
+      if (cells.size() != kColumns || !value || !(*value >= 0.0))
+        throw std::runtime_error("catalogue_times.csv, line " + std::to_string(i + 1) + ": " +
+                                 std::to_string(kColumns) +
+                                 " cells are expected, numbers from 0 on in the "
+                                 "fourth to sixth; plan its cases anew (capstan_catalogue_times)");
+      return *value;
+    };
+    const double plan_s = number(3), catalogue_s = number(4), not_made = number(5);
+    out.push_back(
+        {cells[0], cells[1], cells[2], plan_s, catalogue_s, static_cast<std::size_t>(not_made), cells[6]});
   }
   return out;
 }

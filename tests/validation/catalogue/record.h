@@ -28,6 +28,7 @@ struct Row {
 
 /// Names, then a line for each row.
 [[nodiscard]] std::string written(const std::vector<Row>& rows);
+/// Throws std::runtime_error at a row that is not as `written` writes it.
 [[nodiscard]] std::vector<Row> read(const std::string& text);
 
 /// Where a case that is planned now is apart from its row by more than rounding, in words; empty: nowhere.

@@ -31,6 +31,8 @@ TEST(CatalogueRecord, KeepsCommasOfReasonsOutOfItsCells) {
   EXPECT_EQ(r.refused, "no tool; of 2; at all");
   ASSERT_EQ(read(written({r})).size(), 1U);
   EXPECT_EQ(read(written({r})).front(), r);
+  EXPECT_THROW((void)read(written({r}) + "a,b,c,1.0,2.0,none,\n"), std::runtime_error);
+  EXPECT_THROW((void)read(written({r}) + "a,b,c,1.0\n"), std::runtime_error);
 }
 
 TEST(CatalogueRecord, IsApartWhereATimeDiffersByMoreThanRoundingOrAFeatureIsMissing) {
@@ -60,8 +62,10 @@ TEST(CatalogueTimes, StandInTheDocumentAsRecordedAndAsPlannedNow) {
   const Comparison c = catalogue_times(root + "/docs/validation/catalogue_times.csv", Extent::kSample);
   ASSERT_EQ(c.skipped, "");
   const std::string stands = standing(capstan::testing::slurp(root + "/docs/validation.md"), c.name);
-  for (const std::string& line : c.lines)
+  for (const std::string& line : c.lines) {
+    EXPECT_EQ(line.rfind("Apart from the record", 0), std::string::npos) << line;
     EXPECT_NE(stands.find("\n" + line), std::string::npos) << "run ./dev validate; now " << line;
+  }
 }
 
 }  // namespace

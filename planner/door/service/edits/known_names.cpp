@@ -41,9 +41,12 @@ bool is_number(std::string_view value) {
          std::all_of(value.begin() + 1, value.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-Status known_word(const Edit& e, std::string_view what, const std::vector<std::string>& words) {
+/// `exact`: the value is one of the words as they stand; else it may be a pattern of them, in any case.
+Status known_word(const Edit& e, std::string_view what, const std::vector<std::string>& words,
+                  bool exact = false) {
   const std::string value = lower_text(e.value);
-  if (std::any_of(words.begin(), words.end(), [&](const std::string& w) { return model::names(value, w); }))
+  if (std::any_of(words.begin(), words.end(),
+                  [&](const std::string& w) { return exact ? e.value == w : model::names(value, w); }))
     return {};
   Diagnostic d = unknown_name(what, e.value, words, "capstan plan --help");
   d.message = model::words_of(e) + ": " + d.message;
@@ -91,7 +94,8 @@ Status known_names(const std::vector<Edit>& edits, const std::vector<model::Cutt
     if (e.of == EditOf::kOperation) ok = known_word(e, "kind of operation", operation_words());
     if (e.of == EditOf::kStrategy) ok = known_word(e, "strategy", strategy_words());
     if (e.of == EditOf::kCycles)
-      ok = known_word(e, "cycles", {std::string(model::kFeatureCycles), std::string(model::kExplicitMoves)});
+      ok = known_word(e, "cycles", {std::string(model::kFeatureCycles), std::string(model::kExplicitMoves)},
+                      true);
     if (!ok) return ok;
   }
   return {};

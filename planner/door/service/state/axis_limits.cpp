@@ -6,6 +6,7 @@
 
 #include "planner/controls/controls.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/plan/resources/control_options.h"
 #include "planner/proof/verify/axis_places.h"
 
 namespace capstan::service {
@@ -16,6 +17,12 @@ Diagnostic fault(const model::Plan& plan, std::string message) {
           .message = std::move(message),
           .file = plan.file_name,
           .hint = "retract and stop; nothing may be cut from this plan as the machine stands"};
+}
+
+/// Whether the program's places on an axis are not known, for the zero of Z is set with each tool: it is held
+/// only where somebody limits it.
+bool is_touched_off(const model::Machine& machine, std::size_t axis) {
+  return axis == 2 && model::control_option(machine, "tool_length") == "touch_off";
 }
 
 /// Where an axis may be: within its travel, where its machine states one, and within `limit`, where it is
@@ -56,6 +63,7 @@ std::optional<Diagnostic> leaves_limits(const MachineState& state, const model::
     const model::LinearAxis& axis = plan.machine.axes[i];
     const auto limit = std::find_if(state.axis_limits.begin(), state.axis_limits.end(),
                                     [&](const AxisLimit& l) { return l.axis == axis.name; });
+    if (limit == state.axis_limits.end() && is_touched_off(plan.machine, i)) continue;
     const auto range = range_of(axis, limit == state.axis_limits.end() ? nullptr : &*limit);
     if (!range) continue;
     if (!(range->least_mm < range->most_mm))

@@ -47,7 +47,8 @@ std::vector<Option> state_options() {
        .value = Value::kText,
        .help = of_bind(
            "where the axes may be now, mm in machine coordinates: X=0:350,Z=-200:-5 (Z of the spindle's "
-           "gage line); a program that leaves them is not given; needs --work-offset"),
+           "gage line), the machine's own travels holding too; a program that leaves them is not given; "
+           "needs --work-offset"),
        .set = &set_limits},
       {.name = "work-offset",
        .value = Value::kText,

@@ -22,8 +22,8 @@ void rank_by_time(model::Plan& plan, const PlanSoFar& p, std::vector<draft::Step
                   const Progress& progress, Cuts& cuts);
 
 /// Ranks the cutters of a cut under an overhang and thread mills by the time of their paths, tool change
-/// included. There the height of the head and the number of passes or turns matter more than the volume. `seconds` gives the time of a
-/// candidate; nothing if it has no path within the limits.
+/// included. There the height of the head and the number of passes or turns matter more than the volume.
+/// `seconds` gives the time of a candidate; nothing if it has no path within the limits.
 void rank_by_path(model::Plan& plan, std::vector<draft::StepDraft>& steps, draft::StepDraft& step,
                   const std::vector<std::string>& used,
                   const std::function<std::optional<double>(std::size_t)>& seconds);

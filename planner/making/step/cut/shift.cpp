@@ -37,7 +37,7 @@ double outline_mm(const geometry::Region& area) {
   return out;
 }
 
-/// Material over the area above this height of the set-up, mm3.
+/// Material over the area above this height of the set-up, mm3. Over an island all is counted as staying.
 double material_mm3(const toolpath::PathJob& job, const stock::HeightMap& map, double floor_z_mm) {
   double out = 0.0;
   for (int iy = 0; iy < map.ny; ++iy) {
@@ -45,7 +45,11 @@ double material_mm3(const toolpath::PathJob& job, const stock::HeightMap& map, d
       const double high = map.origin.z + map.at(ix, iy).mean() - floor_z_mm;
       if (!(high > 0.0)) continue;
       const auto at = job.feature_in_setup.to_local({map.x_of(ix), map.y_of(iy), 0.0});
-      if (geometry::contains(job.shape.area, {at.x, at.y})) out += high;
+      const geometry::Vec2 p{at.x, at.y};
+      const auto stays = [&](const model::Island& i) { return geometry::contains(i.area, p); };
+      const auto& islands = job.shape.islands;
+      if (geometry::contains(job.shape.area, p) && std::none_of(islands.begin(), islands.end(), stays))
+        out += high;
     }
   }
   return out * map.cell_mm * map.cell_mm;
@@ -62,8 +66,14 @@ double least_clearing_s(const toolpath::PathJob& job, const optimise::CutQuestio
   const double feed = q.aim == optimise::Aim::kTime ? std::min(highest, kMissed * cut.feed_mm_min) : highest;
   const double rate = cut.ap_mm * cut.ae_mm * feed;
   if (!(rate > 0.0) || !(depth > 0.0) || job.cleared_by || job.shape.area.empty()) return 0.0;
-  const double beside = outline_mm(job.shape.area) * (q.cutter.cutting_diameter_mm + job.allowance_side_mm);
-  const double most = (geometry::area(job.shape.area) - beside) * depth;
+  // Islands stay: of an outside they are the part. Their walls are outlines as the area's.
+  double outline = outline_mm(job.shape.area), free_mm2 = geometry::area(job.shape.area);
+  for (const model::Island& island : job.shape.islands) {
+    outline += outline_mm(island.area);
+    free_mm2 -= geometry::area(island.area);
+  }
+  const double beside = outline * (q.cutter.cutting_diameter_mm + job.allowance_side_mm);
+  const double most = (free_mm2 - beside) * depth;
   // The map is asked only where a solid block would last longer than a shift.
   if (!(60.0 * most / rate > kShiftS)) return std::max(0.0, 60.0 * most / rate);
   return std::max(0.0, 60.0 * (material_mm3(job, map, floor) - beside * depth) / rate);

@@ -136,7 +136,8 @@ std::optional<CycleCall> Interpreter::parameters(const Item& call) {
 /// HOLES1, a row: reference point SPCA, SPCO, its angle STA1, FDIS to the first hole, DBH between holes, NUM;
 /// it is begun at the end that is nearer to the tool. HOLES2, a circle: centre CPA, CPO, radius RAD, angle
 /// STA1 of the first hole, INDA from each to the next (0: NUM holes divide the circle). Each place is reached
-/// by rapid, and the modal call runs there. Source: SINUMERIK cycles 11.02, 2.2 (drilling patterns).
+/// by rapid, and the modal call runs there. Sources: 840D sl operating manual, position patterns; the order
+/// of the parameters by what others wrote (tests/controls/siemens/golden/README.md).
 void Interpreter::pattern(const Item& call, bool modal) {
   constexpr std::size_t kParameters = 6;
   constexpr double kMostHoles = 10000.0, kDegrees = 180.0 / std::numbers::pi;
@@ -156,8 +157,8 @@ void Interpreter::pattern(const Item& call, bool modal) {
     if (i < kParameters) v[i] = *value;
   }
   const double u = units(), number = v[5];
-  if (call.params.size() < kParameters || !(number >= 1.0) || number > kMostHoles ||
-      number != std::floor(number))
+  if (call.params.size() < kParameters) return wrong("NUM, the sixth parameter, is missing");
+  if (!(number >= 1.0) || number > kMostHoles || number != std::floor(number))
     return wrong("NUM " + plain(number) + " is no number of holes from 1 to " + plain(kMostHoles));
   const auto n = static_cast<std::size_t>(number);
   std::vector<geometry::Vec2> places;
