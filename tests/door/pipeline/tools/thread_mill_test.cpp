@@ -54,6 +54,27 @@ TEST(ThreadMill, ItsCentreIsFedByTheSmallerCircle) {
   EXPECT_GE(fastest, 0.5 * most);  // and not needlessly slow: aluminium, no other limit is near
 }
 
+// 25.4 / 10.16 = 2.5: the check reads the pitch by itself and finds the mill's.
+TEST(ThreadMill, OfAThreadCountedPerInchIsHeldAgainstItsPitchInMm) {
+  std::string inch = kM20;
+  const std::string per_mm = "NUMERIC_PARAMETER('threads per mm',0.4,'mm')";
+  for (const double count : {10.16, 12.7}) {
+    std::string text = inch;
+    text.replace(text.find(per_mm), per_mm.size(),
+                 "NUMERIC_PARAMETER('threads per inch'," + std::to_string(count) + ",'inch')");
+    const auto made = block::bound(block::read(text));
+    const bool milled = std::any_of(made.plan.cutters.begin(), made.plan.cutters.end(), [](const auto& c) {
+      return c.cutter_class == model::CutterClass::kThreadMill;
+    });
+    EXPECT_EQ(milled, count == 10.16) << "the library has no M20 with a pitch of 2 mm: " << made.said;
+    Job quiet;
+    for (const auto& f : findings_of(made.plan, quiet)) {
+      EXPECT_NE(f.code, "CHK-THREAD") << f.message;
+      EXPECT_NE(f.code, "CHK-MEANING") << f.message;
+    }
+  }
+}
+
 /// The thread mill that a plan has, and its step's path.
 struct ThreadMillOf {
   model::Cutter cutter;
