@@ -106,6 +106,76 @@ TEST(ThreadMill, OfProfilesOverTheWholeThreadTakesOneTurnWhereItsForceIsBorne) {
   EXPECT_LE(s.loads.deflection_mm, 0.05) << "all its profiles bend it at once";
 }
 
+/// The thread in POM, made by a mill with profiles over all of it.
+const Outcome& thread_by_rows() {
+  static const Outcome made = thread_in("POM");
+  return made;
+}
+
+/// What the check says of that plan after `change` of its thread mill and of the path.
+template <typename Change>
+std::vector<model::Finding> with_fault(const Outcome& good, const Change& change) {
+  model::Plan plan = good.made.plan;
+  model::StepResult& s = milling_step(plan);
+  model::CutterPath path = *s.path;
+  for (model::Cutter& c : plan.cutters)
+    if (c.id == s.cutter_id) change(c, path);
+  s.path = std::make_shared<model::CutterPath>(std::move(path));
+  Job quiet;
+  return pipeline::checked(std::move(plan), quiet).findings;
+}
+
+TEST(ThreadMill, WhoseProfilesHaveAnotherPitchIsFound) {
+  ASSERT_TRUE(thread_by_rows().whole());
+  EXPECT_FALSE(has(with_fault(thread_by_rows(), [](auto&, auto&) {}), "CHK-THREAD"));
+  for (const double pitch : {1.0, 1.5}) {
+    const auto fault = [&](model::Cutter& c, model::CutterPath&) { c.thread_pitch_mm = pitch; };
+    EXPECT_TRUE(has(with_fault(thread_by_rows(), fault), "CHK-THREAD")) << pitch;
+    EXPECT_TRUE(has(with_fault(milled_thread(), fault), "CHK-THREAD")) << pitch;
+  }
+}
+
+TEST(ThreadMill, WhoseProfilesStateNoPitchIsNotCalledGood) {
+  const auto findings =
+      with_fault(thread_by_rows(), [](model::Cutter& c, model::CutterPath&) { c.thread_pitch_mm = 0.0; });
+  const auto at = std::find_if(findings.begin(), findings.end(),
+                               [](const auto& f) { return f.code == "CHK-THREAD-UNDECIDED"; });
+  ASSERT_NE(at, findings.end());
+  EXPECT_TRUE(at->unproved);
+}
+
+// The pitch is 1.25: four fifths of each rise are 1 mm in a turn.
+TEST(ThreadMill, WhoseHelixHasAnotherPitchIsFound) {
+  const auto flatter = [](model::Cutter&, model::CutterPath& p) {
+    const double low = *std::min_element(p.z.begin(), p.z.end());
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (p.role[i] == model::MoveRole::kCut || p.z[i] < 0.0) p.z[i] = low + 0.8 * (p.z[i] - low);
+  };
+  for (const Outcome* o : {&thread_by_rows(), &milled_thread()})
+    EXPECT_TRUE(has(with_fault(*o, flatter), "CHK-THREAD"));
+}
+
+TEST(ThreadMill, WhoseHelixHasTheOtherHandIsFound) {
+  const auto mirrored = [](model::Cutter&, model::CutterPath& p) {
+    for (auto& kind : p.kind)
+      kind = kind == model::MoveKind::kArcCcw  ? model::MoveKind::kArcCw
+             : kind == model::MoveKind::kArcCw ? model::MoveKind::kArcCcw
+                                               : kind;
+  };
+  for (const Outcome* o : {&thread_by_rows(), &milled_thread()})
+    EXPECT_TRUE(has(with_fault(*o, mirrored), "CHK-THREAD"));
+}
+
+// One turn and two leads of half a pitch are 2.5 mm of the thread's 15.
+TEST(ThreadMill, WhoseProfilesAreShorterThanTheThreadInOneTurnIsFound) {
+  const auto rows = [](double mm) {
+    return [mm](model::Cutter& c, model::CutterPath&) { c.maximum_depth_of_cut_mm = mm; };
+  };
+  EXPECT_TRUE(has(with_fault(thread_by_rows(), rows(8.0)), "CHK-THREAD-LENGTH"));
+  EXPECT_TRUE(has(with_fault(thread_by_rows(), rows(1.25)), "CHK-THREAD-LENGTH"));
+  EXPECT_FALSE(has(with_fault(thread_by_rows(), rows(15.0)), "CHK-THREAD-LENGTH"));
+}
+
 // In steel all profiles at once bend a mill too far: one profile, by the shorter of the necks that reach.
 TEST(ThreadMill, OfOneProfileIsTheStiffestThatReaches) {
   model::Plan plan = milled_thread().made.plan;

@@ -10,6 +10,7 @@
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/force/immersion.h"
 #include "planner/physics/mechanics/force/kienzle.h"
+#include "planner/physics/mechanics/force/thread_cut.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "planner/physics/mechanics/stability.h"
 #include "tooling/library/cutters/edge_kind.h"
@@ -95,20 +96,50 @@ double deepest_mm(const Cutter& c, const WorkMaterial& w, const Machine& m, cons
   return ap;
 }
 
-/// Way of a cutter's middle along the helix of a bore or thread, mm, in lengths at its full feed; nothing
-/// where the bore is cleared as a pocket. As planner/making/toolpath/hole (bore_and_thread.cpp): a thread
-/// mill makes a turn for each pitch, all of them in one where its profiles are as long as the thread, and its
-/// middle goes slower than its edge at the thread's major diameter (making/step/cut/thread_bound.cpp); a mill
-/// goes round the hole that is there as deep as it may cut, else down by its ramp; a last turn is level.
+/// A thread: a turn for each pitch, all of them in one where the cutter's profiles are as long as the thread,
+/// a half to lead in and one to lead out (planner/making/toolpath/hole, bore_and_thread.cpp). All profiles
+/// that are in the cut push at once. What they do is as long as they are; only the feed can give way, and the
+/// force falls with its power of 1 - mc.
+double thread_s(const Cutter& c, double fz_mm, double rpm, int teeth, const WorkMaterial& w, const Turning& t,
+                const Preferences& p, std::string& limited) {
+  const double d = c.cutting_diameter_mm, r = 0.5 * (p.bore_mm - d);
+  const double core = p.pre_hole_mm > 0.0 ? p.pre_hole_mm : p.bore_mm - p.pitch_mm;
+  const auto cut =
+      mechanics::thread_bound(d, c.maximum_depth_of_cut_mm, {p.bore_mm, p.pitch_mm, p.depth_mm, core});
+  const mechanics::WorkMaterial work = mechanics::milled_with(w, c);
+  const double chip = mechanics::max_chip_thickness_mm(1.0, cut.ae_mm, d);
+  double fz = fz_mm * cut.centre_share / chip;
+  const double h_mean = mechanics::mean_chip_thickness_mm(fz, cut.ae_mm, d);
+  double scale = 1.0;
+  if (h_mean > 0.0) {
+    const double margin = margin_of(w), kc = mechanics::specific_force_n_mm2(work, h_mean);
+    const double power = margin * mechanics::cutting_power_w(cut.ap_mm * cut.ae_mm * fz * teeth * rpm, kc);
+    if (const auto most = capacity(t, rpm)) {
+      scale_down(most->power_w / power, "power", scale, limited);
+      scale_down(most->torque_nm / mechanics::spindle_torque_nm(power, rpm), "torque", scale, limited);
+    }
+    const double in_cut =
+        std::max(1.0, mechanics::mean_engaged_teeth(teeth, mechanics::immersion_angle_rad(cut.ae_mm, d)));
+    const double one = mechanics::specific_force_n_mm2(work, fz * chip) * fz * chip * cut.ap_mm;
+    const double force = margin * one * in_cut * std::hypot(1.0, mechanics::kRadialToTangentialRatio);
+    const double bending = p.bending_mm > 0.0 ? p.bending_mm : bending_mm(c, w);
+    if (const auto bend = mechanics::tip_compliance_mm_n(c))
+      scale_down(std::min(bending, mechanics::enduring_bend_mm(c).value_or(bending)) / (force * *bend),
+                 "bending", scale, limited);
+  }
+  fz *= std::pow(scale, 1.0 / (1.0 - work.mc));
+  const bool all_at_once = c.maximum_depth_of_cut_mm >= p.depth_mm;
+  const double turns = all_at_once ? 1.0 : std::ceil(p.depth_mm / p.pitch_mm - 1e-9);
+  return 60.0 * kPi * r * (2.0 * turns + 1.0) / (fz * teeth * rpm);
+}
+
+/// Way of a cutter's middle along the helix of a bore, mm, in lengths at its full feed; nothing where the
+/// bore is cleared as a pocket. As planner/making/toolpath/hole (bore_and_thread.cpp): a mill goes round the
+/// hole that is there as deep as it may cut, else down by its ramp; a last turn is level.
 std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Preferences& p, double ap_mm) {
   const double d = c.cutting_diameter_mm, r = 0.5 * (p.bore_mm - d);
   if (!(r > 0.0)) return std::nullopt;
   const double turn = 2.0 * kPi * r, in_and_out = kPi * r;
-  if (p.pitch_mm > 0.0) {
-    const bool all_at_once = c.maximum_depth_of_cut_mm >= p.depth_mm;
-    const double way = turn * (all_at_once ? 1.0 : std::ceil(p.depth_mm / p.pitch_mm - 1e-9)) + in_and_out;
-    return way * p.bore_mm / (2.0 * r);
-  }
   const double hole = 0.5 * p.pre_hole_mm, flat = std::max(0.5 * d - c.corner_radius_mm, 0.25 * d);
   if (r - flat > hole + 1e-9) return std::nullopt;  // a core would stay
   if (r + model::kMiddleOfRadius * 0.5 * d <= 0.5 * p.open_below_mm)
@@ -134,6 +165,7 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
     feed *= static_cast<double>(kTeethInSoft) / teeth;
     teeth = kTeethInSoft;
   }
+  if (p.pitch_mm > 0.0 && p.bore_mm > d) return thread_s(c, s.fz_mm, rpm, teeth, w, t, p, limited);
   const mechanics::WorkMaterial work = mechanics::milled_with(w, c);
   const double sin_kappa = std::cos(c.lead_angle_rad);
   const double h_mean = mechanics::mean_chip_thickness_mm(s.fz_mm, ae, d, sin_kappa);

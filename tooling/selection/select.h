@@ -54,8 +54,9 @@ struct Preferences {
   double passes_mm2 = 0.0;         ///< balls: the surface that parallel passes cover, as seen from above
   double ridges_mm = 0.0;          ///< with it: height of what stays between two passes
   double pre_hole_mm = 0.0;        ///< drilling, tapping: the hole that is there
-  double bore_mm = 0.0;   ///< milling along a helix: diameter of the bore's wall, or a thread's major one
-  double pitch_mm = 0.0;  ///< with it: of a thread
+  double bore_mm = 0.0;     ///< milling along a helix: diameter of the bore's wall, or a thread's major one
+  double pitch_mm = 0.0;    ///< with it: of a thread
+  double bending_mm = 0.0;  ///< with it: what the tip may bend; 0: as in roughing
   double open_below_mm = 0.0;  ///< with it: the hole that is there to below the bore; 0: its floor is solid
   double floor_mm2 = 0.0;      ///< finishing: the floor that the same step goes over, too
   bool roughs = false;         ///< milling: levels as deep as the cutter stays quiet

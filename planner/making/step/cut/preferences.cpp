@@ -6,6 +6,7 @@
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/step/cut/drilled_hole.h"
+#include "planner/making/step/cut/question.h"
 #include "planner/model/nouns/arena/walk.h"
 
 namespace capstan::step {
@@ -97,6 +98,8 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
     if (step.operation == TypeId::kThreadDrilling) {
       p.bore_mm = s.thread_major_mm;
       p.pitch_mm = s.thread_pitch_mm;
+      p.bending_mm = bending_of_finish_mm(
+          zone_across_mm(piece.plan.model, s.feature, s, s.diameter.nominal_mm, std::nullopt));
     }
     return p;
   }

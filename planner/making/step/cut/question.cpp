@@ -64,10 +64,10 @@ void take_axial_law(TypeId operation, optimise::CutQuestion& q) {
   if (const std::string_view law = model::axial_law(operation); !law.empty()) q.law = law;
 }
 
-double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& s) {
+double tolerance_of(const Model& m, AnyRef feature, const model::FeatureShape& s) {
   if (const double width = stated_zone_mm(s); width > 0.0) return width;
-  if (const auto* f = p.plan.model.get<model::ManufacturingFeature>(step.feature)) {
-    if (const auto* piece = p.plan.model.get<model::Workpiece>(f->its_workpiece)) {
+  if (const auto* f = m.get<model::ManufacturingFeature>(feature)) {
+    if (const auto* piece = m.get<model::Workpiece>(f->its_workpiece)) {
       return 2.0 * model::global_tolerance_of(*piece).value_or(0.0);
     }
   }
@@ -76,18 +76,16 @@ double tolerance_of(const PlanSoFar& p, const StepDraft& step, const model::Feat
 
 /// Zone of a size that states no tolerance, mm: the general one of the drawing, else ISO 2768-1 class f
 /// (default, unsourced: which class a shop holds where a drawing says nothing); 0: none for this size.
-double general_zone_mm(const PlanSoFar& p, double size_mm) {
+double general_zone_mm(const std::optional<model::GeneralTolerance>& general, double size_mm) {
   model::GeneralTolerance fine;
   fine.size_class = 'f';
-  return 2.0 * model::general_size(p.demands.general.value_or(fine), size_mm).value_or(0.0);
+  return 2.0 * model::general_size(general.value_or(fine), size_mm).value_or(0.0);
 }
 
 /// Zone of the feature's sizes across, mm: stated, of the workpiece, or general; 0: of a surface, or none.
 double zone_across(const PlanSoFar& p, const StepDraft& step, const toolpath::PathJob& job, double width_mm) {
-  const double stated = tolerance_of(p, step, job.shape);
-  if (stated > 0.0) return stated;
   const bool surface = p.plan.model.holds<model::FreeformOperation>(step.operation);
-  return surface || !(width_mm > 0.0) ? 0.0 : general_zone_mm(p, width_mm);
+  return zone_across_mm(p.plan.model, step.feature, job.shape, surface ? 0.0 : width_mm, p.demands.general);
 }
 
 /// What a cut before the last may bend at its tip, mm. A wall is pushed off by no more than the tip is bent.
@@ -283,6 +281,13 @@ double stated_zone_mm(const model::FeatureShape& s) {
     if (t.given && t.width() > 0.0) width = width > 0.0 ? std::min(width, t.width()) : t.width();
   }
   return width;
+}
+
+double zone_across_mm(const Model& m, AnyRef feature, const model::FeatureShape& s, double width_mm,
+                      const std::optional<model::GeneralTolerance>& general) {
+  const double stated = tolerance_of(m, feature, s);
+  if (stated > 0.0) return stated;
+  return width_mm > 0.0 ? general_zone_mm(general, width_mm) : 0.0;
 }
 
 double bending_in_allowance_mm(double left_mm, const model::Cutter& c, const model::WorkMaterial& material) {

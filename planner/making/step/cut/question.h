@@ -27,6 +27,11 @@ namespace capstan::step {
 
 /// The narrowest zone that the shape's sizes across state, mm; 0: none states one.
 [[nodiscard]] double stated_zone_mm(const model::FeatureShape& shape);
+/// The zone of a feature's sizes across, mm: stated, of the workpiece, or by `general` for a size of
+/// `width_mm` (nothing: the fine class); 0: none is known.
+[[nodiscard]] double zone_across_mm(const model::Model& m, model::AnyRef feature,
+                                    const model::FeatureShape& shape, double width_mm,
+                                    const std::optional<model::GeneralTolerance>& general);
 
 /// What the tip may bend, mm, where the step leaves an allowance: the bent cutter must not reach the finished
 /// wall, and should leave there what the next pass can cut at all, but at least half of it.

@@ -6,16 +6,13 @@
 #include "planner/model/features/shape.h"
 #include "planner/model/plan/cutter/cutter.h"
 #include "planner/model/plan/cutter_path.h"
+#include "planner/physics/mechanics/force/thread_cut.h"
 
 namespace capstan::step {
 
-/// A rectangle of depth and width that no section of a milled inner thread exceeds in force: its cut lies
-/// under an overhang and is not measured.
-struct ThreadBound {
-  double ap_mm = 0.0, ae_mm = 0.0;
-  /// Feed of the cutter's centre over that of its edge at the thread's major diameter.
-  double centre_share = 1.0;
-};
+using mechanics::ThreadBound;
+
+/// Of a cutter in a thread's core hole (physics/mechanics/force/thread_cut.h).
 [[nodiscard]] ThreadBound thread_bound(const model::Cutter& cutter, const model::FeatureShape& thread);
 
 /// That rectangle on every arc of a thread mill's path that cuts, as feeds ask for it.

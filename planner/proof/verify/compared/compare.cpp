@@ -216,6 +216,11 @@ std::optional<std::string> other_sizes(const Reading& own, const std::vector<Fea
           return "its thread is " + mm(b->thread_major_mm) + " wide and " + mm(b->thread_depth_mm) +
                  " long by the file, " + mm(s.thread_major_mm) + " and " + mm(s.thread_depth_mm) +
                  " by the planner's reading";
+        if (differ(b->thread_pitch_mm, s.thread_pitch_mm) || b->left_hand != s.thread_left_hand)
+          return "its thread has a pitch of " + mm(b->thread_pitch_mm) +
+                 (b->left_hand ? ", left-hand," : ", right-hand,") + " by the file, and of " +
+                 mm(s.thread_pitch_mm) + (s.thread_left_hand ? ", left-hand," : ", right-hand,") +
+                 " by the planner's reading";
       }
     }
   }

@@ -46,6 +46,7 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_setups(plan, part, findings);
   poll();
   check_within(plan, part, findings);
+  check_threads(plan, part, steps, findings);
   poll();
   std::vector<double> speed_shares;
   const bool swept = check_removal(plan, part, steps, findings, job, &speed_shares, known, before);

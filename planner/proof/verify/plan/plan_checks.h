@@ -93,6 +93,11 @@ void check_coverage(const model::Plan& plan, Findings& findings, const CutBefore
 /// The features of which steps are still to come (CutBefore).
 [[nodiscard]] std::set<model::AnyRef> to_come(const model::Plan& plan, const CutBefore& before);
 
+/// What thread mills cut against the thread that the file states: pitch of their profiles and of their
+/// helix, and its hand: 11; how much of the thread they reach: 36.
+void check_threads(const model::Plan& plan, const PartShapes& part, const std::vector<StepMoves>& steps,
+                   Findings& findings);
+
 /// Planned features within the raw piece; holes that a drill makes apart from others: 37.
 void check_within(const model::Plan& plan, const PartShapes& part, Findings& findings);
 

@@ -43,6 +43,8 @@ struct Bore {
   double radius_mm = 0.0;  ///< kBall, kRounded
   double blunt_mm = 0.0;   ///< kCone: so near to the axis its point is undecided
   double thread_major_mm = 0.0, thread_depth_mm = 0.0;  ///< of a thread in it; 0: none
+  double thread_pitch_mm = 0.0;                         ///< with it; 0: not stated
+  bool left_hand = false;                               ///< with it
 };
 
 /// A section swept along a course; `section` in (across, height above the floor), left of travel positive.

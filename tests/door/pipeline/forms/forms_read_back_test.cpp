@@ -96,6 +96,7 @@ TEST_P(EachForm, ReadsBackAsThePlanThatWasWritten) {
 INSTANTIATE_TEST_SUITE_P(WrittenPlan, EachForm,
                          ::testing::Values("examples/bracket.p21", "examples/plate_bound.p21",
                                            "examples/reference_pocket.p21", "examples/two_setups.p21",
+                                           "docs/strategies/thread.p21",
                                            "tests/door/pipeline/parts/form_features.p21",
                                            "tests/door/pipeline/parts/far_ends.p21"),
                          [](const auto& which) {

@@ -40,6 +40,23 @@ void keep_first(Reading& r) {
   std::erase_if(r.solids, [&](const Solid& s) { return s.noun != first; });
 }
 
+/// number_of_threads counts them per length, in mm or inches as its unit says; 0: it is not stated.
+double pitch_of(const Model& m, const model::Thread& t) {
+  constexpr double kInchMm = 25.4;
+  const auto* n = m.get<model::NumericParameter>(t.number_of_threads);
+  const double count = n == nullptr ? 0.0 : n->its_parameter_value.value_or(0.0);
+  if (!(count > 0.0)) return 0.0;
+  const std::string unit = n->its_parameter_unit.value_or("");
+  return (unit.find("in") != std::string::npos || unit.find("IN") != std::string::npos ? kInchMm : 1.0) /
+         count;
+}
+
+bool turns_left(const Model& m, const model::Thread& t) {
+  const auto* hand = m.get<model::DescriptiveParameter>(t.thread_hand);
+  const std::string text = hand == nullptr ? "" : hand->descriptive_string.value_or("");
+  return text.find("left") != std::string::npos || text.find("LEFT") != std::string::npos;
+}
+
 Reading thread(const Model& m, AnyRef self, const model::Thread& t, Reading others) {
   for (Solid& s : others.solids) {
     auto* bore = std::get_if<Bore>(&s.form);
@@ -47,6 +64,8 @@ Reading thread(const Model& m, AnyRef self, const model::Thread& t, Reading othe
     bore->thread_major_mm = t.major_diameter.value_or(0.0);
     const auto* part = m.get<model::PartialAreaDefinition>(t.partial_profile);
     bore->thread_depth_mm = part != nullptr ? part->effective_length.value_or(s.depth_mm) : s.depth_mm;
+    bore->thread_pitch_mm = pitch_of(m, t);
+    bore->left_hand = turns_left(m, t);
     s.noun = self;
   }
   return others;
