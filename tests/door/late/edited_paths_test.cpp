@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <vector>
@@ -123,6 +124,15 @@ TEST(LateEditedPaths, APointThatWasMovedInAPart21FileIsNotDropped) {
     const model::Plan edited = read(with_moved(text, points[points.size() / 2], kByMm));
     expect_refused(edited, steps_off(edited).front());
   }
+}
+
+TEST(LateEditedPaths, OfAJsonPlanAreNamedWithTheirStep) {
+  auto tree = nlohmann::json::parse(text_of(pipeline::Format::kJson));
+  auto& step = tree["steps"][6];
+  const std::string path = step["path"];
+  auto& x = tree["paths"][std::stoul(path.substr(path.find(':') + 1)) - 1]["x"];
+  x[x.size() / 2] = x[x.size() / 2].get<double>() + kByMm;
+  expect_refused(read(tree.dump()), step["id"]);
 }
 
 TEST(LateEditedPaths, OfTheHeaderAreNotDroppedEither) {
