@@ -25,8 +25,8 @@ typedef struct capstan_late capstan_late;
 /* Counts what was added to this interface; what was there stays. 2: options by name, progress, stop, formats
  * by name. 3: capstan_late_changes; options "may" and "time". 4: capstan_late_take, capstan_late_bind_next,
  * capstan_late_steps; option "stop-at-deadline". 5: options "spindle-power", "feed-override".
- * 6: options "axis-limits", "work-offset". */
-#define CAPSTAN_LATE_INTERFACE 6
+ * 6: options "axis-limits", "work-offset". 7: capstan_late_left_open. */
+#define CAPSTAN_LATE_INTERFACE 7
 /* Of the library that is linked. */
 CAPSTAN_LATE_API unsigned capstan_late_interface(void);
 
@@ -85,6 +85,11 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_take(capstan_late* session, cons
 CAPSTAN_LATE_API capstan_late_code capstan_late_bind_next(capstan_late* session, const char* plan,
                                                           size_t size, unsigned from, unsigned count,
                                                           unsigned deadline_ms);
+
+/* What the plan at hand (taken last, or bound as far as it is) leaves open, one decision a line; empty where
+ * nothing is open. NULL when there is no plan, or no memory. It is valid until the next call of it or close.
+ */
+CAPSTAN_LATE_API const char* capstan_late_left_open(capstan_late* session);
 
 /* Is called during a bind with its progress: the stage's name and a fraction from 0 to 1; NULL: no more. It
  * is called from the thread that binds, or one of its workers; of its session it may call capstan_late_stop

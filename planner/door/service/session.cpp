@@ -69,9 +69,17 @@ Code Session::set(std::string_view name, const std::string& text) {
 }
 
 void Session::drop_bound() {
-  if (bound_ && bound_->part && !bound_->late) last_ = std::move(bound_->plan);
+  if (goes_on_from_bound()) last_ = std::move(bound_->plan);
   bound_.reset();
   outputs_.clear();
+}
+
+bool Session::goes_on_from_bound() const { return bound_ && !taken_since_ && bound_->part && !bound_->late; }
+
+const model::Plan* Session::at_hand() const {
+  if (bound_ && !taken_since_ && !bound_->late) return &bound_->plan;
+  if (last_) return &*last_;
+  return read_ ? &read_->plan : nullptr;
 }
 
 Code Session::opened(Job& job) {
@@ -118,6 +126,7 @@ Code Session::take(std::string plan) {
   return guarded([&] {
     last_.reset();
     goes_on_ = false;
+    taken_since_ = true;
     message_.clear();
     if (plan.empty()) return end(Code::kUsage, "error: there is no plan");
     Job job;
@@ -130,8 +139,8 @@ Code Session::take(std::string plan) {
 }
 
 std::vector<std::string> Session::left_open() const {
-  if (last_) return open_texts(*last_);
-  return read_ ? open_texts(read_->plan) : std::vector<std::string>{};
+  const model::Plan* plan = at_hand();
+  return plan == nullptr ? std::vector<std::string>{} : open_texts(*plan);
 }
 
 Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> deadline) {
@@ -164,7 +173,7 @@ Code Session::bind_as(std::string plan, Request request) {
   return guarded([&] {
     // The plan that the last bind gave is what the next one goes on with; after a late one, whose steps
     // nobody may have cut, that which it began with.
-    if (plan.empty() && bound_ && bound_->part && !bound_->late) last_ = std::move(bound_->plan);
+    if (plan.empty() && goes_on_from_bound()) last_ = std::move(bound_->plan);
     bound_.reset();
     outputs_.clear();
     message_.clear();
@@ -218,6 +227,7 @@ Code Session::bind_as(std::string plan, Request request) {
     for (std::size_t i = heard; i < said.size(); ++i) message_ += to_text(said[i]) + "\n";
     if (!bound) return end(bound.error().code, to_text(bound.error().what));
     bound_ = *std::move(bound);
+    taken_since_ = false;
     return end(bound_->late ? Code::kLate : Code::kDone);
   });
 }

@@ -34,7 +34,10 @@ class Session {
   Code open();
   /// Reads a plan, so that the first `bind_next`, without one, need not.
   Code take(std::string plan);
-  /// What the plan at hand (read last, or bound as far as it is) leaves open, each in a few words ("its_tool
+  /// Whether there is a plan at hand.
+  [[nodiscard]] bool has_plan() const { return at_hand() != nullptr; }
+  /// What the plan at hand (read last, or bound as far as it is; after a bind that was late, what that began
+  /// with) leaves open, each in a few words ("its_tool
   /// of DRILLING 'x'").
   [[nodiscard]] std::vector<std::string> left_open() const;
   /// Binds a plan before the deadline (unset: that of the options, or none). After it the code is kLate,
@@ -78,6 +81,10 @@ class Session {
   Code opened(Job& job);
   /// Gives no output of what was bound any more; what `bind_next` goes on with is kept.
   void drop_bound();
+  /// Whether `bind_next` goes on with what was bound last: after a late bind, whose steps nobody may have
+  /// cut, and after another plan was taken it does not.
+  [[nodiscard]] bool goes_on_from_bound() const;
+  [[nodiscard]] const model::Plan* at_hand() const;
   Code bind_as(std::string plan, Request request);
 
   /// A plan as it was read: the next bind of the same bytes need not read them again.
@@ -103,6 +110,7 @@ class Session {
   /// steps of it are asked for one after the other.
   std::optional<model::Plan> last_;
   bool goes_on_ = false;
+  bool taken_since_ = false;  ///< another plan was taken since that was bound
   std::map<std::string, std::string, std::less<>> outputs_;
   std::string message_;
   Code code_ = Code::kDone;

@@ -12,6 +12,7 @@
 /// A session behind the C interface.
 struct capstan_late {
   capstan::service::Session session;
+  std::string left_open;  ///< as it was told last
 };
 
 namespace {
@@ -85,6 +86,18 @@ capstan_late_code capstan_late_bind_next(capstan_late* s, const char* plan, size
   if (s == nullptr) return CAPSTAN_LATE_USAGE;
   return code_of(s->session.bind_next(plan == nullptr ? std::string() : std::string(plan, size), from, count,
                                       std::chrono::milliseconds(deadline_ms)));
+}
+
+const char* capstan_late_left_open(capstan_late* s) {
+  if (s == nullptr || !s->session.has_plan()) return nullptr;
+  try {
+    std::string text;
+    for (const std::string& one : s->session.left_open()) text += one + "\n";
+    s->left_open = std::move(text);
+    return s->left_open.c_str();
+  } catch (...) {
+    return nullptr;
+  }
 }
 
 void capstan_late_on_progress(capstan_late* s, capstan_late_progress progress, void* user) {

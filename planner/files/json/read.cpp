@@ -14,6 +14,7 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/edited.h"
+#include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/order/workplan_order.h"
 
 namespace capstan::json {
@@ -153,6 +154,24 @@ class Reader {
   std::vector<std::string> edited_;
 };
 
+/// The file's name for its lists.
+constexpr const char* kCalled = "the plan's JSON";
+
+/// Refuses the steps whose path was edited: the trajectory that holds it was, too. Gives the other parts.
+std::vector<std::string> refuse_paths(const std::vector<std::string>& edited, model::Plan& plan) {
+  const std::string trajectories = part_of_kind(model::TypeId::kCutterLocationTrajectory);
+  if (std::find(edited.begin(), edited.end(), trajectories) == edited.end()) return edited;
+  std::map<std::string, model::AnyRef> step_of;
+  const std::vector<std::string> ids = model::step_ids(plan);
+  for (std::size_t i = 0; i < ids.size(); ++i) step_of.emplace(part_of_step(ids[i]), plan.steps[i].step);
+  std::vector<std::string> rest;
+  for (const std::string& part : edited) {
+    const auto it = step_of.find(part);
+    if (it == step_of.end() || !model::refuse_edited_path(plan, it->second, kCalled)) rest.push_back(part);
+  }
+  return rest;
+}
+
 std::uint64_t line_of(std::string_view text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::uint64_t>(std::count(text.begin(), end, '\n'));
@@ -195,7 +214,7 @@ Result<model::Plan> read_json(std::string bytes, std::string file_name, Job& job
     }
     if (!reader.edited().empty()) {
       job.report(model::parts_edited(std::string(model::kEditedJsonCode), reader.edited(), file_name));
-      model::refuse_edited(plan, listed_among(reader.edited()), "the plan's JSON");
+      model::refuse_edited(plan, listed_among(refuse_paths(reader.edited(), plan)), kCalled);
     }
     if (const std::string how = model::follow_workplan(plan); !how.empty())
       job.report(model::steps_disagree(how, file_name));

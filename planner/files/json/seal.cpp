@@ -60,7 +60,7 @@ class Sealer {
     for (std::size_t i = 0; i < plan_.setups.size(); ++i)
       put("set-up " + std::to_string(i + 1), plan_.setups[i]);
     const std::vector<std::string> ids = step_ids(plan_);
-    for (std::size_t i = 0; i < plan_.steps.size(); ++i) put("step '" + ids[i] + "'", plan_.steps[i]);
+    for (std::size_t i = 0; i < plan_.steps.size(); ++i) put(part_of_step(ids[i]), plan_.steps[i]);
     put("the order of the steps", ids);
     for (const model::Unplanned& u : plan_.unplanned) {
       Hash h;
@@ -160,7 +160,7 @@ class Sealer {
       tick();
       object(h, {type, i});
     }
-    add("objects of kind " + kind_name(type), h);
+    add(part_of_kind(type), h);
   }
   void object(Hash& h, AnyRef at) {
     if (const auto* kept = plan_.model.get<model::KeptInstance>(at)) {
@@ -244,6 +244,10 @@ std::set<model::Listed> listed_among(const std::vector<std::string>& edited_part
   }
   return out;
 }
+
+std::string part_of_kind(TypeId kind) { return "objects of kind " + kind_name(kind); }
+
+std::string part_of_step(const std::string& step_id) { return "step '" + step_id + "'"; }
 
 std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan) { return Sealer(plan).run(); }
 

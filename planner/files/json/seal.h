@@ -20,6 +20,9 @@ namespace capstan::json {
 ///             file.
 /// Cost        linear.
 [[nodiscard]] std::map<std::string, std::uint64_t> seals_of(const model::Plan& plan);
+/// The names of two kinds of parts.
+[[nodiscard]] std::string part_of_kind(model::TypeId kind);
+[[nodiscard]] std::string part_of_step(const std::string& step_id);
 /// Which lists of the plan are among the edited parts of a file (model/plan/decision/edited.h).
 [[nodiscard]] std::set<model::Listed> listed_among(const std::vector<std::string>& edited_parts);
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "capstan/capstan_late.h"
@@ -35,7 +36,7 @@ TEST(LateInterface, AJsonPlanMayBeginWithAByteOrderMark) {
 }
 
 TEST(LateInterface, TakesOptionsByTheirNames) {
-  EXPECT_EQ(capstan_late_interface(), 6U);
+  EXPECT_EQ(capstan_late_interface(), 7U);
   capstan_late* session = capstan_late_create();
   ASSERT_NE(session, nullptr);
   EXPECT_EQ(capstan_late_set(session, "machine", "generic_vmc"), CAPSTAN_LATE_OK);
@@ -89,6 +90,61 @@ TEST(LateInterface, TellsProgressAndEndsWhenItIsStopped) {
   EXPECT_EQ(capstan_late_bind(seen.session, text.data(), text.size(), 600000), CAPSTAN_LATE_OK)
       << capstan_late_message(seen.session);
   capstan_late_close(seen.session);
+}
+
+TEST(LateInterface, TellsWhatIsOpenBeforeAndAfterABind) {
+  capstan_late* s = capstan_late_open("generic_vmc", kMagazine.c_str());
+  EXPECT_EQ(capstan_late_left_open(s), nullptr);
+  EXPECT_EQ(capstan_late_left_open(nullptr), nullptr);
+  const std::string text = testing::slurp(kPlate);
+  ASSERT_EQ(capstan_late_take(s, text.data(), text.size()), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  // The plate's file leaves feed and speed of one technology open, and nothing else.
+  const std::string open = capstan_late_left_open(s);
+  EXPECT_EQ(std::count(open.begin(), open.end(), '\n'), 2) << open;
+  EXPECT_NE(open.find("MILLING_TECHNOLOGY"), std::string::npos) << open;
+  ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 1, 5, 600000), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  EXPECT_STREQ(capstan_late_left_open(s), "");
+  capstan_late_close(s);
+}
+
+TEST(LateInterface, TellsOfALateBindWhatWasOpenBeforeIt) {
+  capstan_late* s = capstan_late_open("generic_vmc", kMagazine.c_str());
+  const std::string text = testing::slurp(kPlate);
+  ASSERT_EQ(capstan_late_take(s, text.data(), text.size()), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  const std::string open = capstan_late_left_open(s);
+  ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 1, 5, 0), CAPSTAN_LATE_LATE) << capstan_late_message(s);
+  EXPECT_EQ(capstan_late_left_open(s), open);
+  capstan_late_close(s);
+}
+
+// Once it went on with the plan that was bound in part before.
+TEST(LateInterface, GoesOnWithThePlanThatWasTakenLast) {
+  const auto results = [](capstan_late* s) {
+    const std::string json = capstan_late_output(s, CAPSTAN_LATE_JSON, nullptr);
+    std::size_t n = 0;
+    for (auto at = json.find("\"cutter_id\""); at != std::string::npos;
+         at = json.find("\"cutter_id\"", at + 1))
+      ++n;
+    return n;
+  };
+  capstan_late* s = capstan_late_open("generic_vmc", kMagazine.c_str());
+  const std::string text = testing::slurp(kPlate);
+  ASSERT_EQ(capstan_late_take(s, text.data(), text.size()), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  const std::string open = capstan_late_left_open(s);
+  for (const std::size_t bound : {1U, 2U}) {
+    ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 0, 1, 600000), CAPSTAN_LATE_OK)
+        << capstan_late_message(s);
+    EXPECT_EQ(results(s), bound);
+  }
+  ASSERT_EQ(capstan_late_take(s, text.data(), text.size()), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  EXPECT_EQ(capstan_late_left_open(s), open);
+  ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 0, 1, 600000), CAPSTAN_LATE_OK) << capstan_late_message(s);
+  EXPECT_EQ(results(s), 1U);
+  // What cannot be read is no plan, and nothing goes on behind it.
+  EXPECT_NE(capstan_late_take(s, "x", 1), CAPSTAN_LATE_OK);
+  EXPECT_EQ(capstan_late_left_open(s), nullptr);
+  EXPECT_EQ(capstan_late_bind_next(s, nullptr, 0, 0, 1, 600000), CAPSTAN_LATE_USAGE);
+  capstan_late_close(s);
 }
 
 TEST(LateInterface, SaysWhatIsWrongAndNeverThrows) {

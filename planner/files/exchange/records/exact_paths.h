@@ -38,6 +38,15 @@ void append_exact_paths(std::string& out, const model::Plan& plan, const model::
 /// holds. Malformed entities are skipped, with the warning EXC-RECORD.
 void restore_paths(const p21::File& file, model::Plan& plan, Reporter& reporter);
 
+/// Of a file whose seal does not hold: compares the toolpaths of each step whose path planning computed with
+/// the path in the header. Planning would compute that path anew, so that an edit of either
+/// would be lost: it is a contradiction (model/plan/decision/contradicted.h), which names step and move.
+///
+/// Toolpaths that lie as a whole elsewhere, of all steps of the feature alike, moved with the feature: they
+/// are no contradiction, and are told by the warning EXC-EDITED, with how far.
+/// Cost  a copy of the plan, and its moves once. Nothing where the header has no paths.
+void refuse_edited_paths(const p21::File& file, model::Plan& plan, Reporter& reporter);
+
 /// Whether a header entity is one of these.
 [[nodiscard]] bool is_of_paths(std::string_view keyword);
 

@@ -386,7 +386,11 @@ void settle_edits(model::Plan& plan, Reporter& reporter) {
 
 void settle_written(const p21::File& file, const SealState& seal, std::string_view called, model::Plan& plan,
                     Reporter& reporter) {
-  if (seal.paths_hold) restore_paths(file, plan, reporter);
+  if (seal.paths_hold) {
+    restore_paths(file, plan, reporter);
+  } else {
+    refuse_edited_paths(file, plan, reporter);
+  }
   model::refuse_edited(plan, seal.edited, called);
   if (const std::string how = model::follow_workplan(plan); !how.empty())
     reporter.report(model::steps_disagree(how));

@@ -74,7 +74,8 @@ bool restore_record(std::string_view kind, std::string_view label, RecordFields&
 /// When all records are read: values that were edited since (model/plan/decision/edited.h) count as given,
 /// with the note EXC-EDITED.
 void settle_edits(model::Plan& plan, Reporter& reporter);
-/// When all is read: exact paths where their seal holds; lists that were edited in what is `called` so are a
+/// When all is read: exact paths where their seal holds, and else paths of which an edit would be lost are a
+/// contradiction (exact_paths.h); lists that were edited in what is `called` so are a
 /// contradiction; the steps come as the workplan has them, and where the records have them otherwise, warns
 /// EXC-ORDER, once.
 void settle_written(const p21::File& file, const SealState& seal, std::string_view called, model::Plan& plan,

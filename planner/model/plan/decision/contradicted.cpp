@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/decision/has_reason.h"
 #include "planner/model/plan/decision/unreadable.h"
 
@@ -86,6 +87,17 @@ void refuse_edited(Plan& plan, const std::set<Listed>& edited, std::string_view 
                      "the list of " + listed + " was edited in " + file +
                          ", and planning takes them from the workplan, its operations and their tools: put "
                          "back what was edited and correct it there");
+}
+
+bool refuse_edited_path(Plan& plan, AnyRef step, const std::string& where) {
+  const auto* ws = plan.model.get<MachiningWorkingstep>(step);
+  if (ws == nullptr || !ws->its_operation.set()) return false;
+  if (!by_planning(plan.ledger.find(ws->its_operation, "its_toolpath"))) return false;
+  set_contradicted(plan, ws->its_operation, "its_toolpath",
+                   "the path of step '" + ws->its_id.value_or("") + "' was edited in " + where +
+                       ". Planning computes it from the step's operation, and would drop the edit: put back "
+                       "what was edited, and change the operation's values");
+  return true;
 }
 
 }  // namespace capstan::model

@@ -33,5 +33,9 @@ enum class Listed { kMaterial, kRawPiece, kCutters, kSetups, kSteps };
 /// edit. No noun holds a raw piece that was named to planning, so the list of it counts. `called`: the file's
 /// word for its lists.
 void refuse_edited(Plan& plan, const std::set<Listed>& edited, std::string_view called);
+/// Records that the path of a step was edited, which planning computes: it would drop the edit. `where`: the
+/// file's word for where, and what is known of it. False where the step has no operation, or
+/// its path is given: that is followed.
+bool refuse_edited_path(Plan& plan, AnyRef step, const std::string& where);
 
 }  // namespace capstan::model
