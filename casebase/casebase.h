@@ -113,7 +113,8 @@ class CaseBase {
                                               std::size_t most) const;
   /// What `measured_in` would read, without reading it: how many cases, and a sum of 32 hexadecimal digits
   /// over what the heads say of them (ids, sums of their bodies, verdicts), whatever their order, and over
-  /// the bytes of `with`. While it stays, they do.
+  /// the bytes of `with`. While it stays, they do, but for a body that was altered on disk: its head stays,
+  /// and reading the case finds it (CASE-ROW).
   struct MeasuredState {
     std::size_t cases = 0;
     std::string sum;

@@ -93,7 +93,7 @@ class Collector {
     constexpr double kRounding = 1e-9;
     const bool far = !(share >= kLeastFeedShare - kRounding && share <= kMostFeedShare + kRounding);
     if (far) ++to.far;
-    if (!heard_.emplace(force->value, p.peak_force_n, b.vc_m_min, b.fz_mm).second) return;
+    if (!heard_.emplace(force->value, p.peak_force_n, b.vc_m_min, b.fz_mm, fed->value, far).second) return;
     const double at = far ? std::max(share, 1.0) : share;  // a far force: no less than at the planned feed
     const double kc = p.specific_force_n_mm2 * force->value * p.force_margin / p.peak_force_n / at;
     (far ? to.far_forces : to.forces)
@@ -115,7 +115,8 @@ class Collector {
   std::string group_;
   std::map<std::string, std::size_t> edges_;
   std::map<model::Substrate, Observations> of_;
-  std::set<std::tuple<double, double, double, double>> heard_;  // copies under other names are one
+  std::set<std::tuple<double, double, double, double, double, bool>>
+      heard_;  // copies under other names are one
 };
 
 /// ln of the factor that is taken of one that cases have; `sign` as of `judge`, `std_dev` of its logarithm.
@@ -160,9 +161,9 @@ std::vector<std::string> sorted(std::vector<std::string> ids) {
   return ids;
 }
 
-/// "between 0.5 and 1.1 times the planned feed".
+/// "0.5 to 1.1 times the planned feed".
 std::string within() {
-  return fmt::format("between {} and {} times the planned feed", trimmed(kLeastFeedShare, 2),
+  return fmt::format("{} to {} times the planned feed", trimmed(kLeastFeedShare, 2),
                      trimmed(kMostFeedShare, 2));
 }
 
@@ -187,7 +188,7 @@ std::optional<CardCorrection> force_of(const Observations& seen, const model::Wo
           "no case says with which feed its force was measured and which its plan held (executed_fz_mm, "
           "predicted_held_fz_mm)";
     if (seen.far > 0)
-      out.why_not += (out.why_not.empty() ? "" : "; ") + fmt::format("no force was measured {}", within());
+      out.why_not += (out.why_not.empty() ? "" : "; ") + std::string("no force is left to be heard");
     return out;
   }
   out.cases = fit->cases;
@@ -205,6 +206,30 @@ std::optional<CardCorrection> force_of(const Observations& seen, const model::Wo
   }
   std::sort(out.beyond.begin(), out.beyond.end());
   judge(out, 1.0, spread);
+  return out;
+}
+
+/// ln of the fitted life over the card's, where that is least: at the card's reference, or at a speed, feed
+/// and depth that an edge was worn with.
+struct LeastLife {
+  double ln_share = 0.0, ln_std_dev = 0.0, ln_spread = 0.0;
+};
+LeastLife least_life(const LifeCorrection& fit, const model::ToolLifeLaw& card,
+                     const std::vector<LifeSample>& lives) {
+  const Regression& r = fit.how.fit;
+  const auto by = [](double exponent, double ln) { return exponent > 0.0 ? -ln / exponent : 0.0; };
+  const auto at = [&](const std::vector<double>& x) {
+    const double of_card = std::log(card.life_min) + by(card.n, x[1]) + by(card.p, x[2]) + by(card.q, x[3]);
+    return LeastLife{r.at(x) - of_card, r.std_dev_at(x), r.predictive_std_dev_at(x)};
+  };
+  LeastLife out = at({1.0, 0.0, 0.0, 0.0});
+  for (const LifeSample& s : lives) {
+    if (!positive(s.vc_m_min) || !positive(s.feed_mm) || !positive(s.depth_mm) || !positive(s.life_min))
+      continue;
+    const LeastLife here = at({1.0, std::log(s.vc_m_min / card.v0_m_min), std::log(s.feed_mm / fit.law.h0_mm),
+                               std::log(s.depth_mm / fit.law.a0_mm)});
+    if (here.ln_share < out.ln_share) out = here;
+  }
   return out;
 }
 
@@ -226,15 +251,16 @@ std::optional<CardCorrection> life_of(const Observations& seen, const model::Wor
         "no case says at which speed and feed its edge was worn (executed_vc_m_min, executed_fz_mm)";
     return out;
   }
-  out.law = fit->law;
   out.cases = fit->how.cases;
   out.edges = fit->how.groups;
-  out.seen = fit->law.life_min / law->life_min;
-  out.factor = std::exp(
-      bounded(std::log(out.seen), -1.0, fit->how.fit.std_dev(0), out.edges, TuneOptions{}.step / law->n));
+  const LeastLife least = least_life(*fit, *law, seen.lives);
+  out.seen = std::exp(least.ln_share);
+  out.factor =
+      std::exp(bounded(least.ln_share, -1.0, least.ln_std_dev, out.edges, TuneOptions{}.step / law->n));
   out.law.life_min = out.factor * law->life_min;
+  out.law.source = fit->law.source;
   out.spread_before = std::exp(std::hypot(kLifeSpread, scatter));
-  out.spread = std::exp(fit->law.scatter);
+  out.spread = std::exp(least.ln_spread);
   out.ids = sorted(seen.lives_of);
   out.beyond = at_places(seen.lives_of, fit->beyond);
   judge(out, -1.0, out.spread_before);
@@ -248,10 +274,10 @@ std::string CardCorrection::words() const {
   std::string out = fmt::format("{} of {} {}", model == CardModel::kForce ? "cutting force" : "life",
                                 model::to_text(substrate), of_what);
   if (cases > 0)
-    out += fmt::format(": {} of the card's{}, spread {} instead of {} ({} on {})", trimmed(seen, 2),
+    out += fmt::format(": cases say {} of the card's{}, spread {} instead of {} ({} on {})", trimmed(seen, 2),
                        trimmed(factor, 2) == trimmed(seen, 2) || !taken()
                            ? std::string()
-                           : ", of which " + trimmed(factor, 2) + " is taken",
+                           : "; " + trimmed(factor, 2) + " is used",
                        trimmed(spread, 2), trimmed(spread_before, 2), counted(cases, "case", "cases"),
                        counted(edges, "edge", "edges"));
   if (!beyond.empty())
@@ -272,8 +298,9 @@ std::string CardCorrection::words() const {
 
 std::string CardCorrection::far_words() const {
   if (far == 0) return {};
-  return fmt::format("{} of {} {} not heard, for not measured {}", counted(far, "force", "forces"),
-                     model::to_text(substrate), far == 1 ? "mills is" : "mills are", within());
+  return fmt::format("{} of {} {}", counted(far, "force", "forces"), model::to_text(substrate),
+                     (far == 1 ? "mills was measured outside " : "mills were measured outside ") + within() +
+                         (far == 1 ? " and is not used" : " and are not used"));
 }
 
 std::string CardCorrection::named() const {

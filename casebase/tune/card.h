@@ -28,7 +28,9 @@
 ///         mills without a rake. A set of the card is of the rake of the mills that it was measured with,
 ///         which nobody states.
 /// Life    the extended Taylor law, as `correct_life`, of the speed and feed that were executed: those of the
-///         case that holds the edge's readings stand for all of its cuts.
+///         case that holds the edge's readings stand for all of its cuts. The card's exponents stay: one
+///         factor holds at every speed, the least that the fit gives at the card's reference and at the
+///         speeds, feeds and depths that edges were worn with.
 ///
 /// Bound  what goes the safe way, a lower force or a longer life, is taken no further than two bounds allow:
 ///        the end of its interval of 90 % that is nearer to the card, and one step of tuning's trust region
@@ -57,13 +59,18 @@ inline constexpr double kBelievedDeviations = 2.0;
 /// cut does not show; above, see the runout. Defaults, unsourced; the upper one is kLeastForceSpread.
 inline constexpr double kLeastFeedShare = 0.5, kMostFeedShare = 1.1;
 
+/// Version of what `card_corrections` makes of the same cases: raised with every change of that, so that what
+/// an earlier version put into a plan's card is not taken for today's.
+inline constexpr int kCardRules = 2;
+
 enum class CardModel : unsigned char { kForce, kLife };
 
 struct CardCorrection {
   CardModel model = CardModel::kForce;
   model::Substrate substrate = model::Substrate::kCarbide;
   std::size_t cases = 0, edges = 0;
-  /// Force at `chip_mm`, or life at the law's reference, over the card's: as cases have it, and as bounded.
+  /// Force at `chip_mm`, or life where it is least (above), over the card's: as cases have it, and as
+  /// bounded.
   double seen = 1.0, factor = 1.0;
   double spread_before = 1.0;               ///< factor of one standard deviation: the card's,
   double spread = 1.0;                      ///< and of a further edge by these cases
@@ -80,10 +87,10 @@ struct CardCorrection {
   std::string why_not;  ///< why planning does not take it; empty: it does
 
   [[nodiscard]] bool taken() const { return why_not.empty(); }
-  /// "cutting force of carbide mills, as for a rake of 0: 0.82 of the card's, of which 0.85 is taken, spread
+  /// "cutting force of carbide mills, as for a rake of 0: cases say 0.82 of the card's; 0.85 is used, spread
   /// 1.14 instead of 1.5 (18 cases on 6 edges)", and what is not heard or not explained.
   [[nodiscard]] std::string words() const;
-  /// "2 forces of carbide mills are not heard, for not measured between 0.5 and 1.1 times the planned feed";
+  /// "2 forces of carbide mills were measured outside 0.5 to 1.1 times the planned feed and are not used";
   /// empty where there are none.
   [[nodiscard]] std::string far_words() const;
   /// "1f0c53c2, 2b77a901 and 16 more".

@@ -67,7 +67,8 @@ bool made_for(const Plan& plan, const pipeline::Inputs& in) {
 bool by_the_same_cases(const Plan& plan, const pipeline::Inputs& in) {
   if (!in.cases) return !model::corrected_by_cases(plan.material);
   const model::Provenance* then = row(plan.provenance, pipeline::kCardByCases);
-  if (then != nullptr && then->value == pipeline::state_of_card(*in.cases, plan.material, plan.machine.id))
+  if (then != nullptr && !then->value.empty() &&
+      then->value == pipeline::state_of_card(*in.cases, plan.material, plan.machine.id))
     return true;
   return pipeline::corrected_card(*in.cases, plan.material, plan.machine.id).card == plan.material;
 }

@@ -222,7 +222,7 @@ TEST(CardCorrections, AForceOfAFeedFarFromThePlannedOneIsNotHeard) {
     EXPECT_EQ(c.cases, 0U) << share;
     EXPECT_EQ(c.far, 18U) << share;
     EXPECT_EQ(c.unfed, 0U) << share;
-    EXPECT_EQ(c.why_not, "no force was measured between 0.5 and 1.1 times the planned feed") << share;
+    EXPECT_EQ(c.why_not, "no force is left to be heard") << share;
   }
   auto turned_up = cuts(18, 0.8);
   for (Case& c : turned_up) c.observed.executed_fz_mm->value = kMostFeedShare * c.bound.fz_mm;
@@ -240,9 +240,9 @@ TEST(CardCorrections, TellForcesWithoutAFeedAndThoseOfAFarOneApart) {
   EXPECT_EQ(c.far, 2U);
   EXPECT_NE(c.words().find("; 1 force is not heard, for nobody says with which feed"), std::string::npos)
       << c.words();
-  EXPECT_EQ(c.far_words(),
-            "2 forces of carbide mills are not heard, for not measured between 0.5 and 1.1 times the planned "
-            "feed");
+  EXPECT_EQ(
+      c.far_words(),
+      "2 forces of carbide mills were measured outside 0.5 to 1.1 times the planned feed and are not used");
   EXPECT_EQ(corrections(cuts(18, 1.0)).front().far_words(), "");
 }
 
@@ -267,7 +267,7 @@ TEST(CardCorrections, LowerAForceNoFurtherThanItsIntervalAndItsEdgesAllow) {
   }
   const CardCorrection differ = corrections(apart).front();
   EXPECT_GT(differ.factor / differ.seen, alike.factor / alike.seen);
-  EXPECT_NE(alike.words().find(" of which "), std::string::npos) << alike.words();
+  EXPECT_NE(alike.words().find(" is used, "), std::string::npos) << alike.words();
 }
 
 TEST(CardCorrections, EightForcesOfAThirdOfTheCardLowerItByOneStepAtMost) {
@@ -280,7 +280,7 @@ TEST(CardCorrections, EightForcesOfAThirdOfTheCardLowerItByOneStepAtMost) {
   const auto found = card_corrections(poisoned, card(), [](model::Substrate) { return 1.8; });
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(found.front().taken()) << found.front().why_not;
-  EXPECT_GE(found.front().factor, std::exp(-TuneOptions{}.step));
+  EXPECT_NEAR(found.front().factor, std::exp(-TuneOptions{}.step), 1e-9);
 }
 
 TEST(CardCorrections, AHigherForceIsTakenInFull) {
@@ -306,6 +306,18 @@ TEST(CardCorrections, AForceOfAFarFeedThatEvenSoIsTooHighForbidsToLower) {
   // What the others explain at that feed forbids nothing.
   EXPECT_TRUE(with_far(0.4, 0.4).taken());
   EXPECT_TRUE(with_far(2.0, 1.4).taken());
+}
+
+TEST(CardCorrections, AFarForceDisplacesNoEqualOneThatCounts) {
+  // The same figures at an override of 40 %, read first.
+  std::vector<Case> cases = cuts(18, 1.4);
+  for (Case& c : cases) c.observed.executed_fz_mm->value *= 0.4;
+  const auto counted = cuts(18, 1.4);
+  cases.insert(cases.end(), counted.begin(), counted.end());
+  const CardCorrection c = corrections(cases).front();
+  EXPECT_EQ(c.cases, 18U) << c.words();
+  EXPECT_EQ(c.far, 18U);
+  EXPECT_EQ(c.factor, corrections(counted).front().factor);
 }
 
 TEST(CardCorrections, AForceIsHeldAgainstTheFeedThatThePlansScheduleHolds) {
@@ -418,6 +430,36 @@ TEST(CardCorrections, ALifeIsOfTheSpeedThatWasExecuted) {
   EXPECT_EQ(unfed.cases, 0U);
   EXPECT_EQ(unfed.unfed, 5U);
   EXPECT_NE(unfed.words().find("5 lives are not heard"), std::string::npos) << unfed.words();
+}
+
+/// Edges worn at a speed, each living as many times the card's life there as stated.
+std::vector<Case> worn_at(double speed_share, double times_the_card, std::size_t edges) {
+  const model::ToolLifeLaw law = card().life.front();
+  auto cases =
+      worn(std::vector<double>(edges, times_the_card * law.life_min * std::pow(speed_share, -1.0 / law.n)));
+  for (Case& c : cases) c.observed.executed_vc_m_min->value = speed_share * law.v0_m_min;
+  return cases;
+}
+
+TEST(CardCorrections, ALongerLifeIsBoundedAtTheSpeedsThatWereCut) {
+  const model::ToolLifeLaw law = card().life.front();
+  const CardCorrection c = corrections(worn_at(1.5, 3.0, 3)).front();
+  ASSERT_EQ(c.edges, 3U);
+  const auto life = [](const model::ToolLifeLaw& l, double share) {
+    return l.life_min * std::pow(share, -1.0 / l.n);
+  };
+  for (const double share : {0.7, 1.0, 1.5, 2.0})
+    EXPECT_LE(life(c.law, share) / life(law, share), std::exp(TuneOptions{}.step / law.n) + 1e-9) << share;
+  EXPECT_EQ(c.law.n, law.n);
+}
+
+TEST(CardCorrections, ALifeIsNoLongerThanEdgesLivedAtTheFasterSpeed) {
+  // Three times the card's life at its reference, half of it at 1.5 times the speed.
+  auto cases = worn_at(1.0, 3.0, 5);
+  auto fast = worn_at(1.5, 0.5, 5);
+  for (Case& c : fast) c.from.tool_instance += " fast";
+  cases.insert(cases.end(), fast.begin(), fast.end());
+  EXPECT_LT(corrections(cases).front().factor, 1.0) << corrections(cases).front().words();
 }
 
 TEST(CardCorrections, FindTheLifeOfFollowedEdges) {

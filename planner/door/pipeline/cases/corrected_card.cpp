@@ -98,14 +98,16 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
   const auto heard = cases.measured_in(casebase::material_group_of(out.of), machine_id, kMostHeard);
   const auto spread_of = [&](model::Substrate s) { return mechanics::force_margin(out.of, s).spread; };
   for (const tune::CardCorrection& c : tune::card_corrections(heard, out.of, spread_of)) {
-    if (std::string far = c.far_words(); !far.empty())
+    const std::string far = c.far_words();
+    if (!far.empty())
       out.told.push_back({.code = "CASE-FEED",
                           .severity = c.cases == 0 ? Severity::kWarning : Severity::kNote,
-                          .message = std::move(far),
+                          .message = far,
                           .hint = "measure forces at the planned feed, with the override at 100 %"});
     if (c.taken()) {
       take(c, out.card);
-      out.rows.push_back({"model by cases", c.words(), "cases " + c.named()});
+      out.rows.push_back(
+          {"model by cases", c.words() + (far.empty() ? far : "; " + far), "cases " + c.named()});
       out.told.push_back(
           {.code = "CASE-MODEL",
            .severity = c.beyond.empty() && c.cut_short.empty() ? Severity::kNote : Severity::kWarning,
@@ -125,7 +127,7 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
 
 std::string state_of_card(const casebase::CaseBase& cases, const model::WorkMaterial& card,
                           const std::string& machine_id, std::optional<std::size_t> heard) {
-  std::string bytes;
+  std::string bytes = fmt::format("rules {};", tune::kCardRules);
   write(bytes, card);
   const auto state = cases.state_of_measured(casebase::material_group_of(card), machine_id, bytes);
   return state.cases == 0 || state.cases != heard.value_or(state.cases) ? std::string() : state.sum;

@@ -34,9 +34,9 @@ struct CorrectedCard {
 /// The row of a plan's record that says by which measured cases its card stands, as it is with what they put
 /// into it: `state_of_card`. There is none where no case was measured on that machine in that material.
 inline constexpr std::string_view kCardByCases = "card by cases";
-/// What `CorrectedCard` would be made of, and what it gave: the same for the same cases and the same card,
-/// numbers to nine digits. Reads no case, so that a plan can be held against 100,000 of them in time. Empty
-/// where there is no case, or where not all of them could be `heard`.
+/// What `CorrectedCard` would be made of, and what it gave: the same for the same cases, card and rules
+/// (tune::kCardRules), numbers to nine digits. Reads no case, so that a plan can be held against 100,000 of
+/// them in time. Empty where there is no case, or where not all of them could be `heard`.
 [[nodiscard]] std::string state_of_card(const casebase::CaseBase& cases, const model::WorkMaterial& card,
                                         const std::string& machine_id,
                                         std::optional<std::size_t> heard = std::nullopt);

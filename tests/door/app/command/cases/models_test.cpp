@@ -158,10 +158,10 @@ TEST_F(CaseModels, ForcesThatWereMeasuredReplaceTheCardsAndNarrowTheMargin) {
   const Ran checked = run("check tuned.json");
   EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
   const Ran told = run("explain tuned.json 'POCKET area_rough'");
-  EXPECT_THAT(told.out, HasSubstr("cutting force of carbide mills as those of its set: 0.9"));
+  EXPECT_THAT(told.out, HasSubstr("cutting force of carbide mills as those of its set: cases say 0.9"));
   // Which cases, and what the plan would be without them: as it was planned without.
   const std::string all = run("explain tuned.json").out;
-  EXPECT_THAT(all, HasSubstr("cutting force of carbide mills as those of its set: 0.9"));
+  EXPECT_THAT(all, HasSubstr("cutting force of carbide mills as those of its set: cases say 0.9"));
   EXPECT_THAT(all, HasSubstr(tuned_case_.substr(0, 12)));
   EXPECT_THAT(all, HasSubstr("time without cases"));
   const auto without = motion::time_of(plain_);
