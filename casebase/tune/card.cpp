@@ -303,6 +303,8 @@ std::string CardCorrection::far_words() const {
                          (far == 1 ? " and is not used" : " and are not used"));
 }
 
+std::string CardCorrection::all_words() const { return words() + (far == 0 ? "" : "; " + far_words()); }
+
 std::string CardCorrection::named() const {
   std::string out;
   const std::size_t shown = std::min(ids.size(), kCasesNamed);

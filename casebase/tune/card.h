@@ -93,6 +93,8 @@ struct CardCorrection {
   /// "2 forces of carbide mills were measured outside 0.5 to 1.1 times the planned feed and are not used";
   /// empty where there are none.
   [[nodiscard]] std::string far_words() const;
+  /// Both, as records have them.
+  [[nodiscard]] std::string all_words() const;
   /// "1f0c53c2, 2b77a901 and 16 more".
   [[nodiscard]] std::string named() const;
 };

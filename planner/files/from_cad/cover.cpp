@@ -227,8 +227,8 @@ std::vector<Cut> cuts_into(const Part& part, const model::Model& m) {
       }
     }
   }
-  // What is thinner than the lattice's spacing: a fillet of 5 mm at the foot of an island, on a part of 800
-  // mm.
+  // What is thinner than the lattice's spacing: a fillet of 5 mm at the foot of an island of a part
+  // of 800 mm.
   std::map<AnyRef, double> below;
   const exchange::Body& body = part.body();
   for (std::uint32_t f = body.first_face; f < body.first_face + body.face_count; ++f) {

@@ -28,9 +28,8 @@ struct Missing {
 };
 
 /// Accuracy  the lattice of cuts_into. `all`: every face is in a feature, so that any point counts. Else more
-/// points than
-///           the lattice's own error, the root of the number of its cells that the part's surface meets; what
-///           the faces that are left out would take away is counted with it.
+///           points than the lattice's own error, the root of the number of its cells that the part's surface
+///           meets; what the faces that are left out would take away is counted with it.
 [[nodiscard]] Missing not_covered(const Part& part, const model::Model& m, bool all);
 
 }  // namespace capstan::from_cad

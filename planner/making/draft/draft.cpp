@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/model/plan/edit/step_names.h"
+
 namespace capstan::draft {
 
 std::string key_of(const std::vector<model::ProposedStep>& chain) {
@@ -15,15 +17,13 @@ std::string name_of(const model::Model& m, const StepDraft& step) {
 }
 
 std::string_view feature_name(const model::Model& m, AnyRef feature) {
-  const auto* f = m.get<model::ManufacturingFeature>(feature);
-  return f != nullptr && f->its_id ? std::string_view(*f->its_id) : std::string_view();
+  return model::feature_name(m, feature);
 }
 
 model::StepNames edit_names(const model::Model& m, const StepDraft& step) {
-  const auto* e = m.get<model::Executable>(step.step);
-  const auto text = [](const auto& t) { return t ? std::string_view(*t) : std::string_view(); };
-  if (e == nullptr) return {feature_name(m, step.feature), step.proposal.name, {}};
-  return {feature_name(m, step.feature), text(e->its_id), text(e->persistent_id)};
+  model::StepNames out = model::step_names(m, step.step, step.feature);
+  if (m.get<model::Executable>(step.step) == nullptr) out.step = step.proposal.name;
+  return out;
 }
 
 bool cuts_levels(const model::Model& m, const StepDraft& step) {

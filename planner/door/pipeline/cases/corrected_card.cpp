@@ -106,8 +106,7 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
                           .hint = "measure forces at the planned feed, with the override at 100 %"});
     if (c.taken()) {
       take(c, out.card);
-      out.rows.push_back(
-          {"model by cases", c.words() + (far.empty() ? far : "; " + far), "cases " + c.named()});
+      out.rows.push_back({"model by cases", c.all_words(), "cases " + c.named()});
       out.told.push_back(
           {.code = "CASE-MODEL",
            .severity = c.beyond.empty() && c.cut_short.empty() ? Severity::kNote : Severity::kWarning,

@@ -7,6 +7,7 @@
 
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
+#include "planner/model/nouns/arena/reached.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -97,7 +98,7 @@ std::vector<StepView> views_of(const model::Plan& plan) {
   std::map<std::string, int> used;
   for (const StepView& v : out) ++used[v.id];
   const std::vector<AnyRef> roots = {plan.project};
-  const auto list = model::reachable(plan.model, roots);
+  const auto list = model::reached_of(plan.model, roots, TypeId::kWorkingstep);
   const std::set<AnyRef> reached(list.begin(), list.end());
   for (const AnyRef at : plan.model.all_below(TypeId::kWorkingstep)) {
     const bool planned = std::any_of(plan.steps.begin(), plan.steps.end(),

@@ -6,6 +6,7 @@
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/step/cut/drilled_hole.h"
+#include "planner/making/step/cut/perimeter.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/model/nouns/arena/walk.h"
 
@@ -23,14 +24,6 @@ constexpr double kTopMm = 1e-6;
 /// The least share of a step's whole volume that is estimated: where allowances leave next to nothing, the
 /// ways in and out still take time. Default, unsourced.
 constexpr double kLeastShare = 0.05;
-
-double perimeter(const geometry::Region& area) {
-  double out = 0.0;
-  for (const auto& loop : area.loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) out += norm(loop[(i + 1) % loop.size()] - loop[i]);
-  }
-  return out;
-}
 
 /// The area at a feature's bottom within the raw piece, without the islands that stand to its top.
 geometry::Region cut_area(const piece::Piece& piece, const FeatureShape& s) {

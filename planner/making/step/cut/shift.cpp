@@ -6,6 +6,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
 #include "planner/making/optimise/cut/limits.h"
+#include "planner/making/step/cut/perimeter.h"
 
 // How long clearing an area takes at the least. Passes of width ae lie ae apart, so that per level
 //
@@ -25,17 +26,6 @@ namespace capstan::step {
 namespace {
 
 constexpr double kMissed = 2.0;  // default, unsourced
-
-double outline_mm(const geometry::Region& area) {
-  double out = 0.0;
-  for (const geometry::Loop& loop : area.loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const geometry::Vec2 d = loop[(i + 1) % loop.size()] - loop[i];
-      out += std::hypot(d.x, d.y);
-    }
-  }
-  return out;
-}
 
 /// Material over the area above this height of the set-up, mm3. Over an island all is counted as staying.
 double material_mm3(const toolpath::PathJob& job, const stock::HeightMap& map, double floor_z_mm) {
@@ -67,9 +57,9 @@ double least_clearing_s(const toolpath::PathJob& job, const optimise::CutQuestio
   const double rate = cut.ap_mm * cut.ae_mm * feed;
   if (!(rate > 0.0) || !(depth > 0.0) || job.cleared_by || job.shape.area.empty()) return 0.0;
   // Islands stay: of an outside they are the part. Their walls are outlines as the area's.
-  double outline = outline_mm(job.shape.area), free_mm2 = geometry::area(job.shape.area);
+  double outline = perimeter(job.shape.area), free_mm2 = geometry::area(job.shape.area);
   for (const model::Island& island : job.shape.islands) {
-    outline += outline_mm(island.area);
+    outline += perimeter(island.area);
     free_mm2 -= geometry::area(island.area);
   }
   const double beside = outline * (q.cutter.cutting_diameter_mm + job.allowance_side_mm);

@@ -15,9 +15,9 @@ namespace capstan::step {
 /// A proposed cut of one prismatic feature lasts no longer, s. Default, unsourced: a day's shift.
 inline constexpr double kShiftS = 8.0 * 3600.0;
 
-/// A time that the clearing of the job's area with this cut cannot fall below, s; 0 where none is known, as
-/// of an area with islands. Needs  a path of levels and passes no deeper and no wider than the cut, in
-/// material of `map` (set-up's
+/// A time that the clearing of the job's area with this cut cannot fall below, s; 0 where none is known. What
+/// lies over an island counts as staying.
+/// Needs  a path of levels and passes no deeper and no wider than the cut, in material of `map` (set-up's
 ///        frame).
 [[nodiscard]] double least_clearing_s(const toolpath::PathJob& job, const optimise::CutQuestion& question,
                                       const optimise::CutAnswer& cut, const stock::HeightMap& map);

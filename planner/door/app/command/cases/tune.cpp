@@ -290,9 +290,7 @@ std::vector<std::string> taken_by_planning(const casebase::CaseBase& base,
       if (casebase::material_group_of(card) != names.first) continue;
       const auto spread_of = [&](model::Substrate s) { return mechanics::force_margin(card, s).spread; };
       for (const tune::CardCorrection& c : tune::card_corrections(cases, card, spread_of)) {
-        const std::string far = c.far_words();
-        out.push_back(names.first + " on " + names.second + ": " + c.words() +
-                      (far.empty() ? far : "; " + far) +
+        out.push_back(names.first + " on " + names.second + ": " + c.all_words() +
                       (c.taken() ? "; by cases " + c.named() : "; not taken: " + c.why_not));
       }
     }
