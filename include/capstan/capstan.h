@@ -80,7 +80,8 @@ struct PlanOptions {
   std::string axis_limits = {}, work_offset = {};
   std::string shop = {};  ///< a file of the shop's settings (`capstan shop init` writes one); what is empty
                           ///< here is as it says
-  std::string without = {};  ///< "sections": plans without the cross sections along their paths
+  std::string without = {};              ///< "sections": plans without the cross sections along their paths
+  std::vector<std::string> tapped = {};  ///< of a CAD file: threads of its holes, "HOLE 3=M8:16"
 };
 
 /// A thing said about the input or the plan, as the command prints it.

@@ -35,7 +35,7 @@ struct ListField {
 constexpr std::array kListFields = {
     ListField{"set", &PlanOptions::set},     ListField{"pin", &PlanOptions::pin},
     ListField{"limit", &PlanOptions::limit}, ListField{"forbid", &PlanOptions::forbid},
-    ListField{"order", &PlanOptions::order},
+    ListField{"order", &PlanOptions::order}, ListField{"tapped", &PlanOptions::tapped},
 };
 
 constexpr std::array kFields = {

@@ -11,6 +11,7 @@
 #include "planner/controls/profile/profile.h"
 #include "planner/door/late/branches.h"
 #include "planner/door/late/changes.h"
+#include "planner/door/service/cad/cad_options.h"
 #include "planner/door/service/edits/edit_options.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/state/state_options.h"
@@ -210,16 +211,6 @@ std::vector<Option> table() {
        of_plan("unit of an STL mesh, which does not say it: mm (the default) or inch"),
        [](Request& r, Text t) { return r.mesh_unit = t, std::string(); },
        {"inch", "mm"}},
-      {"body",
-       Value::kText,
-       of_plan("body of a CAD file that is the part: its number or name (capstan inspect)"),
-       [](Request& r, Text t) { return r.body = t, std::string(); },
-       {}},
-      {"features-only",
-       Value::kFlag,
-       of_plan("of a CAD file write the features with their tolerances, and plan nothing"),
-       [](Request& r, Text t) { return r.features_only = t == "yes", std::string(); },
-       {}},
       {"objective", Value::kWord,
        both("what is made least or most: time, cost, or profit per time (needs --revenue)"),
        [](Request& r, Text t) { return r.objective = value_of(objective_words(), t), std::string(); },
@@ -370,12 +361,13 @@ std::vector<Option> table() {
        true},
   };
   // Before what any command takes.
-  const auto edits = edit_options();
-  out.insert(std::find_if(out.begin(), out.end(), [](const Option& o) { return o.name == "bind"; }),
-             edits.begin(), edits.end());
-  const auto state = state_options();
-  out.insert(std::find_if(out.begin(), out.end(), [](const Option& o) { return o.name == "may"; }),
-             state.begin(), state.end());
+  const auto before = [&out](std::string_view name, const std::vector<Option>& more) {
+    out.insert(std::find_if(out.begin(), out.end(), [&](const Option& o) { return o.name == name; }),
+               more.begin(), more.end());
+  };
+  before("objective", cad_options());
+  before("bind", edit_options());
+  before("may", state_options());
   for (Option& o : out) {
     static constexpr std::string_view kOfShop[] = {
         "machine", "control", "tools", "material", "stock",       "objective",         "margin", "feeds",

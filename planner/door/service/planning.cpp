@@ -114,10 +114,11 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
   return to_its_end(name, job, [&]() -> Outcome<Planned> {
     auto bytes = part.bytes ? Result<std::string>(*std::move(part.bytes)) : read_file(name);
     if (!bytes) return failed(bytes.error(), code_of(bytes.error(), Code::kUnreadable));
-    const from_cad::RawPiece raw{request.stock, request.stock_allowance_mm.value_or(0.0)};
+    const from_cad::Stated stated{
+        {request.stock, request.stock_allowance_mm.value_or(0.0)}, request.tapped, request.sign + "tapped"};
     const auto unit = mesh_unit(request.mesh_unit, request.sign + "mesh-unit");
     auto read_part =
-        service::read_part(*std::move(bytes), name, raw, job, request.strict, unit, request.body);
+        service::read_part(*std::move(bytes), name, stated, job, request.strict, unit, request.body);
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
     if (request.features_only && read_part->shape == nullptr) {
       return failed(
@@ -132,6 +133,8 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
     // The raw piece of a CAD part was made with the allowance; its features begin there.
     if (read_part->shape != nullptr) inputs->stock_allowance_mm.reset();
+    for (const from_cad::StatedThread& t : request.tapped)
+      inputs->provenance.push_back({"thread", t.text, request.sign + "tapped"});
     if (request.may) {
       std::erase_if(inputs->provenance, [](const auto& p) { return p.what == kMay; });
       inputs->provenance.push_back({std::string(kMay), *request.may, request.sign + std::string(kMay)});

@@ -112,7 +112,7 @@ Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& j
   return read_with(std::move(bytes), path, job, strict, {});
 }
 
-Result<PartRead> read_part(std::string bytes, const std::string& name, const from_cad::RawPiece& raw,
+Result<PartRead> read_part(std::string bytes, const std::string& name, const from_cad::Stated& stated,
                            Job& job, bool strict, const std::optional<exchange::MeshUnit>& unit,
                            const std::optional<std::string>& body) {
   if (unit || !is_cad_model(bytes)) {
@@ -122,6 +122,13 @@ Result<PartRead> read_part(std::string bytes, const std::string& name, const fro
                    .file = name,
                    .expected = "a CAD part in STEP (AP203, AP214 or AP242)",
                    .hint = "leave the body out"});
+    if (!stated.threads.empty())
+      return fail({.code = "READ-TAPPED",
+                   .message = "'" + stated.threads.front().text +
+                              "' states a thread of a hole, but the file is no CAD model",
+                   .file = name,
+                   .expected = "a CAD part in STEP (AP203, AP214 or AP242)",
+                   .hint = "threads of other files are features of theirs"});
     auto plan = read_with(std::move(bytes), name, job, strict, unit);
     if (!plan) return tl::unexpected(plan.error());
     return PartRead{*std::move(plan), nullptr};
@@ -132,7 +139,7 @@ Result<PartRead> read_part(std::string bytes, const std::string& name, const fro
     shape = exchange::one_body(*shape, *body, name);
     if (!shape) return tl::unexpected(shape.error());
   }
-  auto plan = from_cad::plan_of_part(*shape, name, raw, job);
+  auto plan = from_cad::plan_of_part(*shape, name, stated, job);
   if (!plan) return tl::unexpected(plan.error());
   return PartRead{*std::move(plan), asked_shape(from_cad::straightened(*std::move(shape)), name)};
 }

@@ -40,12 +40,12 @@ struct PartRead {
   std::shared_ptr<const verify::AskedShape> shape;  ///< null: the file is no CAD model
 };
 /// As read_plan, of a part to be planned, which may be a CAD model, too (ISO 10303-203, -214, -242): its
-/// features are recognised, in the raw piece that the caller names. `unit` is that of a mesh, where the
+/// features are recognised, and made with what the caller states. `unit` is that of a mesh, where the
 /// caller states it; `body` says which one of a CAD file is the part. Fails  as read_plan,
 /// exchange::read_brep, exchange::one_body and from_cad::plan_of_part; READ-UNIT for the unit of a file that
-/// is no mesh, READ-BODY for the body of one that is no CAD model.
+/// is no mesh, READ-BODY and READ-TAPPED for the body and the threads of one that is no CAD model.
 [[nodiscard]] Result<PartRead> read_part(std::string bytes, const std::string& name,
-                                         const from_cad::RawPiece& raw, Job& job, bool strict = false,
+                                         const from_cad::Stated& stated, Job& job, bool strict = false,
                                          const std::optional<exchange::MeshUnit>& unit = {},
                                          const std::optional<std::string>& body = {});
 

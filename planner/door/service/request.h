@@ -11,6 +11,7 @@
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/code.h"
 #include "planner/door/service/state/machine_state.h"
+#include "planner/files/from_cad/threads.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/model/plan/edit/edit.h"
@@ -23,10 +24,11 @@ struct Request {
   std::optional<std::string> machine, control, tools, material, rules, cases, cache;
   std::optional<geometry::Box3> stock;
   std::optional<double> stock_allowance_mm;
-  std::string stock_text;                ///< as given
-  std::optional<std::string> mesh_unit;  ///< "mm" or "inch", of an STL mesh
-  std::optional<std::string> body;       ///< of a CAD file: the number or the name of the part's
-  bool features_only = false;            ///< of a CAD file: features and tolerances, nothing planned
+  std::string stock_text;                           ///< as given
+  std::optional<std::string> mesh_unit;             ///< "mm" or "inch", of an STL mesh
+  std::optional<std::string> body;                  ///< of a CAD file: the number or the name of the part's
+  std::vector<from_cad::StatedThread> tapped = {};  ///< of a CAD file: threads of its holes
+  bool features_only = false;  ///< of a CAD file: features and tolerances, nothing planned
   std::optional<pipeline::Objective> objective;
   std::optional<optimise::Solver> solver;
   std::optional<std::string> general_tolerance, workholding;

@@ -383,7 +383,8 @@ exchange::Brep straightened(exchange::Brep brep) {
   return brep;
 }
 
-Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, const RawPiece& raw, Job& job) {
+Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, const Stated& stated, Job& job) {
+  const RawPiece& raw = stated.raw;
   const auto body = only_solid(given, name);
   if (!body) return tl::unexpected(body.error());
   const Brep brep = straightened(given);
@@ -423,6 +424,8 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
     return stays.count(f.feature) != 0;
   });
   const Attached asked = attach_requirements(brep, planned, writer.piece_, writer.plan_);
+  if (auto ok = add_threads(stated.threads, planned, brep, stated.threads_from, writer.plan_, job); !ok)
+    return tl::unexpected(ok.error());
   model::Plan plan = std::move(writer.plan_);
 
   const auto say = [&](const char* code, std::string text) {

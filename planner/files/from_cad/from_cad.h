@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/files/exchange/brep/brep.h"
+#include "planner/files/from_cad/threads.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
@@ -16,6 +18,13 @@ struct RawPiece {
   double allowance_mm = 0.0;          ///< on each side of the part's own box
 };
 
+/// What a caller states of a part beside its file.
+struct Stated {
+  RawPiece raw = {};
+  std::vector<StatedThread> threads = {};
+  std::string threads_from = "--tapped";  ///< what the caller stated them with
+};
+
 /// A plan whose part is a CAD model: its recognised features as nouns of ISO 14649, every operation open.
 ///
 /// Features    bound by recognition: the ledger says from which faces, why, and what else they could be.
@@ -24,10 +33,12 @@ struct RawPiece {
 ///             (model/plan/decision/not_recognised.h): it stays unplanned, and the plan is not complete.
 /// Frame       the workpiece's is the file's; where the part lies askew in it, that of the raw piece.
 /// Units       mm, whatever the file has.
-/// Fails       CAD-BODIES (no solid, or several), CAD-STOCK (the named raw piece does not hold the part).
+/// Threads     as stated (threads.h); a CAD file has none.
+/// Fails       CAD-BODIES (no solid, or several), CAD-STOCK (the named raw piece does not hold the part),
+///             CAD-THREAD.
 /// Source      derived; a place is reached where nothing of the part lies above it.
 [[nodiscard]] Result<model::Plan> plan_of_part(const exchange::Brep& brep, const std::string& name,
-                                               const RawPiece& raw, Job& job);
+                                               const Stated& stated, Job& job);
 
 /// The same shape in the workpiece's frame of `plan_of_part`.
 [[nodiscard]] exchange::Brep straightened(exchange::Brep brep);

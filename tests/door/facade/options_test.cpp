@@ -124,6 +124,10 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   PlanOptions features;
   features.features_only = true;
   EXPECT_TRUE(request(features).features_only);
+  PlanOptions tapped;
+  tapped.tapped = {"HOLE 1=M8", "#12=M10x1:8"};
+  ASSERT_EQ(request(tapped).tapped.size(), 2U);
+  EXPECT_EQ(request(tapped).tapped[1].holes, "#12");
 }
 
 TEST(RequestOf, AnAllowanceOfZeroIsOneAndTheStocksTextIsTakenBeforeIt) {

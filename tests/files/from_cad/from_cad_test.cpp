@@ -38,7 +38,7 @@ class FromCad : public ::testing::Test {
     return brep ? *std::move(brep) : exchange::Brep{};
   }
   Result<model::Plan> planned(const std::string& step, const from_cad::RawPiece& raw = {}) {
-    return from_cad::plan_of_part(shape(step), "part.step", raw, job_);
+    return from_cad::plan_of_part(shape(step), "part.step", {raw, {}}, job_);
   }
   /// The notes with a code, one behind the other.
   [[nodiscard]] std::string said(const std::string& code) const {

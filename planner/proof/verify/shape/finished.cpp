@@ -85,6 +85,33 @@ class Swept {
   std::vector<Pass> passes_;
 };
 
+/// What threads cut beside their cores, which a CAD model draws as plain cylinders: workpiece frame.
+class Threads {
+ public:
+  explicit Threads(const model::Plan& plan) {
+    for (const PartShapes::Entry& e : shapes_of_part(plan).entries) {
+      for (const volumes::Form& f : e.shapes) {
+        const volumes::Bore* bore = f.kind == model::ShapeKind::kThread ? f.bore() : nullptr;
+        if (bore != nullptr && bore->thread_major_mm > 0.0)
+          all_.push_back({f.frame(), 0.5 * bore->thread_major_mm + kShapeMm, f.depth_mm()});
+      }
+    }
+  }
+  [[nodiscard]] bool hold(Vec3 at) const {
+    return std::any_of(all_.begin(), all_.end(), [&](const One& t) {
+      const Vec3 p = t.frame.to_local(at);
+      return p.z <= kShapeMm && p.z >= -t.depth_mm && norm(xy(p)) <= t.radius_mm;
+    });
+  }
+
+ private:
+  struct One {
+    geometry::Placement frame;
+    double radius_mm = 0.0, depth_mm = 0.0;
+  };
+  std::vector<One> all_;
+};
+
 /// Whether cutters came over a place, by the heights about it; nothing where they do not agree.
 std::optional<bool> by_heights(const Grid& grid, Vec2 lo, double full, Vec3 p) {
   const int ix = static_cast<int>(std::floor((p.x - lo.x) / grid.cell()));
@@ -188,8 +215,8 @@ double off_by(double tolerance_mm, const Wrong& wrong) {
   return off;
 }
 
-void compare_planes(const model::Plan& plan, const Swept& swept, const AskedShape& shape,
-                    ShapeDifference& out) {
+void compare_planes(const model::Plan& plan, const Swept& swept, const Threads& threads,
+                    const AskedShape& shape, ShapeDifference& out) {
   const auto gone = [&](Vec3 p) { return !holds(plan.stock.box, p) || swept.over(p); };
   for (const AskedShape::Plane& plane : shape.planes) {
     poll();
@@ -199,7 +226,9 @@ void compare_planes(const model::Plan& plan, const Swept& swept, const AskedShap
       const Vec3 at = place.first;
       const Vec3 normal = place.second;
       high = std::max(high, off_by(out.tolerance_mm, [&](double d) { return !gone(at + d * normal); }));
-      low = std::max(low, off_by(out.tolerance_mm, [&](double d) { return gone(at - d * normal); }));
+      low = std::max(low, off_by(out.tolerance_mm, [&](double d) {
+                       return gone(at - d * normal) && !threads.hold(at - d * normal);
+                     }));
     }
     ++out.planes;
     if (high > 0.0) out.high.push_back(plane.name);
@@ -237,6 +266,7 @@ ShapeDifference compare_with_shape(const model::Plan& plan, const std::vector<St
   Lattice lattice = lattice_over(plan.stock.box);
   out.step_mm = lattice.step_mm;
   const Swept swept(plan, steps);
+  const Threads threads(plan);
   mark_asked(shape.mesh, lattice);
   mark_gone(plan, steps, swept, lattice);
   const Surface surface(shape.mesh, lattice, out.tolerance_mm);
@@ -252,6 +282,7 @@ ShapeDifference compare_with_shape(const model::Plan& plan, const std::vector<St
         const Vec3 at = lattice.at(x, y, z);
         bool there = lattice.gone[i] == 0;
         bool counts = false;
+        if (asked && !there && threads.hold(at)) there = true;
         if (asked != there && !surface.near(x, y, z)) {
           poll();
           there = !swept.over(at);
@@ -272,7 +303,7 @@ ShapeDifference compare_with_shape(const model::Plan& plan, const std::vector<St
   out.deepest_gouge_mm = gouged.deepest_mm();
   out.gouge_at = gouged.at();
   out.overlap = either == 0 ? 0.0 : static_cast<double>(common) / static_cast<double>(either);
-  compare_planes(plan, swept, shape, out);
+  compare_planes(plan, swept, threads, shape, out);
   return out;
 }
 

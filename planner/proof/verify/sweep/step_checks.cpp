@@ -335,11 +335,25 @@ void StepChecks::gouge(const Move& m, const Bite& bite) {
   }
 }
 
+// The thread of a tap goes through the hole as a nut does: what is behind it is its neck.
+bool StepChecks::neck_in_core() const {
+  if (cutter_.cutter_class != CutterClass::kTap || !(cutter_.neck_diameter_mm > 0.0)) return false;
+  if (step_.planned == nullptr) return false;
+  const auto* ws = plan_.model.get<model::MachiningWorkingstep>(step_.planned->step);
+  const PartShapes::Entry* e = ws != nullptr ? target_.part().find(ws->its_feature) : nullptr;
+  return e != nullptr && !e->shapes.empty() &&
+         std::all_of(e->shapes.begin(), e->shapes.end(), [&](const volumes::Form& s) {
+           const volumes::Bore* bore = s.kind == model::ShapeKind::kThread ? s.bore() : nullptr;
+           return bore != nullptr &&
+                  0.5 * cutter_.neck_diameter_mm < std::min(bore->top_radius_mm, bore->bottom_radius_mm);
+         });
+}
+
 void StepChecks::contact(const Move& m, const Bite& bite) {
   const double flutes = cutter_.maximum_depth_of_cut_mm;
   if (flutes <= 0.0) return;
-  // Above a ring of teeth is its neck, which was judged.
-  const double cuts_to = before_ != nullptr ? cutter_.neck_length_mm : flutes;
+  // Above a ring of teeth is its neck, which was judged; that of a tap has room in the thread's core.
+  const double cuts_to = before_ != nullptr || neck_in_core() ? cutter_.neck_length_mm : flutes;
   if (bite.contact_mm > cuts_to + kSlackMm) {
     out_.error(13, "CHK-FLUTE", at(m),
                "material is cut " + mm(bite.contact_mm) + " above the tip; the flutes are " + mm(flutes) +

@@ -45,6 +45,7 @@ class StepChecks {
   void ring_up(const Move& m);
   void head(const Move& m);
   [[nodiscard]] bool follows_finished();
+  [[nodiscard]] bool neck_in_core() const;
   void contact(const Move& m, const Bite& bite);
   void reach(const Move& m);
   void body(const Move& m);

@@ -4,6 +4,7 @@
 #include "planner/files/json/json.h"
 #include "tests/door/app/command/command.h"
 #include "tests/files/exchange/brep/step_part.h"
+#include "tests/files/from_cad/turned_part.h"
 
 // CAD models at the command: shown by `inspect`, planned by `plan`, or one clear fault.
 
@@ -159,6 +160,27 @@ TEST_F(CadModel, OneBodyOfSeveralIsPlannedWhereItIsNamed) {
   EXPECT_EQ(plan->stock.box.lo, (geometry::Vec3{100, 0, 0}));
   EXPECT_EQ(plan->stock.box.hi, (geometry::Vec3{140, 30, 20}));
   const Ran other = run("plan two.json --body 1 -o again.json");
+  EXPECT_THAT(other.err, HasSubstr("the file is no CAD model"));
+}
+
+TEST_F(CadModel, HolesThatAreTappedAreTappedAndTheShapeIsStillThatOfTheFile) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
+  // A block of 40 x 40 x 20 mm with the core of M8 through it.
+  put("nut.step", testing::bored({{3.4, 20}, {3.4, 0}}));
+  const Ran plain = run("plan nut.step --material C45 -o plain.ngc");
+  EXPECT_THAT(slurp(folder_ / "plain.ngc"), Not(HasSubstr("G33.1")));
+  const Ran r = run("plan nut.step --material C45 --tapped 'HOLE*=M8' -o nut.json -o nut.ngc");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.err + r.out, AllOf(HasSubstr("M8 x 1.25 - 6H is cut in HOLE 1 (6.8 mm)"), HasSubstr("Safe:"),
+                                   Not(HasSubstr("not planned"))));
+  EXPECT_THAT(slurp(folder_ / "nut.ngc"), HasSubstr("K1.25"));
+  EXPECT_THAT(run("explain nut.json").out, ContainsRegex("thread +HOLE\\*=M8 +--tapped"));
+  const Ran wrong = run("plan nut.step --material C45 --tapped 'HOLE*=M8:' -o nut.json");
+  EXPECT_EQ(wrong.code, 2) << wrong.err;
+  const Ran deep = run("plan nut.step --material C45 --tapped 'HOLE 1=M8:21' -o nut.json");
+  EXPECT_EQ(deep.code, 3);
+  EXPECT_THAT(deep.err, HasSubstr("HOLE 1 is 20 mm deep"));
+  const Ran other = run("plan nut.json --tapped 'HOLE*=M8' -o again.json");
   EXPECT_THAT(other.err, HasSubstr("the file is no CAD model"));
 }
 
