@@ -11,7 +11,7 @@
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/code.h"
 #include "planner/door/service/state/machine_state.h"
-#include "planner/files/from_cad/threads.h"
+#include "planner/files/from_cad/asked/threads.h"
 #include "planner/ground/geometry/vec.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/model/plan/edit/edit.h"

@@ -7,9 +7,9 @@
 
 #include "planner/files/exchange/brep/one_body.h"
 #include "planner/files/from_cad/areas.h"
+#include "planner/files/from_cad/asked/requirements.h"
 #include "planner/files/from_cad/cover.h"
 #include "planner/files/from_cad/holes.h"
-#include "planner/files/from_cad/requirements.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/decision/not_recognised.h"
 

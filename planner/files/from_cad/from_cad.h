@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/files/exchange/brep/brep.h"
-#include "planner/files/from_cad/threads.h"
+#include "planner/files/from_cad/asked/threads.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"

@@ -1,4 +1,4 @@
-#include "planner/files/from_cad/threads.h"
+#include "planner/files/from_cad/asked/threads.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // What a CAD file asks of its faces, as tolerances and textures of the features that make them.
 
-#include "planner/files/from_cad/requirements.h"
+#include "planner/files/from_cad/asked/requirements.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/files/exchange/brep/brep.h"
-#include "planner/files/from_cad/requirements.h"
+#include "planner/files/from_cad/asked/requirements.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"

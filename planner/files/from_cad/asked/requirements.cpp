@@ -1,4 +1,4 @@
-#include "planner/files/from_cad/requirements.h"
+#include "planner/files/from_cad/asked/requirements.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Threads that a caller states of the plain holes of a CAD part.
 
-#include "planner/files/from_cad/threads.h"
+#include "planner/files/from_cad/asked/threads.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
