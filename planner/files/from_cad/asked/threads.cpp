@@ -19,12 +19,17 @@
 namespace capstan::from_cad {
 namespace {
 
-/// Pitches of metric coarse threads, mm: ISO 261, table 2, first choice and the second up to M45.
-constexpr std::array<std::pair<double, double>, 25> kCoarse = {
+/// Pitches of metric coarse threads, mm: ISO 261, table 2, to M48.
+constexpr std::array<std::pair<double, double>, 26> kCoarse = {
     {{1.6, 0.35}, {2, 0.4},  {2.5, 0.45}, {3, 0.5}, {3.5, 0.6}, {4, 0.7},  {5, 0.8},  {6, 1.0},  {7, 1.0},
      {8, 1.25},   {10, 1.5}, {12, 1.75},  {14, 2},  {16, 2},    {18, 2.5}, {20, 2.5}, {22, 2.5}, {24, 3},
-     {27, 3},     {30, 3.5}, {33, 3.5},   {36, 4},  {39, 4},    {42, 4.5}, {48, 5}}};
+     {27, 3},     {30, 3.5}, {33, 3.5},   {36, 4},  {39, 4},    {42, 4.5}, {45, 4.5}, {48, 5}}};
 
+/// TD1 of grade 6 by pitch, micrometres: ISO 965-1, table 3.
+constexpr std::array<std::pair<double, double>, 21> kCore6 = {
+    {{0.35, 100}, {0.4, 112}, {0.45, 125}, {0.5, 140}, {0.6, 160},  {0.7, 180}, {0.75, 190},
+     {0.8, 200},  {1, 236},   {1.25, 265}, {1.5, 300}, {1.75, 335}, {2, 375},   {2.5, 450},
+     {3, 500},    {3.5, 560}, {4, 600},    {4.5, 670}, {5, 710},    {5.5, 750}, {6, 800}}};
 /// Of the grades 4 to 8 over that of grade 6: ISO 965-1, 13.2.
 constexpr std::array<double, 5> kOverGrade6 = {0.63, 0.8, 1.0, 1.25, 1.6};
 constexpr int kFirstGrade = 4;
@@ -196,9 +201,12 @@ class Adder {
 double StatedThread::least_core_mm() const { return basic_core(major_mm, pitch_mm); }
 
 double StatedThread::most_core_mm() const {
-  // TD1 of grade 6, micrometres: ISO 965-1, 13.5.
-  const double grade6 =
-      pitch_mm >= 1.0 ? 230.0 * std::pow(pitch_mm, 0.7) : 433.0 * pitch_mm - 190.0 * std::pow(pitch_mm, 1.22);
+  const auto* at =
+      std::find_if(kCore6.begin(), kCore6.end(), [&](const auto& row) { return row.first == pitch_mm; });
+  // ISO 965-1, 13.5: the formula that the table's values are rounded from, for other pitches.
+  const double grade6 = at != kCore6.end() ? at->second
+                        : pitch_mm >= 1.0  ? 230.0 * std::pow(pitch_mm, 0.7)
+                                           : 433.0 * pitch_mm - 190.0 * std::pow(pitch_mm, 1.22);
   return least_core_mm() + 1e-3 * kOverGrade6.at(static_cast<std::size_t>(grade - kFirstGrade)) * grade6;
 }
 

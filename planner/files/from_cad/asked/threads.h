@@ -35,8 +35,9 @@ struct StatedThread {
 /// whose applied_shape is the hole. A hole without a tolerance gets that of the thread's core.
 ///
 /// A pattern with * or ? means the holes that have a core's diameter for that thread, the others stay plain
-/// and are told (CAD-THREAD); a name or a face means just its hole. Fails  CAD-THREAD: no such hole, one of
-/// another diameter, a blind one without a depth, one with two
+/// and are told (CAD-THREAD); a name or a face means just its hole.
+///
+/// Fails  CAD-THREAD: no such hole, one of another diameter, a blind one without a depth, one with two
 ///        threads.
 [[nodiscard]] Status add_threads(const std::vector<StatedThread>& stated, const std::vector<MadeOf>& made,
                                  const exchange::Brep& brep, const std::string& source, model::Plan& plan,

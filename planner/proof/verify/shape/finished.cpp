@@ -85,23 +85,37 @@ class Swept {
   std::vector<Pass> passes_;
 };
 
-/// What threads cut beside their cores, which a CAD model draws as plain cylinders: workpiece frame.
+/// What threads cut beside their cores, which a CAD model draws as plain cylinders: workpiece frame. What
+/// other steps cut there is none of it.
 class Threads {
  public:
-  explicit Threads(const model::Plan& plan) {
-    for (const PartShapes::Entry& e : shapes_of_part(plan).entries) {
-      for (const volumes::Form& f : e.shapes) {
-        const volumes::Bore* bore = f.kind == model::ShapeKind::kThread ? f.bore() : nullptr;
-        if (bore != nullptr && bore->thread_major_mm > 0.0)
-          all_.push_back({f.frame(), 0.5 * bore->thread_major_mm + kShapeMm, f.depth_mm()});
+  Threads(const model::Plan& plan, const std::vector<StepMoves>& steps) : others_(plan, {}) {
+    const PartShapes part = shapes_of_part(plan);
+    std::vector<StepMoves> others;
+    for (const StepMoves& s : steps) {
+      const PartShapes::Entry* of = nullptr;
+      if (s.planned != nullptr) {
+        const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.planned->step);
+        of = ws != nullptr ? part.find(ws->its_feature) : nullptr;
       }
+      bool threads = false;
+      for (const volumes::Form& f : of != nullptr ? of->shapes : std::vector<volumes::Form>{}) {
+        const volumes::Bore* bore = f.kind == model::ShapeKind::kThread ? f.bore() : nullptr;
+        if (bore == nullptr || !(bore->thread_major_mm > 0.0)) continue;
+        threads = true;
+        all_.push_back({f.frame(), 0.5 * bore->thread_major_mm + kShapeMm, f.depth_mm()});
+      }
+      if (!threads) others.push_back(s);
     }
+    if (!all_.empty()) others_ = Swept(plan, others);
   }
   [[nodiscard]] bool hold(Vec3 at) const {
-    return std::any_of(all_.begin(), all_.end(), [&](const One& t) {
-      const Vec3 p = t.frame.to_local(at);
-      return p.z <= kShapeMm && p.z >= -t.depth_mm && norm(xy(p)) <= t.radius_mm;
-    });
+    return std::any_of(all_.begin(), all_.end(),
+                       [&](const One& t) {
+                         const Vec3 p = t.frame.to_local(at);
+                         return p.z <= kShapeMm && p.z >= -t.depth_mm && norm(xy(p)) <= t.radius_mm;
+                       }) &&
+           !others_.over(at);
   }
 
  private:
@@ -110,6 +124,7 @@ class Threads {
     double radius_mm = 0.0, depth_mm = 0.0;
   };
   std::vector<One> all_;
+  Swept others_;
 };
 
 /// Whether cutters came over a place, by the heights about it; nothing where they do not agree.
@@ -266,7 +281,7 @@ ShapeDifference compare_with_shape(const model::Plan& plan, const std::vector<St
   Lattice lattice = lattice_over(plan.stock.box);
   out.step_mm = lattice.step_mm;
   const Swept swept(plan, steps);
-  const Threads threads(plan);
+  const Threads threads(plan, steps);
   mark_asked(shape.mesh, lattice);
   mark_gone(plan, steps, swept, lattice);
   const Surface surface(shape.mesh, lattice, out.tolerance_mm);

@@ -48,11 +48,12 @@ inline constexpr double kFarthestPlaneMm = 3.2;
 /// Sweeps every move through the raw piece and compares what is left with the shape: on a lattice of points,
 /// and at places of each plane face, where the height of the cutters is exact.
 ///
-/// Threads   what a thread of the plan cuts beside its core counts as neither: a CAD model draws the core
-/// alone. Accuracy  a point counts as left or as gouged where the cutters' moves say so exactly, in set-ups
-/// of any
+/// Threads   what the steps of a thread cut beside its core counts as neither: a CAD model draws the core.
+///
+/// Accuracy  a point counts as left or as gouged where the cutters' moves say so exactly, in set-ups of any
 ///           direction; nothing between the points is seen. Overhanging cutters are taken as full up to their
 ///           top.
+///
 /// Cost      linear in the points and, for each move, in what it passes over; a point on the wrong side of
 /// the
 ///           surface asks the moves about it, and the triangles over it. The worst places are found by the

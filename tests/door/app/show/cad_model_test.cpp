@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/door/service/reading.h"
 #include "planner/files/json/json.h"
+#include "planner/proof/verify/shape/finished.h"
 #include "tests/door/app/command/command.h"
 #include "tests/files/exchange/brep/step_part.h"
 #include "tests/files/from_cad/turned_part.h"
@@ -182,6 +184,26 @@ TEST_F(CadModel, HolesThatAreTappedAreTappedAndTheShapeIsStillThatOfTheFile) {
   EXPECT_THAT(deep.err, HasSubstr("HOLE 1 is 20 mm deep"));
   const Ran other = run("plan nut.json --tapped 'HOLE*=M8' -o again.json");
   EXPECT_THAT(other.err, HasSubstr("the file is no CAD model"));
+}
+
+TEST_F(CadModel, OnlyWhatAThreadsOwnStepsCutBesideItsCoreIsNoGouge) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
+  put("nut.step", testing::bored({{3.4, 20}, {3.4, 0}}));
+  ASSERT_EQ(run("plan nut.step --material C45 --tapped 'HOLE*=M8' -o nut.json").code, 0);
+  Job job;
+  const auto part = service::read_part(slurp(folder_ / "nut.step"), "nut.step", {}, job);
+  ASSERT_TRUE(part && part->shape) << part.error().message;
+  auto plan = json::read_json(slurp(folder_ / "nut.json"), "nut.json", job);
+  ASSERT_TRUE(plan) << plan.error().message;
+  const auto gouges = [&] {
+    const auto findings = verify::check_shape({}, *plan, *part->shape);
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const model::Finding& f) { return f.code == "CHK-SHAPE-GOUGE"; });
+  };
+  EXPECT_FALSE(gouges());
+  for (model::Cutter& c : plan->cutters)
+    if (c.cutter_class == model::CutterClass::kTwistDrill) c.cutting_diameter_mm = 7.9;
+  EXPECT_TRUE(gouges()) << "a core as wide as the thread";
 }
 
 TEST_F(CadModel, FeaturesAloneAreWrittenAndPlannedFromThere) {
