@@ -103,7 +103,10 @@ class Threads {
         const volumes::Bore* bore = f.kind == model::ShapeKind::kThread ? f.bore() : nullptr;
         if (bore == nullptr || !(bore->thread_major_mm > 0.0)) continue;
         threads = true;
-        all_.push_back({f.frame(), 0.5 * bore->thread_major_mm + kShapeMm, f.depth_mm()});
+        // Its crests lie beyond the basic size by its zone and what the mill bends, which is
+        // CHK-THREAD-WIDTH's.
+        all_.push_back(
+            {f.frame(), 0.5 * (bore->thread_major_mm + bore->thread_pitch_mm) + kShapeMm, f.depth_mm()});
       }
       if (!threads) others.push_back(s);
     }

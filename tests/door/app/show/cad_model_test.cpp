@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "planner/door/service/reading.h"
 #include "planner/files/json/json.h"
 #include "planner/proof/verify/shape/finished.h"
@@ -184,6 +186,17 @@ TEST_F(CadModel, HolesThatAreTappedAreTappedAndTheShapeIsStillThatOfTheFile) {
   EXPECT_THAT(deep.err, HasSubstr("HOLE 1 is 20 mm deep"));
   const Ran other = run("plan nut.json --tapped 'HOLE*=M8' -o again.json");
   EXPECT_THAT(other.err, HasSubstr("the file is no CAD model"));
+}
+
+// A blind core that leaves no room for a tap's lead: the mill's circle lies beyond the major diameter by what
+// it bends.
+TEST_F(CadModel, AThreadThatIsMilledInABlindHoleIsNoGougeOfTheFilesCore) {
+  if (!built()) GTEST_SKIP() << "built without OpenCASCADE";
+  put("blind.step",
+      testing::bored({{4.25, 20}, {4.25, 2}, {0, 2 - 4.25 / std::tan(59 * 0.017453292519943295)}}));
+  const Ran r = run("plan blind.step --material C45 --tapped 'HOLE 1=M10:15' -o blind.ngc -o blind.json");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(slurp(folder_ / "blind.json"), HasSubstr("thread_mill"));
 }
 
 TEST_F(CadModel, OnlyWhatAThreadsOwnStepsCutBesideItsCoreIsNoGouge) {
