@@ -142,6 +142,7 @@ FENCES = {
     "xxHash": (r"xxhash\.h$", 3),
     "Eigen": (r"(unsupported/)?Eigen/", None),
     "Boost": (r"boost/", 1),
+    "OpenSSL": (r"openssl/", 2),  # the second makes certificates for the tests
     "pybind11": (r"pybind11/", 1),
     "OpenCASCADE": (r"(opencascade/)?\w+\.hxx$", 2),
 }

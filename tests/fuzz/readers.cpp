@@ -157,7 +157,7 @@ void http(std::string bytes) {
   if (!transport::http_is_built()) return;
   static transport::Metrics metrics;
   static const transport::Limits kLimits{.header_bytes = 1 << 10, .body_bytes = 1 << 16, .sessions = 0};
-  static transport::Endpoints endpoints(kLimits, {}, {}, 0, metrics,
+  static transport::Endpoints endpoints(kLimits, {}, {}, "a user", metrics,
                                         [] { return std::vector<transport::Metrics::Gauge>{}; });
   transport::RequestReader reader(kLimits.header_bytes, kLimits.body_bytes);
   constexpr std::size_t kPiece = 7;
@@ -173,7 +173,7 @@ void http(std::string bytes) {
       const auto found = transport::Endpoints::find(request);
       const auto reply = found.endpoint == nullptr
                              ? found.refusal
-                             : endpoints.answer(found, request, {0, transport::Clock::now()});
+                             : endpoints.answer(found, request, {"a user", transport::Clock::now()});
       must(reply.status >= 200 && !reply.body.empty(), "answered without a word\n");
     }
     if (state != transport::RequestReader::State::kWrong) continue;

@@ -1,4 +1,10 @@
-capstan_test(transport DEPENDS transport service json exchange)
+# The tests of TLS make certificates and are a client of their own.
+set(openssl "")
+find_package(OpenSSL 3.0 QUIET COMPONENTS SSL Crypto)
+if(OPENSSL_FOUND)
+  set(openssl OpenSSL::SSL OpenSSL::Crypto)
+endif()
+capstan_test(transport DEPENDS transport service json exchange LIBS ${openssl})
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME Serve.TheExampleInPythonBindsThePlateAndSigtermEndsTheServer

@@ -217,17 +217,18 @@ class CommandLine {
     outputs(sub, true);
   }
   void serve() {
-    auto* sub = command(app_, "serve", "bind for other programs, over a UNIX socket (HTTP and JSON)",
-                        Command::kServe);
+    auto* sub =
+        command(app_, "serve", "bind for other programs, over a UNIX socket or TCP with TLS (HTTP and JSON)",
+                Command::kServe);
     ServeOptions& s = out_.serve;
-    sub->add_option("--socket", s.socket, "path of the socket")->required();
-    sub->add_option("--allow-user", s.users, "a user id that may connect beside this user's; may be repeated")
-        ->expected(1)
-        ->take_all();
+    sub->add_option("--socket", s.socket, "path of the socket");
+    sub->add_option("--allow-user", s.users, "a user id that may connect, too")->expected(1)->take_all();
     sub->add_option("--workers", s.workers, "requests worked on at once")->check(CLI::Range(1U, 64U));
-    sub->add_option("--queue", s.queue, "requests that may wait; further ones get 503")
-        ->check(CLI::Range(1U, 1000U));
-    sub->add_option("--tcp", s.tcp, "refused: TCP needs TLS on both sides, which no build has");
+    sub->add_option("--queue", s.queue, "requests that may wait, else 503")->check(CLI::Range(1U, 1000U));
+    sub->add_option("--tcp", s.tcp, "ADDRESS:PORT in numbers, with TLS on both sides: needs the next three");
+    sub->add_option("--cert", s.certificate, "of TCP: the server's certificate, PEM");
+    sub->add_option("--key", s.key, "of TCP: its key, PEM, which no other user may read");
+    sub->add_option("--client-ca", s.client_ca, "of TCP: who signs the certificates of clients, PEM");
     options(sub, service::Verb::kBind);
   }
   void check() {

@@ -89,7 +89,7 @@ struct ToolsOptions {
 
 /// The options of `serve` beside those of `bind`.
 struct ServeOptions {
-  std::string socket, tcp;
+  std::string socket, tcp, certificate, key, client_ca;
   std::vector<std::uint32_t> users;  ///< user ids
   unsigned workers = 1, queue = 16;
   /// The options of `bind` that were given, by name.

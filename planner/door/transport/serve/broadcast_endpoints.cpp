@@ -50,7 +50,7 @@ Status Endpoints::take_broadcast(ServedSession& s, const std::map<std::string, s
     } else if (name == "wait_for_reply" && is_flag()) {
       otherwise.wait_for_reply = yes;
     } else if (name == "file") {
-      if (caller.user != own_user_)
+      if (caller.peer != own_peer_)
         return fail({.code = "SERVE-FILE", .message = "only the server's own user may name files"});
       file = value;
     } else {
@@ -66,7 +66,7 @@ Status Endpoints::take_broadcast(ServedSession& s, const std::map<std::string, s
 }
 
 HttpReply Endpoints::tell(const HttpRequest& request, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
+  const auto s = sessions_.find(words.front(), caller.peer, Clock::now());
   if (!s) return no_session();
   const auto read = read_json_request(request.body,
                                       {{Member::Kind::kText, "event"},
@@ -124,7 +124,7 @@ HttpReply Endpoints::tell(const HttpRequest& request, const Words& words, const 
 }
 
 HttpReply Endpoints::reply(const HttpRequest& request, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
+  const auto s = sessions_.find(words.front(), caller.peer, Clock::now());
   if (!s) return no_session();
   const auto read = read_json_request(request.body, {{Member::Kind::kWhole, "reply_to"}}, limits_.json_bytes);
   if (!read) return refused(400, read.error());
@@ -135,7 +135,7 @@ HttpReply Endpoints::reply(const HttpRequest& request, const Words& words, const
 }
 
 HttpReply Endpoints::stream(const HttpRequest&, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
+  const auto s = sessions_.find(words.front(), caller.peer, Clock::now());
   if (!s) return no_session();
   if (!s->broadcasts.open_stream())
     return refused(409, "SERVE-BUSY", "another reader has the broadcasts of this session");
@@ -143,13 +143,13 @@ HttpReply Endpoints::stream(const HttpRequest&, const Words& words, const Caller
 }
 
 std::optional<std::string> Endpoints::next_lines(const Found& found, const Caller& caller) {
-  const auto s = ended_ ? nullptr : sessions_.find(found.words.front(), caller.user, Clock::now());
+  const auto s = ended_ ? nullptr : sessions_.find(found.words.front(), caller.peer, Clock::now());
   if (!s) return std::nullopt;
   return s->broadcasts.take(std::chrono::milliseconds(100));
 }
 
 void Endpoints::end_stream(const Found& found, const Caller& caller) {
-  if (const auto s = sessions_.find(found.words.front(), caller.user, Clock::now()))
+  if (const auto s = sessions_.find(found.words.front(), caller.peer, Clock::now()))
     s->broadcasts.close_stream();
 }
 

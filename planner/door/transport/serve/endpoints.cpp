@@ -74,11 +74,11 @@ struct Rows {
 std::span<const Endpoint> Endpoints::all() { return Rows::kAll; }
 
 Endpoints::Endpoints(const Limits& limits, std::string folder,
-                     std::vector<std::pair<std::string, std::string>> defaults, std::uint32_t own_user,
+                     std::vector<std::pair<std::string, std::string>> defaults, std::string own_peer,
                      Metrics& metrics, Gauges gauges)
     : limits_(limits),
       defaults_(std::move(defaults)),
-      own_user_(own_user),
+      own_peer_(std::move(own_peer)),
       metrics_(metrics),
       gauges_(std::move(gauges)),
       sessions_(limits, std::move(folder)) {}
@@ -123,7 +123,7 @@ HttpReply Endpoints::answer(const Found& found, const HttpRequest& request, cons
 
 void Endpoints::gone(const Found& found, const Caller& caller) {
   if (found.endpoint->name != "bind") return;
-  if (const auto s = sessions_.find(found.words.front(), caller.user, Clock::now())) s->session.stop();
+  if (const auto s = sessions_.find(found.words.front(), caller.peer, Clock::now())) s->session.stop();
 }
 
 void Endpoints::end() {
@@ -133,7 +133,7 @@ void Endpoints::end() {
 
 HttpReply Endpoints::in_session(const Words& words, const Caller& caller,
                                 const std::function<HttpReply(ServedSession&)>& body) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
+  const auto s = sessions_.find(words.front(), caller.peer, Clock::now());
   if (!s) return no_session();
   const std::unique_lock lock(s->in_use, std::try_to_lock);
   if (!lock)
@@ -167,7 +167,7 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
   if (const auto at = read->objects.find("options"); at != read->objects.end())
     options.assign(at->second.begin(), at->second.end());
   for (const auto& [name, value] : options) {
-    if (caller.user != own_user_ && names_file(name, value))
+    if (caller.peer != own_peer_ && names_file(name, value))
       return refused(403, "SERVE-FILE", "option '" + name + "' names a file of the server's",
                      "send the tool table as `tool_table`; only the server's own user may name files");
   }
@@ -190,7 +190,7 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
 }
 
 HttpReply Endpoints::open_session(const HttpRequest& request, const Words&, const Caller& caller) {
-  auto opened = sessions_.open(caller.user, Clock::now());
+  auto opened = sessions_.open(caller.peer, Clock::now());
   if (!opened) {
     HttpReply reply = refused(opened.error().code == "SERVE-SESSIONS" ? 429 : 500, opened.error());
     metrics_.refused("sessions");
@@ -208,7 +208,7 @@ HttpReply Endpoints::open_session(const HttpRequest& request, const Words&, cons
 }
 
 HttpReply Endpoints::list_sessions(const HttpRequest&, const Words&, const Caller& caller) {
-  return object_reply(200, {{"sessions", json_of(sessions_.ids_of(caller.user))}});
+  return object_reply(200, {{"sessions", json_of(sessions_.ids_of(caller.peer))}});
 }
 
 HttpReply Endpoints::put_state(const HttpRequest& request, const Words& words, const Caller& caller) {
@@ -269,7 +269,7 @@ HttpReply Endpoints::bind(const HttpRequest& request, const Words& words, const 
 }
 
 HttpReply Endpoints::result(const HttpRequest&, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
+  const auto s = sessions_.find(words.front(), caller.peer, Clock::now());
   if (!s) return no_session();
   const bool free = s->in_use.try_lock();
   if (free) s->in_use.unlock();
@@ -308,14 +308,14 @@ HttpReply Endpoints::changes(const HttpRequest&, const Words& words, const Calle
 }
 
 HttpReply Endpoints::cancel(const HttpRequest&, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
+  const auto s = sessions_.find(words.front(), caller.peer, Clock::now());
   if (!s) return no_session();
   s->session.stop();
   return of_call(Code::kDone, {});
 }
 
 HttpReply Endpoints::close_session(const HttpRequest&, const Words& words, const Caller& caller) {
-  const auto s = sessions_.find(words.front(), caller.user, Clock::now());
+  const auto s = sessions_.find(words.front(), caller.peer, Clock::now());
   if (!s) return no_session();
   sessions_.close(*s);
   return of_call(Code::kDone, {});

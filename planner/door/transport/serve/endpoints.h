@@ -21,7 +21,7 @@ namespace capstan::transport {
 
 /// Who asks, and since when.
 struct Caller {
-  std::uint32_t user = 0;     ///< user id of the peer
+  std::string peer;           ///< who it is: `peer_of_user` or the subject of a certificate
   Clock::time_point arrived;  ///< of the request's last byte; deadlines count from here
 };
 
@@ -45,11 +45,11 @@ struct Endpoint {
 class Endpoints {
  public:
   using Gauges = std::function<std::vector<Metrics::Gauge>()>;
-  /// `folder`: of the sessions (Sessions). `defaults`: options that each session begins with. `own_user`:
+  /// `folder`: of the sessions (Sessions). `defaults`: options that each session begins with. `own_peer`:
   /// whose files may be named.
   Endpoints(const Limits& limits, std::string folder,
-            std::vector<std::pair<std::string, std::string>> defaults, std::uint32_t own_user,
-            Metrics& metrics, Gauges gauges);
+            std::vector<std::pair<std::string, std::string>> defaults, std::string own_peer, Metrics& metrics,
+            Gauges gauges);
 
   [[nodiscard]] static std::span<const Endpoint> all();
 
@@ -102,7 +102,7 @@ class Endpoints {
 
   Limits limits_;
   std::vector<std::pair<std::string, std::string>> defaults_;
-  std::uint32_t own_user_;
+  std::string own_peer_;
   Metrics& metrics_;
   Gauges gauges_;
   Sessions sessions_;

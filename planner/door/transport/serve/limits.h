@@ -17,11 +17,13 @@ struct Limits {
   std::chrono::milliseconds reply{10'000};         ///< for a broadcast's reader to reply
   std::chrono::seconds session{3600};              ///< after so long without a request it is closed
   std::size_t connections = 64;
-  std::size_t queue = 16;              ///< requests that wait for a worker
-  unsigned workers = 1;                ///< requests worked on at once
-  std::size_t sessions = 16;           ///< of all users
-  std::size_t sessions_of_user = 8;    ///< of one
-  std::size_t broadcast_lines = 1000;  ///< kept of a session for a reader that is not there yet
+  std::chrono::milliseconds handshake{5'000};  ///< of TLS, from the connection to its end
+  std::size_t half_open = 32;                  ///< connections of TCP whose peer is not known yet
+  std::size_t queue = 16;                      ///< requests that wait for a worker
+  unsigned workers = 1;                        ///< requests worked on at once
+  std::size_t sessions = 16;                   ///< of all users
+  std::size_t sessions_of_user = 8;            ///< of one
+  std::size_t broadcast_lines = 1000;          ///< kept of a session for a reader that is not there yet
 };
 
 }  // namespace capstan::transport

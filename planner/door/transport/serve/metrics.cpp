@@ -13,11 +13,22 @@ void head(std::string& out, std::string_view name, std::string_view what, std::s
          std::string(kind) + "\n";
 }
 
+/// A label's value: a subject may have quotes and backslashes in it, but no line end (tls.h).
+std::string escaped(const std::string& value) {
+  std::string out;
+  for (const char c : value) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
 void counts(std::string& out, std::string_view name, std::string_view what, std::string_view label,
             const std::map<std::string, std::uint64_t, std::less<>>& of) {
   head(out, name, what, "counter");
   for (const auto& [value, n] : of)
-    out += std::string(name) + "{" + std::string(label) + "=\"" + value + "\"} " + std::to_string(n) + "\n";
+    out += std::string(name) + "{" + std::string(label) + "=\"" + escaped(value) + "\"} " +
+           std::to_string(n) + "\n";
 }
 
 }  // namespace
@@ -48,6 +59,12 @@ void Metrics::broadcast(std::size_t lines) {
   lines_ += lines;
 }
 
+void Metrics::asked(const std::string& subject) {
+  const std::lock_guard lock(mutex_);
+  const bool room = peers_.contains(subject) || peers_.size() < kMostPeers;
+  ++peers_[room ? subject : "other"];
+}
+
 std::string Metrics::text(const std::vector<Gauge>& gauges) const {
   const std::lock_guard lock(mutex_);
   std::string out;
@@ -67,6 +84,8 @@ std::string Metrics::text(const std::vector<Gauge>& gauges) const {
   }
   counts(out, "capstan_binds_total", "Binds ended, by status; LATE: past the deadline.", "status", bound_);
   counts(out, "capstan_refused_total", "Refused before an endpoint saw it.", "reason", refused_);
+  counts(out, "capstan_peer_requests_total", "Requests over TCP, by the subject of the certificate.", "peer",
+         peers_);
   head(out, "capstan_broadcast_lines_total", "Broadcasts sent.", "counter");
   out += "capstan_broadcast_lines_total " + std::to_string(lines_) + "\n";
   for (const Gauge& g : gauges) {

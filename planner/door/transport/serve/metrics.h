@@ -12,8 +12,8 @@
 
 namespace capstan::transport {
 
-/// What a server counts, in the text format of Prometheus (0.0.4). Only names that are ours are labels, so
-/// that no peer can make more of them.
+/// What a server counts, in the text format of Prometheus (0.0.4). Names that are ours are labels, and the
+/// first `kMostPeers` subjects of certificates that were verified, so that no peer can make more of them.
 ///
 /// Thread safety  any thread.
 class Metrics {
@@ -23,6 +23,9 @@ class Metrics {
   void refused(std::string_view reason);
   void bound(std::string_view status);  ///< "OK", "LATE", ...
   void broadcast(std::size_t lines);
+  /// A request of the peer with a certificate of this subject.
+  void asked(const std::string& subject);
+  static constexpr std::size_t kMostPeers = 64;  ///< others are counted together. Default, unsourced.
 
   /// A value of this moment, for the text: name, what it is, value.
   struct Gauge {
@@ -40,7 +43,7 @@ class Metrics {
   mutable std::mutex mutex_;
   std::map<std::pair<std::string, unsigned>, std::uint64_t> answered_;
   std::map<std::string, Latency, std::less<>> latency_;
-  std::map<std::string, std::uint64_t, std::less<>> refused_, bound_;
+  std::map<std::string, std::uint64_t, std::less<>> refused_, bound_, peers_;
   std::uint64_t lines_ = 0;
 };
 

@@ -21,7 +21,7 @@ void remove_folder(const std::string& folder) {
 
 Sessions::~Sessions() { remove_folder(folder_); }
 
-Result<std::shared_ptr<ServedSession>> Sessions::open(std::uint32_t owner, Clock::time_point now) {
+Result<std::shared_ptr<ServedSession>> Sessions::open(const std::string& owner, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   forget_unused(now);
   const auto own = static_cast<std::size_t>(
@@ -49,12 +49,12 @@ Result<std::shared_ptr<ServedSession>> Sessions::open(std::uint32_t owner, Clock
   return made;
 }
 
-std::shared_ptr<ServedSession> Sessions::find(const std::string& id, std::uint32_t user,
+std::shared_ptr<ServedSession> Sessions::find(const std::string& id, const std::string& peer,
                                               Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   forget_unused(now);
   const auto at = all_.find(id);
-  if (at == all_.end() || at->second->owner != user) return nullptr;
+  if (at == all_.end() || at->second->owner != peer) return nullptr;
   at->second->used = now;
   return at->second;
 }
@@ -73,11 +73,11 @@ void Sessions::stop_all() {
   for (const auto& [id, one] : all_) one->session.stop();
 }
 
-std::vector<std::string> Sessions::ids_of(std::uint32_t user) const {
+std::vector<std::string> Sessions::ids_of(const std::string& peer) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> out;
   for (const auto& [id, one] : all_)
-    if (one->owner == user) out.push_back(id);
+    if (one->owner == peer) out.push_back(id);
   return out;
 }
 

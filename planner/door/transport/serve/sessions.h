@@ -19,6 +19,9 @@ namespace capstan::transport {
 
 using Clock = std::chrono::steady_clock;
 
+/// The name of a user of this machine as a peer; a subject of a certificate never begins so.
+[[nodiscard]] inline std::string peer_of_user(std::uint32_t user) { return "user " + std::to_string(user); }
+
 /// How the last call of a session ended, for whoever asks while another call runs.
 struct Ending {
   service::Code code = service::Code::kDone;
@@ -27,11 +30,11 @@ struct Ending {
   bool bound = false;  ///< a plan can be fetched
 };
 
-/// A session of late binding that a server keeps for a user.
+/// A session of late binding that a server keeps for a peer.
 struct ServedSession {
   std::string id;
-  std::uint32_t owner = 0;  ///< user id
-  std::string folder;       ///< private to the server, for what a session reads from files
+  std::string owner;   ///< the peer who opened it
+  std::string folder;  ///< private to the server, for what a session reads from files
   service::Session session;
   std::string plan;   ///< as it was brought
   std::mutex in_use;  ///< of `session` and `plan`: held for a call, but for `session.stop`
@@ -53,15 +56,15 @@ class Sessions {
   ~Sessions();
 
   /// Fails  SERVE-SESSIONS: too many are open, of this user or in all; SERVE-FOLDER.
-  [[nodiscard]] Result<std::shared_ptr<ServedSession>> open(std::uint32_t owner, Clock::time_point now);
-  /// That session of this user; null when there is none. Another user's is none.
-  [[nodiscard]] std::shared_ptr<ServedSession> find(const std::string& id, std::uint32_t user,
+  [[nodiscard]] Result<std::shared_ptr<ServedSession>> open(const std::string& owner, Clock::time_point now);
+  /// That session of this peer; null when there is none. Another peer's is none.
+  [[nodiscard]] std::shared_ptr<ServedSession> find(const std::string& id, const std::string& peer,
                                                     Clock::time_point now);
   /// Ends what runs in it, and forgets it.
   void close(const ServedSession& session);
   /// Ends what runs in any.
   void stop_all();
-  [[nodiscard]] std::vector<std::string> ids_of(std::uint32_t user) const;
+  [[nodiscard]] std::vector<std::string> ids_of(const std::string& peer) const;
   [[nodiscard]] std::size_t count() const;
 
  private:

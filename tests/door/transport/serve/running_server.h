@@ -1,7 +1,9 @@
 #pragma once
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -30,6 +32,18 @@ class Client {
     address.sun_family = AF_UNIX;
     std::memcpy(address.sun_path, path.c_str(), path.size());
     connected_ = ::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  }
+  /// Over TCP at an address in numbers, without TLS.
+  static Client tcp(const std::string& address) { return Client(connected_to(address)); }
+  static int connected_to(const std::string& address) {
+    sockaddr_in at = {};
+    at.sin_family = AF_INET;
+    const auto colon = address.find(':');
+    at.sin_port = htons(static_cast<std::uint16_t>(std::stoi(address.substr(colon + 1))));
+    ::inet_pton(AF_INET, address.substr(0, colon).c_str(), &at.sin_addr);
+    const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&at), sizeof(at)), 0);
+    return fd;
   }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -85,6 +99,7 @@ class Client {
   }
 
  private:
+  explicit Client(int connected) : fd_(connected), connected_(true) {}
   bool more() {
     pollfd of = {fd_, POLLIN, 0};
     if (::poll(&of, 1, 120'000) <= 0) return false;
@@ -108,11 +123,9 @@ class RunningServer {
     settings_.socket = folder_.file("s");
     settings_.limits = limits;
     settings_.options = std::move(options);
-    std::promise<void> ready;
-    auto is_ready = ready.get_future();
-    thread_ = std::thread([this, &ready] { status_ = serve(settings_, stop_, [&] { ready.set_value(); }); });
-    is_ready.wait();
+    begin();
   }
+  explicit RunningServer(ServeSettings settings) : settings_(std::move(settings)) { begin(); }
   RunningServer(const RunningServer&) = delete;
   RunningServer& operator=(const RunningServer&) = delete;
   ~RunningServer() { end(); }
@@ -126,12 +139,24 @@ class RunningServer {
     EXPECT_TRUE(status_) << to_text(status_.error());
   }
   [[nodiscard]] const std::string& socket() const { return settings_.socket; }
+  [[nodiscard]] const std::string& tcp() const { return serving_.tcp; }
 
  private:
+  void begin() {
+    std::promise<Serving> ready;
+    auto is_ready = ready.get_future();
+    thread_ = std::thread([this, &ready] {
+      status_ = serve(settings_, stop_, [&](const Serving& where) { ready.set_value(where); });
+      if (!status_) ready.set_value({});
+    });
+    serving_ = is_ready.get();
+  }
+
   testing::ScratchFolder folder_;
   ServeSettings settings_;
   int stop_ = ::eventfd(0, EFD_CLOEXEC);
   Status status_;
+  Serving serving_;
   std::thread thread_;
 };
 
