@@ -6,10 +6,10 @@
 
 namespace capstan::transport {
 
-bool HalfOpen::enter(int fd, std::chrono::milliseconds patience) {
-  std::unique_lock lock(mutex_);
+bool HalfOpen::enter(int fd) {
+  const std::lock_guard lock(mutex_);
+  if (all_.size() >= 2 * most_) return false;
   const auto staying = [](const One& one) { return !one.told; };
-  if (!left_.wait_for(lock, patience, [&] { return all_.size() < 2 * most_; })) return false;
   if (static_cast<std::size_t>(std::count_if(all_.begin(), all_.end(), staying)) >= most_) {
     const auto oldest = std::find_if(all_.begin(), all_.end(), staying);
     if (oldest == all_.end()) return false;
@@ -26,9 +26,10 @@ bool HalfOpen::leave(int fd) {
   if (at == all_.end()) return false;
   const bool told = at->told;
   all_.erase(at);
-  left_.notify_one();
   return told;
 }
+
+bool HalfOpen::full() const { return count() >= 2 * most_; }
 
 std::size_t HalfOpen::count() const {
   const std::lock_guard lock(mutex_);

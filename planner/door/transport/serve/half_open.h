@@ -1,7 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <list>
 #include <mutex>
@@ -16,9 +14,10 @@ class HalfOpen {
  public:
   explicit HalfOpen(std::size_t most) : most_(most) {}
 
-  /// Takes a place for a connected socket, which stays its caller's. Where as many as there are places have
-  /// been told to go and are still there, it waits for one of them; false: none went within `patience`.
-  [[nodiscard]] bool enter(int fd, std::chrono::milliseconds patience);
+  /// Takes a place for a connected socket, which stays its caller's. It never waits; false: `full`.
+  [[nodiscard]] bool enter(int fd);
+  /// As many as there are places have been told to go and are still there: nobody enters before one leaves.
+  [[nodiscard]] bool full() const;
   /// Before the socket is closed. True: it had been told to go (its socket is shut down).
   bool leave(int fd);
   [[nodiscard]] std::size_t count() const;
@@ -30,7 +29,6 @@ class HalfOpen {
   };
   std::size_t most_;
   mutable std::mutex mutex_;
-  std::condition_variable left_;
   std::list<One> all_;  ///< the oldest first
 };
 

@@ -48,14 +48,16 @@ class Event {
     const std::uint64_t one = 1;
     (void)!::write(fd_, &one, sizeof(one));
   }
+  /// It cannot be read before it is told again.
+  void hear() const {
+    std::uint64_t told = 0;
+    (void)!::read(fd_, &told, sizeof(told));
+  }
   [[nodiscard]] int fd() const { return fd_; }
 
  private:
   int fd_;
 };
-
-/// For a thread whose connection was shut down to end. Default, unsourced.
-constexpr std::chrono::milliseconds kToGo{1000};
 
 /// What is refused before a request is there.
 HttpReply turned_away(unsigned status, const char* why, unsigned retry_after_s = 0) {
@@ -81,11 +83,17 @@ class Server {
   /// Either may be null.
   void run(const SocketFile* socket, const TcpListener* tcp, int stop) {
     for (;;) {
-      // A descriptor of -1 is not looked at.
-      std::array<pollfd, 3> of = {pollfd{stop, POLLIN, 0},
+      // A descriptor of -1 is not looked at: strangers wait in the kernel until one of them has left, and
+      // nobody waits for them here.
+      left_.hear();
+      std::array<pollfd, 4> of = {pollfd{stop, POLLIN, 0},
                                   pollfd{socket == nullptr ? -1 : socket->fd(), POLLIN, 0},
-                                  pollfd{tcp == nullptr ? -1 : tcp->fd(), POLLIN, 0}};
-      if (::poll(of.data(), of.size(), -1) < 0 && errno != EINTR) break;
+                                  pollfd{tcp == nullptr || half_open_.full() ? -1 : tcp->fd(), POLLIN, 0},
+                                  pollfd{left_.fd(), POLLIN, 0}};
+      if (::poll(of.data(), of.size(), -1) < 0) {
+        if (errno != EINTR) break;
+        continue;
+      }
       if (of[0].revents != 0) break;
       if (of[1].revents != 0) {
         if (const int fd = ::accept4(socket->fd(), nullptr, nullptr, SOCK_CLOEXEC); fd >= 0) {
@@ -196,7 +204,7 @@ class Server {
 
   void begin_tcp(int fd, std::string address) {
     auto connection = std::make_unique<Connection>(fd, stopping_.fd(), std::make_unique<TlsStream>(*tls_));
-    if (!half_open_.enter(fd, kToGo)) return metrics_.refused("half-open");
+    if (!half_open_.enter(fd)) return metrics_.refused("half-open");
     const auto until = Clock::now() + limits_.handshake;
     const bool begun =
         in_thread([this, c = std::move(connection), fd, until, from = std::move(address)]() mutable {
@@ -204,20 +212,25 @@ class Server {
           try {
             ended = c->shake_hands(until);
           } catch (const std::exception&) {
-            half_open_.leave(fd);
+            leave_half_open(fd);
             throw;
           }
-          const bool told_to_go = half_open_.leave(fd);
+          const bool told_to_go = leave_half_open(fd);
           if (ended != Connection::Shake::kDone || told_to_go)
             return refuse(*c->tls(), ended, told_to_go, from);
-          const std::string peer = c->tls()->subject();
           if (!enter()) return end_with(*c, too_many(), "connections");
           const Place place{*this};
           const auto connected = std::move(c);
-          log_.connected(from, peer);
-          converse(*connected, peer);
+          log_.connected(from, connected->tls()->subject());
+          converse(*connected, connected->tls()->subject());
         });
-    if (!begun) half_open_.leave(fd);
+    if (!begun) leave_half_open(fd);
+  }
+
+  bool leave_half_open(int fd) {
+    const bool told = half_open_.leave(fd);
+    left_.tell();
+    return told;
   }
 
   /// A peer that is not known: counts and says why.
@@ -361,6 +374,7 @@ class Server {
   Metrics metrics_;
   PeerLog log_;
   HalfOpen half_open_;
+  Event left_;  ///< one of `half_open_`
   Event stopping_;
   std::mutex mutex_;
   std::condition_variable ended_;

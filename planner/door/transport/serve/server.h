@@ -38,7 +38,8 @@ struct Serving {
 ///          one of `users`; another gets 403 and counts. Of TCP: whose certificate is verified (wire/tls.h)
 ///          before a byte of a request is read; another gets an alert of TLS and counts.
 /// Half open  a peer of TCP that is not known yet counts among `limits.half_open`, not among the connections;
-///          where those are all taken, the oldest gives way, so that who is quick is served.
+///          where those are all taken, the oldest gives way, so that who is quick is served. Where those who
+///          give way are as many again, others wait outside until one is gone; nobody else waits for that.
 /// Threads  one for each connection, at most `limits.connections` and twice `limits.half_open`, and
 ///          `limits.workers`; signals are as the caller has them blocked.
 /// Fails    SERVE-BEAST: this build has no HTTP; SERVE-SOCKET; SERVE-TCP; SERVE-TLS.
