@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "planner/door/app/command/session.h"
+#include "planner/door/transport/serve/peer_log.h"
 #include "planner/door/transport/serve/server.h"
 #include "planner/door/transport/serve/wire/tls.h"
 
@@ -71,7 +72,7 @@ int run_serve(Session& s) {
       o.users,
       o.session,
       {},
-      [](const std::string& line) { std::fprintf(stderr, "capstan: tcp: %s\n", line.c_str()); }};
+      [](const std::string& line) { return transport::write_line(STDERR_FILENO, "capstan: tcp: " + line); }};
   settings.limits.workers = o.workers;
   settings.limits.queue = o.queue;
   std::string places;

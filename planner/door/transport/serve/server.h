@@ -23,7 +23,8 @@ struct ServeSettings {
   Limits limits;
   /// A line for each peer of TCP that connects or is refused; of many that are refused at once some lines
   /// are left out, and counted. Called by any thread, one at a time.
-  std::function<void(const std::string& line)> log = {};
+  /// False: it could not be written, and is counted.
+  std::function<bool(const std::string& line)> log = {};
 };
 
 /// Where a server answers.

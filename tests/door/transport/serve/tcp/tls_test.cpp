@@ -209,6 +209,7 @@ class Tls : public ::testing::Test {
     out.log = [this](const std::string& line) {
       const std::lock_guard lock(mutex_);
       lines_.push_back(line.substr(line.find(" is ") + 1));
+      return true;
     };
     return out;
   }
