@@ -21,7 +21,7 @@ namespace capstan::transport {
 
 /// Who asks, and since when.
 struct Caller {
-  std::string peer;           ///< who it is: `peer_of_user` or the subject of a certificate
+  std::string peer;           ///< who it is: `peer_of_user`, or who a certificate says (TlsStream::identity)
   Clock::time_point arrived;  ///< of the request's last byte; deadlines count from here
 };
 

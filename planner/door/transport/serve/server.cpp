@@ -222,7 +222,7 @@ class Server {
           const Place place{*this};
           const auto connected = std::move(c);
           log_.connected(from, connected->tls()->subject());
-          converse(*connected, connected->tls()->subject());
+          converse(*connected, connected->tls()->identity());
         });
     if (!begun) leave_half_open(fd);
   }
@@ -270,7 +270,7 @@ class Server {
     RequestReader reader(limits_.header_bytes, limits_.body_bytes);
     while (next(c, reader)) {
       const Caller caller{peer, Clock::now()};
-      if (c.tls() != nullptr) metrics_.asked(peer);
+      if (c.tls() != nullptr) metrics_.asked(c.tls()->subject());
       const HttpRequest request = reader.request();
       const Endpoints::Found found = Endpoints::find(request);
       HttpReply reply = found.refusal;

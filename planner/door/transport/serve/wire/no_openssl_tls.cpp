@@ -22,6 +22,7 @@ TlsStream::State TlsStream::read(std::string_view, std::string&, std::string&) {
 bool TlsStream::write(std::string_view, std::string&) { return false; }
 void TlsStream::end(std::string&) {}
 const std::string& TlsStream::subject() const { return held_->none; }
+const std::string& TlsStream::identity() const { return held_->none; }
 TlsStream::Fault TlsStream::fault() const { return Fault::kProtocol; }
 const std::string& TlsStream::why() const { return held_->none; }
 

@@ -32,22 +32,23 @@ constexpr std::size_t kLargestKey = 64 << 10;
 
 /// Its functions, of the types that its headers declare.
 struct OpenSsl {
-#define CAPSTAN_OPENSSL_FUNCTIONS(row)                                                                      \
-  row(BIO_ctrl) row(BIO_free_all) row(BIO_new) row(BIO_new_mem_buf) row(BIO_read) row(BIO_s_mem) row(       \
-      BIO_write) row(ERR_clear_error) row(ERR_get_error) row(ERR_peek_error) row(ERR_reason_error_string)   \
-      row(EVP_PKEY_free) row(OPENSSL_cleanse) row(PEM_read_bio_PrivateKey) row(SSL_CTX_check_private_key)   \
-          row(SSL_CTX_ctrl) row(SSL_CTX_free) row(SSL_CTX_get0_certificate) row(SSL_CTX_load_verify_file)   \
-              row(SSL_CTX_new) row(SSL_CTX_set_cipher_list) row(SSL_CTX_set_client_CA_list)                 \
-                  row(SSL_CTX_set_num_tickets) row(SSL_CTX_set_options) row(SSL_CTX_set_verify)             \
-                      row(SSL_CTX_use_PrivateKey) row(SSL_CTX_use_certificate_chain_file)                   \
-                          row(SSL_do_handshake) row(SSL_free) row(SSL_get1_peer_certificate)                \
-                              row(SSL_get_error) row(SSL_get_verify_result) row(SSL_load_client_CA_file)    \
-                                  row(SSL_new) row(SSL_read) row(SSL_set_accept_state) row(SSL_set_bio)     \
-                                      row(SSL_shutdown) row(SSL_write) row(TLS_server_method)               \
-                                          row(X509_NAME_print_ex) row(X509_cmp_current_time) row(X509_free) \
-                                              row(X509_get0_notAfter) row(X509_get0_notBefore)              \
-                                                  row(X509_get_subject_name)                                \
-                                                      row(X509_verify_cert_error_string)
+#define CAPSTAN_OPENSSL_FUNCTIONS(row)                                                                       \
+  row(BIO_ctrl) row(BIO_free_all) row(BIO_new) row(BIO_new_mem_buf) row(BIO_read) row(BIO_s_mem) row(        \
+      BIO_write) row(ERR_clear_error) row(ERR_get_error) row(ERR_peek_error) row(ERR_reason_error_string)    \
+      row(EVP_PKEY_free) row(OPENSSL_cleanse) row(OPENSSL_sk_num) row(OPENSSL_sk_value)                      \
+          row(PEM_read_bio_PrivateKey) row(SSL_CTX_check_private_key) row(SSL_CTX_ctrl) row(SSL_CTX_free)    \
+              row(SSL_CTX_get0_certificate) row(SSL_CTX_load_verify_file) row(SSL_CTX_new)                   \
+                  row(SSL_CTX_set_cipher_list) row(SSL_CTX_set_client_CA_list) row(SSL_CTX_set_num_tickets)  \
+                      row(SSL_CTX_set_options) row(SSL_CTX_set_verify) row(SSL_CTX_use_PrivateKey)           \
+                          row(SSL_CTX_use_certificate_chain_file) row(SSL_do_handshake) row(SSL_free)        \
+                              row(SSL_get0_verified_chain) row(SSL_get1_peer_certificate) row(SSL_get_error) \
+                                  row(SSL_get_verify_result) row(SSL_load_client_CA_file) row(SSL_new)       \
+                                      row(SSL_read) row(SSL_set_accept_state) row(SSL_set_bio)               \
+                                          row(SSL_shutdown) row(SSL_write) row(TLS_server_method)            \
+                                              row(X509_NAME_print_ex) row(X509_cmp_current_time)             \
+                                                  row(X509_free) row(X509_get0_notAfter)                     \
+                                                      row(X509_get0_notBefore) row(X509_get_subject_name)    \
+                                                          row(X509_verify_cert_error_string)
 #define CAPSTAN_OPENSSL_ROW(name) decltype(&::name) name = nullptr;
   CAPSTAN_OPENSSL_FUNCTIONS(CAPSTAN_OPENSSL_ROW)
 #undef CAPSTAN_OPENSSL_ROW
@@ -141,6 +142,17 @@ std::string subject_of(const X509* certificate) {
   return size <= 0 ? std::string() : std::string(bytes, static_cast<std::size_t>(size));
 }
 
+/// The subjects of the certificates that vouch for the peer's, each behind a line's end, which no subject has
+/// in this form (RFC 2253 escapes it).
+std::string issuers_of(const SSL* ssl) {
+  std::string out;
+  const auto* chain = reinterpret_cast<const OPENSSL_STACK*>(f().SSL_get0_verified_chain(ssl));
+  const int size = chain == nullptr ? 0 : f().OPENSSL_sk_num(chain);
+  for (int i = 1; i < size; ++i)
+    out += "\n" + subject_of(static_cast<const X509*>(f().OPENSSL_sk_value(chain, i)));
+  return out;
+}
+
 void drain(BIO* from, std::string& into) {
   std::array<char, 16384> bytes;
   for (int n = 0; (n = f().BIO_read(from, bytes.data(), static_cast<int>(bytes.size()))) > 0;)
@@ -209,7 +221,7 @@ struct TlsStream::Held {
   Ssl ssl;
   BIO *in = nullptr, *out = nullptr;  ///< owned by `ssl`
   Fault fault = Fault::kNone;
-  std::string subject, why;
+  std::string subject, identity, why;
 
   State refuse(Fault what, std::string words) {
     fault = what;
@@ -253,6 +265,7 @@ TlsStream::State TlsStream::handshake(std::string_view came, std::string& out) {
       return h.refuse(Fault::kCertificate, "the subject of its certificate has " +
                                                std::to_string(h.subject.size()) + " characters, not 1 to " +
                                                std::to_string(kLongestSubject));
+    h.identity = h.subject + issuers_of(h.ssl.get());
     return State::kReady;
   }
   if (why == SSL_ERROR_WANT_READ || why == SSL_ERROR_WANT_WRITE) return State::kMore;
@@ -300,6 +313,7 @@ void TlsStream::end(std::string& out) {
 }
 
 const std::string& TlsStream::subject() const { return held_->subject; }
+const std::string& TlsStream::identity() const { return held_->identity; }
 TlsStream::Fault TlsStream::fault() const { return held_->fault; }
 const std::string& TlsStream::why() const { return held_->why; }
 

@@ -61,6 +61,9 @@ class TlsStream {
 
   /// The subject of the peer's certificate after the handshake (RFC 2253, ASCII: "CN=mill 3,O=Works").
   [[nodiscard]] const std::string& subject() const;
+  /// Who the peer is: its subject, and behind it, each on a line, those of the certificates that vouch for
+  /// it, up to that of `client_ca`. Two signers may give the same subject; they are two peers.
+  [[nodiscard]] const std::string& identity() const;
 
   enum class Fault : std::uint8_t { kNone, kNoCertificate, kCertificate, kProtocol };
   /// After kWrong of a handshake: what is wrong, and that in words of our own or of OpenSSL, never the

@@ -16,6 +16,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -275,6 +276,25 @@ TEST_F(Tls, APeerIsTheSubjectOfItsCertificateInLogMetricsAndSessions) {
   EXPECT_THAT(lines(), Contains(R"(is 'CN=mill \"3\",O=Works')"));
   EXPECT_EQ(counted(server, R"(capstan_peer_requests_total{peer="CN=mill 4,O=Works"})"), 1);
   EXPECT_EQ(counted(server, R"(capstan_peer_requests_total{peer="CN=mill \\\"3\\\",O=Works"})"), 9);
+}
+
+TEST_F(Tls, TheSameSubjectOfAnotherSignerIsAnotherPeer) {
+  const Identity& second_ca = made.make("the second CA", {.is_ca = true});
+  const Identity& namesake = made.make("mill \"3\"", {.issuer = &second_ca});
+  ServeSettings both = settings();
+  both.tls.client_ca = made.file("both");
+  std::ofstream(both.tls.client_ca) << testing::slurp(ca.certificate_file)
+                                    << testing::slurp(second_ca.certificate_file);
+  const RunningServer server(both);
+  const auto opened = ask(server, &mill, "POST", "/v1/sessions", "{}");
+  ASSERT_EQ(opened.status, 201) << opened.body;
+  const std::string path = "/v1/sessions/" + opened.json()["session"].get<std::string>() + "/result";
+  EXPECT_EQ(ask(server, &mill, "GET", path).status, 200);
+  EXPECT_EQ(ask(server, &namesake, "GET", path).status, 404);
+  EXPECT_EQ(ask(server, &namesake, "GET", "/v1/sessions").json()["sessions"], nlohmann::json::array());
+  EXPECT_EQ(ask(server, &mill, "GET", path).status, 200);
+  // Both are shown by their subject: five requests, and that of the metrics.
+  EXPECT_EQ(counted(server, R"(capstan_peer_requests_total{peer="CN=mill \\\"3\\\",O=Works"})"), 6);
 }
 
 TEST_F(Tls, AClientWithoutAValidCertificateIsRefusedBeforeItsRequestIsRead) {
