@@ -214,7 +214,8 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
                     .smallest = tries.smallest,
                     .memo = tries.memo.get(),
                     .earning_per_min = earning_per_min};
-  piece::report_outside(plan, job);
+  piece::StatedShapes stated = piece::stated_shapes(plan.model);
+  piece::report_outside(plan, stated, job);
   poll();
   const std::size_t most = policy.window ? policy.window->first + policy.window->count : given::kAllSteps;
   if (policy.reopen < Reopen::kOperations) {
@@ -228,7 +229,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   for (model::Provenance& row : piece::kept_corner_rests(corners, now.drafts.steps))
     now.plan.provenance.push_back(std::move(row));
   poll();
-  const auto required = take_requirements(now.plan, asked, job);
+  const auto required = take_requirements(now.plan, asked, std::move(stated), job);
   if (!required) return tl::unexpected(required.error());
   if (const piece::Demands& d = required->demands; d.general)
     now.plan.provenance.push_back({"general tolerance", d.general->text, d.general_from});

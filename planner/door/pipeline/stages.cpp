@@ -45,17 +45,19 @@ Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs
   return Resolved{*std::move(material), *std::move(raw), *std::move(margin)};
 }
 
-Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, Job& job) {
+Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, piece::StatedShapes stated,
+                                   Job& job) {
   const Inputs& inputs = asked.inputs;
   auto demands = piece::demands_of(plan, inputs.general_tolerance, inputs.edge_break_mm, inputs.batch, job);
   if (!demands) return tl::unexpected(demands.error());
-  return Required{*std::move(demands), piece::shapes_of_all(plan, grown_mm(inputs), asked.bans, job)};
+  return Required{*std::move(demands),
+                  piece::shapes_of_all(plan, std::move(stated), grown_mm(inputs), asked.bans, job)};
 }
 
 step::Wishes wishes_of(const Asked& asked) {
   const Inputs& inputs = asked.inputs;
-  return {inputs.objective,      asked.earning_per_min, asked.margin.deviations, inputs.constant_feeds,
-          inputs.cases.get(),    inputs.library,        edits_of(inputs)};
+  return {inputs.objective,   asked.earning_per_min, asked.margin.deviations, inputs.constant_feeds,
+          inputs.cases.get(), inputs.library,        edits_of(inputs)};
 }
 
 std::size_t cut_before(const Asked& asked, const Drafts& drafts) {

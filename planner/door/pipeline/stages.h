@@ -71,7 +71,8 @@ struct Resolved {
 /// Material, raw piece and margin.
 [[nodiscard]] Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs, Job& job);
 /// General tolerance and the demands on each feature.
-[[nodiscard]] Result<Required> take_requirements(const model::Plan& plan, const Asked& asked, Job& job);
+[[nodiscard]] Result<Required> take_requirements(const model::Plan& plan, const Asked& asked,
+                                                 piece::StatedShapes stated, Job& job);
 /// Proposes operations and cutters for features without bound operations.
 [[nodiscard]] Drafted propose_missing(model::Plan plan, Drafts drafts, const Required& required,
                                       const Asked& asked, Job& job);

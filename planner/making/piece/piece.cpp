@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/surroundings.h"
 #include "planner/making/piece/twins.h"
+#include "planner/making/piece/workpiece.h"
 #include "planner/model/features/raw_piece.h"
 
 // Holes that are stated as through and end inside the piece. The bottom condition is the more reliable
@@ -43,28 +44,10 @@ bool open_below(const model::Model& m, const Box3& column) {
   return false;
 }
 
-}  // namespace
-
-Box3 part_box(const Piece& piece) {
-  Box3 out = piece.plan.stock.box;
-  const model::Workpiece* made = model::workpiece_of(piece.plan.model, piece.plan.project);
-  const auto own =
-      made != nullptr ? model::box_of(piece.plan.model, made->its_bounding_geometry) : std::nullopt;
-  const double grown = piece.grown_mm;
-  if (own && made->its_rawpiece.set()) {
-    out = *own;
-  } else if (grown > 0.0) {
-    out.lo = out.lo + geometry::Vec3{grown, grown, grown};
-    out.hi = out.hi - geometry::Vec3{grown, grown, grown};
-  }
-  return out.empty() ? piece.plan.stock.box : out;
-}
-
-Result<std::vector<FeatureShape>> shapes_in_piece(const Piece& piece, AnyRef feature) {
-  auto shapes = model::shapes_of(piece.plan.model, Ref<model::ManufacturingFeature>(feature));
-  if (!shapes) return shapes;
+/// Stops shapes at the walls of the piece, and takes through holes down to its underside.
+void take_into_piece(const Piece& piece, std::vector<FeatureShape>& shapes) {
   const Box3 part = part_box(piece);
-  for (FeatureShape& s : *shapes) {
+  for (FeatureShape& s : shapes) {
     stop_at_walls(piece, s);
     if (s.kind != model::ShapeKind::kHole || !s.through || s.bottom_diameter_mm != s.diameter.nominal_mm)
       continue;
@@ -82,20 +65,51 @@ Result<std::vector<FeatureShape>> shapes_in_piece(const Piece& piece, AnyRef fea
                             " mm above the underside of the piece: it is cut down to the underside");
     s.depth_mm = raw;
   }
+}
+
+}  // namespace
+
+Box3 part_box(const Piece& piece) {
+  Box3 out = piece.plan.stock.box;
+  const model::Workpiece* made = model::workpiece_of(piece.plan.model, piece.plan.project);
+  const auto own =
+      made != nullptr ? model::box_of(piece.plan.model, made->its_bounding_geometry) : std::nullopt;
+  const double grown = piece.grown_mm;
+  if (own && made->its_rawpiece.set()) {
+    out = *own;
+  } else if (grown > 0.0) {
+    out.lo = out.lo + geometry::Vec3{grown, grown, grown};
+    out.hi = out.hi - geometry::Vec3{grown, grown, grown};
+  }
+  return out.empty() ? piece.plan.stock.box : out;
+}
+
+StatedShapes stated_shapes(const model::Model& model) {
+  StatedShapes out;
+  for (const AnyRef f : model.all_below(model::TypeId::kManufacturingFeature))
+    out.emplace_hint(out.end(), f, model::shapes_of(model, Ref<model::ManufacturingFeature>(f)));
+  return out;
+}
+
+Result<std::vector<FeatureShape>> shapes_in_piece(const Piece& piece, AnyRef feature) {
+  auto shapes = model::shapes_of(piece.plan.model, Ref<model::ManufacturingFeature>(feature));
+  if (shapes) take_into_piece(piece, *shapes);
   return shapes;
 }
 
-Shapes shapes_of_all(const model::Plan& plan, double grown_mm, const draft::Bans& bans, Job& job) {
+Shapes shapes_of_all(const model::Plan& plan, StatedShapes stated, double grown_mm, const draft::Bans& bans,
+                     Job& job) {
   const model::Model& m = plan.model;
   Shapes out;
   for (const AnyRef f : m.all_below(model::TypeId::kPlanarFace)) {
     if (bans.left_out(f) != nullptr) continue;  // it stays
-    if (auto s = model::shapes_of(m, Ref<model::ManufacturingFeature>(f)))
-      out.faces.insert(out.faces.end(), s->begin(), s->end());
+    if (const auto& s = stated.at(f)) out.faces.insert(out.faces.end(), s->begin(), s->end());
   }
   std::vector<FeatureShape> all;
-  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
-    if (auto s = shapes_in_piece({plan, out, grown_mm}, f)) all.insert(all.end(), s->begin(), s->end());
+  for (auto& [feature, s] : stated) {
+    if (!s) continue;
+    take_into_piece({plan, out, grown_mm}, *s);
+    std::move(s->begin(), s->end(), std::back_inserter(all));
   }
   out.all = std::move(all);
   const std::set<AnyRef> parts = model::parts_of_others(m);

@@ -42,11 +42,6 @@ struct Piece {
 /// The shapes of a feature in this raw piece: a hole right through reaches the underside.
 [[nodiscard]] Result<std::vector<model::FeatureShape>> shapes_in_piece(const Piece& piece, AnyRef feature);
 
-/// The shapes of all features in this raw piece; faces that `bans` leaves out stay. Reports twins
-/// (PIP-TWICE).
-[[nodiscard]] Shapes shapes_of_all(const model::Plan& plan, double grown_mm, const draft::Bans& bans,
-                                   Job& job);
-
 /// Whether two shapes ask for the same steps and cutters: members of a pattern.
 [[nodiscard]] bool alike(const model::FeatureShape& a, const model::FeatureShape& b);
 

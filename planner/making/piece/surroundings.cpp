@@ -72,6 +72,7 @@ std::optional<double> between(const geometry::Region& a, const geometry::Region&
   for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     for (const Loop& loop : from->loops) {
       for (const Vec2 p : loop) {
+        tick(16);  // it asks all edges of the other, thousands at most
         if (geometry::contains(*to, p)) return 0.0;
         out = std::min(out, geometry::distance_to_boundary(*to, p));
       }

@@ -316,11 +316,10 @@ Result<model::Stock> raw_piece_of(const model::Plan& plan, const WorkpieceWish& 
   return stock;
 }
 
-void report_outside(const model::Plan& plan, Job& job) {
+void report_outside(const model::Plan& plan, const StatedShapes& stated, Job& job) {
   constexpr double kBeyond = model::kBeyondPieceMm;
-  for (const AnyRef f : plan.model.all_below(model::TypeId::kMachiningFeature)) {
-    const auto shapes = model::shapes_of(plan.model, Ref<model::ManufacturingFeature>(f));
-    if (!shapes) continue;
+  for (const auto& [f, shapes] : stated) {
+    if (!shapes || !plan.model.holds<model::MachiningFeature>(f)) continue;
     for (const auto& s : *shapes) {
       if (s.area.empty() || model::has(s.kind, model::ShapeTrait::kOutwards)) continue;
       const auto b = geometry::bounds(s.area);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
+#include "planner/making/piece/piece.h"
 #include "planner/model/plan/plan.h"
 #include "planner/physics/mechanics/loads/margin.h"
 
@@ -45,7 +47,17 @@ struct Margin {
 /// nouns, if the file states none.
 void state_raw_piece(model::Model& m, const geometry::Box3& box);
 
+/// The shapes of all features as their nouns say them, whatever the raw piece is; what has none has the
+/// fault.
+using StatedShapes = std::map<AnyRef, Result<std::vector<model::FeatureShape>>>;
+[[nodiscard]] StatedShapes stated_shapes(const model::Model& model);
+
+/// The shapes of all features in this raw piece, from those that `stated` has of the plan's; faces that
+/// `bans` leaves out stay. Reports twins (PIP-TWICE).
+[[nodiscard]] Shapes shapes_of_all(const model::Plan& plan, StatedShapes stated, double grown_mm,
+                                   const draft::Bans& bans, Job& job);
+
 /// Says which features the raw piece does not hold (PIP-OUTSIDE).
-void report_outside(const model::Plan& plan, Job& job);
+void report_outside(const model::Plan& plan, const StatedShapes& stated, Job& job);
 
 }  // namespace capstan::piece

@@ -6,6 +6,7 @@
 
 #include "planner/making/piece/demands.h"
 #include "planner/making/piece/piece.h"
+#include "planner/making/piece/workpiece.h"
 #include "planner/making/propose/choose.h"
 #include "planner/making/propose/corners.h"
 #include "planner/model/features/in_piece.h"
@@ -35,7 +36,7 @@ model::Plan block_of(const std::string& features, const std::string& material) {
 
 piece::Shapes shapes_of(const model::Plan& plan) {
   Job job;
-  return piece::shapes_of_all(plan, 0.0, {}, job);
+  return piece::shapes_of_all(plan, piece::stated_shapes(plan.model), 0.0, {}, job);
 }
 
 propose::InCorners in_corners(const model::Plan& plan, const piece::Shapes& shapes, const FeatureShape& s) {
