@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/physics/motion/s_curve.h"
 #include "planner/physics/motion/shape.h"
 
@@ -81,6 +82,7 @@ class Scan {
     Shape before;
     std::size_t last = 0;
     for (std::size_t i = 1; i < path_.size(); ++i) {
+      tick();
       const MoveKind kind = path_.kind[i];
       if (!finite_point(path_, i)) return bad("MOT-NUMBER", "a coordinate is not finite", i);
       if (!std::isfinite(schedule_.spindle_rpm[i])) return bad("MOT-NUMBER", "a speed is not finite", i);
@@ -166,6 +168,7 @@ class Scan {
       if (s.length_mm <= 0.0) continue;
       const std::size_t after = next_[i];
       if (after == 0 || touched[after] != 0) ramp.begin(exit_limit(i));
+      tick();
       const double reach = ramp.over(s, exit_limit(i));
       touched[i] = s.entry_mm_s <= reach ? 1 : 0;
       s.entry_mm_s = std::min(s.entry_mm_s, reach);
@@ -175,6 +178,7 @@ class Scan {
       const Segment& s = segments_[i];
       const std::size_t after = next_[i];
       if (s.length_mm <= 0.0) continue;
+      tick();
       if (begins[i] != 0) ramp.begin(s.entry_mm_s);
       const double reach = ramp.over(s, s.entry_mm_s);
       if (after == 0) continue;
@@ -297,6 +301,7 @@ Result<std::vector<MoveReach>> reach_along(const CutterPath& path, const Machine
   Shape before;
   std::size_t last = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
+    tick();
     if (!finite_point(path, i)) return bad("MOT-NUMBER", "a coordinate is not finite", i);
     if (path.kind[i] == MoveKind::kDwell) {
       last = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/physics/stock/coverage.h"
 
 namespace capstan::stock {
@@ -101,6 +102,7 @@ HeightMap from_box(const Box3& box, double cell_mm) {
   const double height = box.size().z;
   const auto filled = [&](int i, double size) { return std::clamp(size / map.cell_mm - i, 0.0, 1.0); };
   for (int iy = 0; iy < map.ny; ++iy) {
+    tick(8);
     const double fy = filled(iy, box.size().y);
     for (int ix = 0; ix < map.nx; ++ix) {
       const double full = fy * filled(ix, box.size().x);
@@ -159,6 +161,7 @@ Patch patch_of(const HeightMap& map, Vec2 lo, Vec2 hi) {
   const auto rows = [&](const std::vector<float>& from, std::vector<float>& to) {
     to.reserve(static_cast<std::size_t>(p.nx) * static_cast<std::size_t>(p.ny));
     for (int y = p.y0; y < p.y0 + p.ny; ++y) {
+      tick(2);
       const auto row = from.begin() + static_cast<std::ptrdiff_t>(map.index(p.x0, y));
       to.insert(to.end(), row, row + p.nx);
     }

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "planner/ground/base/job.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/physics/motion/profile.h"
 
 namespace capstan::motion {
@@ -409,6 +411,19 @@ TEST(TimeProperty, MoreOfAnythingIsNeverSlowerOnStraightMoves) {
     looser.control.path_tolerance_mm *= 2.0;
     EXPECT_LE(time_of(p, f, looser)->cutting_s, base * (1.0 + slack));
   }
+}
+
+TEST(Time, AsksWhetherToStopAlongALongPath) {
+  constexpr int kMoves = 200;  // one look comes at every 64th
+  CutterPath p;
+  p.start({0, 0, 0});
+  for (int i = 1; i <= kMoves; ++i) p.line({static_cast<double>(i), 0, 0}, MoveRole::kCut);
+  const FeedSchedule schedule = feed(p, 50.0);
+  Job job;
+  job.request_stop();
+  const StopScope scope(job);
+  EXPECT_THROW((void)time_of(p, schedule, machine()), Stopped);
+  EXPECT_THROW((void)reach_along(p, machine()), Stopped);
 }
 
 }  // namespace

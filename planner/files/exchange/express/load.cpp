@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "planner/files/exchange/express/tables.h"
+#include "planner/ground/base/stopping.h"
 
 namespace capstan::exchange::express {
 namespace {
@@ -82,6 +83,7 @@ class Loader {
     names();
     for (const auto& b : kBasic) basic_.push_back(&t_->types.emplace_back(Type{.kind = b.kind}));
     for (std::size_t i = 0; i < lines_.size(); ++i) {
+      tick(8);
       Words words(lines_[i]);
       words.next();
       words.next();
@@ -90,9 +92,15 @@ class Loader {
       else
         type(words, *own_[i]);
     }
-    for (std::size_t i = 0; i < t_->entities.size(); ++i) order(i);
+    for (std::size_t i = 0; i < t_->entities.size(); ++i) {
+      tick(8);
+      order(i);
+    }
     ancestors();
-    for (Entity& e : t_->entities) slots(e);
+    for (Entity& e : t_->entities) {
+      tick(8);
+      slots(e);
+    }
     admitted();
     return std::move(t_);
   }
@@ -112,6 +120,7 @@ class Loader {
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(std::min(line.size() + 1, rest.size()));
       if (line.empty() || line.front() == '#') continue;
+      tick();
       lines_.push_back(line);
       Words words(line);
       const std::string_view kind = words.next();
@@ -312,6 +321,7 @@ class Loader {
     }
     for (Type& type : t_->types) {
       if (type.kind != TypeKind::kEntity && type.kind != TypeKind::kSelect) continue;
+      tick(8);
       type.admitted.assign(t_->row, 0);
       std::vector<const Type*> stack{&type}, seen{&type};
       while (!stack.empty()) {

@@ -104,6 +104,7 @@ class FileWriter {
         const AnyRef at = pending.back();
         pending.pop_back();
         if (!at.set() || seen[static_cast<std::size_t>(at.type)][at.index]) continue;
+        tick();
         seen[static_cast<std::size_t>(at.type)][at.index] = true;
         if (is_foreign(at)) continue;
         const bool hidden =

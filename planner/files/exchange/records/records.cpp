@@ -10,6 +10,7 @@
 #include "planner/files/exchange/records/record_machine.h"
 #include "planner/files/exchange/records/record_material.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/decision/contradicted.h"
 #include "planner/model/plan/decision/edited.h"
@@ -238,10 +239,12 @@ class Writing {
              const std::pair<const model::DecisionKey, model::Decision>*>
         in_order;
     for (const auto& entry : plan_.ledger.entries()) {
+      tick();
       if (here(entry.first.object) && model::is_written(plan_.ledger, entry.second))
         in_order[{sink_.order(entry.first.object), entry.first.attribute}] = &entry;
     }
     for (const auto& [place, entry] : in_order) {
+      tick(4);
       const auto& [key, decision] = *entry;
       Binding b{key.object, key.attribute, decision, plan_.ledger.reason(decision.reason),
                 hex64(model::written_hash(written_, plan_.ledger, key, decision))};

@@ -122,6 +122,7 @@ Seals sealed(const p21::File& file, SealText spelling) {
   };
   std::string text;
   for (std::size_t i = 0; i < file.header_count(); ++i) {
+    tick(4);
     const p21::Instance e = file.header(i);
     text.clear();
     if (const auto it = stands(is_of_paths(e.keyword()), e.keyword(), e.parameters()); !it.empty()) {
@@ -135,7 +136,7 @@ Seals sealed(const p21::File& file, SealText spelling) {
       add(e.keyword(), spelled(e.parameters()[0]) + "," + spelled(e.parameters()[1]));
   }
   for (const p21::Instance e : file) {
-    tick();
+    tick(4);
     if (e.part_count() == 1 && is_of_points(e.part(0).keyword)) {
       const p21::Record part = e.part(0);
       if (const auto it = stands(!e.is_complex(), part.keyword, part.parameters); !it.empty()) {

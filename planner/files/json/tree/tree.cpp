@@ -1,4 +1,5 @@
 #include "planner/files/json/tree/tree.h"
+#include "planner/ground/base/stopping.h"
 
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -44,6 +45,7 @@ class Builder final : public nlohmann::json_sax<Tree> {
  private:
   template <class T>
   Tree* place(T&& v) {
+    tick();
     if (open_.empty()) {
       tree_ = std::forward<T>(v);
       return &tree_;

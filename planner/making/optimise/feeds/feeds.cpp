@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/making/optimise/cut/law/law.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/feeds/motion_limits.h"
@@ -55,6 +56,7 @@ double constant_feed(const FeedQuestion& q, const CutterPath& path, CutClasses& 
   for (std::size_t k = 0; k < q.samples.size(); ++k) {
     const CutSample& s = q.samples[k];
     if (s.plunge || !(s.ap_mm > 0.0) || s.move >= path.size() || ends_in(path.role[s.move])) continue;
+    tick();
     const double n = rpm_on(q, s.move);
     const double on_grid = sample_feed(classes, s, q.cut, n).feed_mm_min;
     if (on_grid < best) order.emplace_back(on_grid, k);
@@ -140,6 +142,7 @@ class Worst {
     const auto& feeds = a_.schedule.feed_mm_min;
     for (const CutSample& s : q.samples) {
       if (s.move >= feeds.size() || s.move >= path.size() || !(feeds[s.move] > 0.0)) continue;
+      tick();
       bool here = s.plunge && class_ == nullptr && s.ap_mm > 0.0 && rpm_on(q, s.move) == plunge_rpm_;
       const Cuts cuts = cuts_of(s, q.cut);
       for (std::size_t c = 0; c < cuts.n && !s.plunge && class_ != nullptr; ++c) {
@@ -174,6 +177,7 @@ void measure_peaks(const FeedQuestion& q, const CutterPath& path, CutClasses& cl
       if (s.ap_mm > 0.0) most = std::max(most, feed);
       continue;
     }
+    tick();
     const Cuts cuts = cuts_of(s, q.cut);
     for (std::size_t c = 0; c < cuts.n && feed > 0.0; ++c) {
       CutClass& kind = classes.class_of(cuts.cut[c], rpm_on(q, s.move));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/vocabulary/control_rows.h"
 
 namespace capstan::optimise::feed {
@@ -126,6 +127,7 @@ Followed followed(const FeedQuestion& q, const CutterPath& path, std::vector<dou
   const auto reach = motion::reach_along(path, machine);
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (!at_feed(path, i)) continue;
+    tick();
     double axes = across_mm_min(path, i, machine);
     if (reach && (*reach)[i].length_mm > 0.0) axes = std::min(axes, (*reach)[i].most_mm_min);
     if (axes < f.feed_mm_min[i]) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/making/optimise/feeds.h"
 #include "planner/making/step/path/remembered/cells.h"
 #include "planner/making/step/path/remembered/planar.h"
@@ -156,6 +157,7 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
   auto& exact = exact_[setup];
   const auto profile = model::profile_of(cutter);
   patches_[setup].push_back(columns_under(map, path, profile));
+  poll();
   if (!exact || !exact->lost().empty()) return measure_again(map, path, cutter, memo_);
   if (engagement::head_height(cutter) || !geometry::is_flat(profile)) {
     auto cells = measure_again(map, path, cutter, memo_);
@@ -173,6 +175,7 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     if (exact->lost().empty()) exact->lose(measured.error().message);
     return measure_again(map, path, cutter, memo_);
   }
+  poll();
   // Two accounts of one cut: where they contradict each other the map's is kept. A map whose cells are coarse
   // for the cutter, as that of a large piece is, is off by itself in proportion.
   const double cells_mm3 = stock::cut(map, profile, path);

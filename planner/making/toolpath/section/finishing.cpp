@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/making/toolpath/section/section.h"
 
 namespace capstan::toolpath {
@@ -39,7 +40,10 @@ std::vector<SectionPass> lowest_places(const Section& s, const Tip& tip) {
   std::erase_if(us, [](double u) { return u < 0.0 || (u > 0.0 && u < kLeastU); });
   std::sort(us.begin(), us.end(), std::greater<>());
   std::vector<SectionPass> out;
-  for (const double u : us) out.push_back({u, drop(s, tip, u)});
+  for (const double u : us) {
+    tick(4);
+    out.push_back({u, drop(s, tip, u)});
+  }
   return out;
 }
 
@@ -53,6 +57,7 @@ class Finisher {
         places_(lowest_places(s, tip)) {
     best_.assign(points_.size(), 1e300);
     for (const SectionPass& p : places_) {
+      tick(16);  // some 1,500 points
       std::size_t at = 0;
       double nearest = 1e300;
       for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -91,6 +96,7 @@ class Finisher {
   [[nodiscard]] std::size_t first() const {
     std::size_t at = 0;
     for (std::size_t i = 0; i < places_.size(); ++i) {
+      tick();
       if (gap_to(tip_, places_[i], section_.wall.back()) <= kTouches) at = i;
     }
     return at;
@@ -103,6 +109,7 @@ class Finisher {
 
   /// True if passes i and j leave at most the scallop between i's contact and the given point.
   [[nodiscard]] bool covered(std::size_t i, std::size_t j, std::size_t to) const {
+    tick(16);  // some 1,500 points at most
     const std::size_t lo = std::min(to, contact_[i]);
     const std::size_t hi = std::max(to, contact_[i]);
     for (std::size_t k = lo; k <= hi; ++k) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/features/resolve.h"
 #include "planner/model/features/shape/build.h"
 #include "planner/model/nouns/feature.h"
@@ -173,6 +174,7 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
     return Vec2{b.lo.x + (ix + 0.5) * cell.x, b.lo.y + (iy + 0.5) * cell.y};
   };
   const auto taken = [&](Vec2 p) {
+    tick(4);
     const auto own = floor_at(s, p);
     return own && *own <= -kLidMm;
   };
@@ -187,6 +189,7 @@ std::optional<Buried> buried(const FeatureShape& s, const std::vector<FeatureSha
     if (!taken(p)) standing.push_back({p, face_over(s, features, p, box.hi.z)});
   }
   const auto lid = [&](double x, double y, double z) {
+    tick(4);
     const Vec3 p = s.frame.to_parent({x, y, z});
     return in_piece(p, part) &&
            std::none_of(features.begin(), features.end(), [&](const FeatureShape& o) { return takes(o, p); });

@@ -11,6 +11,7 @@
 #include "planner/files/p21/print.h"
 #include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/memory/large_pages.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/all.h"
 
 namespace capstan::exchange {
@@ -69,10 +70,15 @@ Status within_limits(const model::Plan& plan, const model::Model& written, std::
 Result<Written> write_ap238(const model::Plan& plan, Job& job) {
   Written out;
   model::Plan copy = plan;
+  poll();
   if (auto done = ap238::write_paths(copy, out.losses); !done) return fail(done.error());
+  poll();
   ap238::state_frames(copy);
+  poll();
   ap238::helices_to_via_points(copy, out.losses);
+  poll();
   const auto unlisted = ap238::to_ap238(copy, out.losses);
+  poll();
   ap238::Writer writer(copy, ap238::Mapping::instance(), out.losses);
   writer.run(unlisted);
   const auto name = [&](model::AnyRef r) { return writer.reference_text(r); };

@@ -52,7 +52,7 @@ void Writer::run(const std::vector<Unlisted>& unlisted) {
   for (const AnyRef f : m_.all_below(TypeId::kManufacturingFeature)) require(f);
   for (const AnyRef k : plan_.kept) require(k);
   while (!tasks_.empty() || !to_scan_.empty()) {
-    tick();
+    tick(8);  // rows of a noun take up to some 50 us
     if (!tasks_.empty()) {
       const Task t = tasks_.front();
       tasks_.pop_front();

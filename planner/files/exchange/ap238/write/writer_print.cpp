@@ -134,7 +134,7 @@ void Writer::print(std::string& out, Seals& sealed, std::string& unsealed) {
   };
   std::array<char, kLineRoom> room;
   for (Id id = 1; id <= instances_.size(); ++id) {
-    tick();
+    tick(2);
     if (!reserved_.empty() && reserved_.contains(id)) continue;
     const Instance& instance = instances_[id - 1];
     const std::size_t line = out.size();

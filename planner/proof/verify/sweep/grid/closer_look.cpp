@@ -79,8 +79,16 @@ struct EarlierCuts::Point {
 };
 
 void EarlierCuts::begin(const Grid& grid) {
-  stock_ = grid.stock;
-  base_ = grid.base;
+  constexpr std::size_t kAtOnce = 1 << 16;  // a new page costs more than its numbers
+  for (const auto& [from, to] : {std::pair(&grid.stock, &stock_), std::pair(&grid.base, &base_)}) {
+    to->clear();
+    to->reserve(from->size());
+    for (std::size_t i = 0; i < from->size(); i += kAtOnce) {
+      const auto at = from->begin() + static_cast<std::ptrdiff_t>(i);
+      to->insert(to->end(), at, at + static_cast<std::ptrdiff_t>(std::min(kAtOnce, from->size() - i)));
+      poll();
+    }
+  }
   cuts_.clear();
   squares_.assign(std::size_t{kSquares} * kSquares, {});
   indexed_ = 0;

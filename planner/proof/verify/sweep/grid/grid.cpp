@@ -1,4 +1,5 @@
 #include "planner/proof/verify/sweep/grid/grid.h"
+#include "planner/ground/base/stopping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +22,15 @@ Raster::Raster(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
 }
 
 Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : Raster(lo, hi, cell_mm, maximum_cells) {
-  stock.assign(index(0, ny_), kNothing);
-  part.assign(index(0, ny_), kNothing);
-  base.assign(index(0, ny_), kNothing);
+  constexpr std::size_t kAtOnce = 1 << 16;  // a new page costs more than its numbers
+  for (std::vector<double>* heights : {&stock, &part, &base}) {
+    const std::size_t n = index(0, ny_);
+    heights->reserve(n);
+    while (heights->size() < n) {
+      heights->resize(std::min(n, heights->size() + kAtOnce), kNothing);
+      poll();
+    }
+  }
   row_top_.assign(static_cast<std::size_t>(ny_), kNothing);
   blocks_ = (nx_ + kBlock - 1) / kBlock;
   block_top_.assign(static_cast<std::size_t>(ny_) * static_cast<std::size_t>(blocks_), kNothing);
