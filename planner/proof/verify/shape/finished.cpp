@@ -8,6 +8,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
+#include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/program/program_checks.h"
