@@ -36,7 +36,7 @@ struct Asked {
   const draft::Recorded& recorded;
   const std::map<AnyRef, std::string>&
       unreadable;  ///< features and steps whose file states something wrongly
-  mechanics::MarginPolicy margin = mechanics::kUsualMargin;  ///< of loads against their limits
+  mechanics::MarginPolicy margin = mechanics::usual_margin();  ///< of loads against their limits
   propose::Thrift thrift = propose::Thrift::kNone;
   const step::SmallestCutters& smallest;  ///< of each set-up in the last try
   memo::Memo* memo = nullptr;             ///< results of earlier plannings; null: none

@@ -96,6 +96,16 @@ std::string set_revenue(Request& r, Text text) {
   r.revenue = *v;
   return {};
 }
+std::string set_margin(Request& r, Text text) {
+  if (!mechanics::margin_policy(text)) {
+    std::string names;
+    for (const std::string& name : mechanics::margin_names()) names += name + ", ";
+    return "'" + text + "' is no margin; expected " + names +
+           "or a number of standard deviations above 0 and at most " + trimmed(mechanics::kMostDeviations, 1);
+  }
+  r.margin = text;
+  return {};
+}
 std::string set_general_tolerance(Request& r, Text text) {
   if (text.find(',') != std::string::npos)
     return "'" + text + "' has a comma; decimals are written with a point";
@@ -215,10 +225,13 @@ std::vector<Option> table() {
        both("what is made least or most: time, cost, or profit per time (needs --revenue)"),
        [](Request& r, Text t) { return r.objective = value_of(objective_words(), t), std::string(); },
        names(objective_words())},
-      {"margin", Value::kWord,
+      {"margin",
+       Value::kText,
        both("how far above the expected loads the loads are that limits are held against: careful "
-            "(19 of 20 cuts stay below), usual (5 of 6; the default), bold (7 of 10)"),
-       [](Request& r, Text t) { return r.margin = t, std::string(); }, mechanics::margin_names()},
+            "(19 of 20 cuts stay below), usual (5 of 6; the default), bold (7 of 10), or a number of "
+            "standard deviations, e.g. 1.28 (9 of 10)"),
+       &set_margin,
+       {}},
       {"revenue",
        Value::kText,
        both("what a piece brings less its material, in the currency of the machine's cost per hour"),

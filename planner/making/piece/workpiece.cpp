@@ -240,13 +240,18 @@ Result<model::WorkMaterial> material_of(const model::Plan& plan, const Workpiece
   return std::move(material->material);
 }
 
+std::optional<mechanics::MarginPolicy> margin_said(const model::Plan& plan) {
+  for (const model::Provenance& p : plan.provenance)
+    if (p.what == kMargin) return mechanics::margin_policy(p.value);
+  return mechanics::usual_margin();
+}
+
 Result<Margin> margin_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job) {
-  if (wish.margin)
-    return Margin{*wish.margin, {kMargin, std::string(wish.margin->name), "named by the caller"}};
+  if (wish.margin) return Margin{*wish.margin, {kMargin, wish.margin->name, "named by the caller"}};
   const auto before = std::find_if(plan.provenance.begin(), plan.provenance.end(),
                                    [](const model::Provenance& p) { return p.what == kMargin; });
   if (before == plan.provenance.end())
-    return Margin{mechanics::kUsualMargin, {kMargin, std::string(mechanics::kUsualMargin.name), "default"}};
+    return Margin{mechanics::usual_margin(), {kMargin, mechanics::usual_margin().name, "default"}};
   const auto policy = mechanics::margin_policy(before->value);
   if (!policy) {
     Diagnostic d = unknown_name(kMargin, before->value, mechanics::margin_names(), "capstan plan --help");

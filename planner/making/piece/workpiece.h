@@ -30,9 +30,11 @@ struct WorkpieceWish {
 
 /// The margin, and who named it.
 struct Margin {
-  mechanics::MarginPolicy policy = mechanics::kUsualMargin;
+  mechanics::MarginPolicy policy = mechanics::usual_margin();
   model::Provenance said;
 };
+/// The margin that the plan was made with, by what it says; none where it names one that nobody knows.
+[[nodiscard]] std::optional<mechanics::MarginPolicy> margin_said(const model::Plan& plan);
 /// The margin of loads: the caller's, else the one that the plan was made with.
 /// Fails  NAME-UNKNOWN for a name in the plan that no margin has.
 [[nodiscard]] Result<Margin> margin_of(const model::Plan& plan, const WorkpieceWish& wish, Job& job);

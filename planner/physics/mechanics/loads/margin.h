@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/ground/base/number.h"
+
 /// The one policy of margins: the ratio of the load that is compared with a limit to the expected load.
 ///
 /// A force may exceed the computed one because the coefficients of the material spread, because the edge
@@ -25,26 +27,40 @@
 ///           side: most of an edge's life and of a program runs below).
 namespace capstan::mechanics {
 
+/// A policy of the shop's own is a number of deviations, of which it is also the name. More than
+/// kMostDeviations hold back what no spread explains; at none, every second cut exceeds its limit.
 struct MarginPolicy {
-  std::string_view name;
+  std::string name;
   double deviations = 1.0;  ///< k
 };
+inline constexpr double kMostDeviations = 3.0;
 
-/// The shop's to choose (--margin): the load stays below its limit in 95 %, 84 % and 70 % of all cuts.
-inline constexpr std::array<MarginPolicy, 3> kMarginPolicies = {
+/// Those with a name (--margin): the load stays below its limit in 95 %, 84 % and 70 % of all cuts.
+struct NamedMargin {
+  std::string_view name;
+  double deviations;
+};
+inline constexpr std::array<NamedMargin, 3> kNamedMargins = {
     {{"careful", 1.6449}, {"usual", 1.0}, {"bold", 0.5244}}};
-inline constexpr MarginPolicy kUsualMargin = kMarginPolicies[1];
+inline constexpr NamedMargin kUsualMargin = kNamedMargins[1];
+[[nodiscard]] inline MarginPolicy usual_margin() {
+  return {std::string(kUsualMargin.name), kUsualMargin.deviations};
+}
 
-[[nodiscard]] constexpr std::optional<MarginPolicy> margin_policy(std::string_view name) {
-  for (const MarginPolicy& p : kMarginPolicies) {
-    if (p.name == name) return p;
+/// A policy by its name, or by its number of deviations ("1.28": 90 % of all cuts), above 0 and at most
+/// kMostDeviations; none for other words.
+[[nodiscard]] inline std::optional<MarginPolicy> margin_policy(const std::string& name) {
+  for (const NamedMargin& m : kNamedMargins) {
+    if (m.name == name) return MarginPolicy{name, m.deviations};
   }
-  return std::nullopt;
+  const auto k = parse_double(name);
+  if (!k || !(*k > 0.0) || !(*k <= kMostDeviations)) return std::nullopt;
+  return MarginPolicy{shortest(*k), *k};
 }
 
 [[nodiscard]] inline std::vector<std::string> margin_names() {
   std::vector<std::string> names;
-  for (const MarginPolicy& p : kMarginPolicies) names.emplace_back(p.name);
+  for (const NamedMargin& m : kNamedMargins) names.emplace_back(m.name);
   return names;
 }
 

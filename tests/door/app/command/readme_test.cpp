@@ -141,11 +141,11 @@ TEST(ReadmeFigures, SayHowManyCutsStayBelowEachMargin) {
   std::vector<double> shares;
   for (std::sregex_iterator it(sentence.begin(), sentence.end(), share), end; it != end; ++it)
     shares.push_back(std::stod((*it)[1]) / std::stod((*it)[2]));
-  ASSERT_EQ(shares.size(), mechanics::kMarginPolicies.size());
+  ASSERT_EQ(shares.size(), mechanics::kNamedMargins.size());
   for (std::size_t i = 0; i < shares.size(); ++i) {
     // Below k standard deviations lies this share of a normal distribution.
-    const double below = 0.5 * std::erfc(-mechanics::kMarginPolicies[i].deviations / std::sqrt(2.0));
-    EXPECT_NEAR(shares[i], below, 0.01) << mechanics::kMarginPolicies[i].name;
+    const double below = 0.5 * std::erfc(-mechanics::kNamedMargins[i].deviations / std::sqrt(2.0));
+    EXPECT_NEAR(shares[i], below, 0.01) << mechanics::kNamedMargins[i].name;
   }
 }
 

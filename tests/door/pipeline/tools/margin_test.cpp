@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "planner/physics/mechanics/loads/margin.h"
@@ -69,6 +70,33 @@ TEST(Margin, GivesHigherLoadsForTheSameCutTheMoreCarefulItIs) {
     EXPECT_GT(factor, last) << name;
     last = factor;
   }
+}
+
+// 1.28 standard deviations: nine of ten cuts stay below, between the usual and the careful.
+TEST(Margin, OfTheShopsOwnNumberOfDeviationsLiesBetweenThoseOfItsNeighboursAndHolds) {
+  const auto factor = [](const char* name) {
+    Inputs in = shop();
+    in.margin = mechanics::margin_policy(name);
+    const auto plan = bound(pocket(), in);
+    return plan && !plan->steps.empty() ? plan->steps.front().loads.force_margin : 0.0;
+  };
+  EXPECT_GT(factor("1.28"), factor("usual"));
+  EXPECT_LT(factor("1.28"), factor("careful"));
+  // The factor is exp(k s): its logarithm goes with the deviations.
+  EXPECT_NEAR(std::log(factor("1.28")), 1.28 * std::log(factor("usual")), 1e-6);
+  Inputs in = shop();
+  in.margin = mechanics::margin_policy("1.280");
+  const auto plan = bound(pocket(), in);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(margin_of(*plan), "1.28");
+  const auto second = bound(model::Plan(*plan), shop());
+  ASSERT_TRUE(second);
+  EXPECT_EQ(margin_of(*second), "1.28");
+}
+
+TEST(Margin, OfNoDeviationsOrOfTooManyIsNone) {
+  for (const char* wrong : {"0", "-1", "3.01", "1e9", "nan", "inf", "", "1,28", "reckless"})
+    EXPECT_FALSE(mechanics::margin_policy(wrong)) << wrong;
 }
 
 TEST(Margin, OfAPlanThatNobodyKnowsIsRefusedWithTheNames) {
