@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "planner/door/service/explain/computed.h"
 #include "planner/door/service/explain/step_view.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
@@ -12,7 +13,6 @@
 #include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/edited.h"
 #include "planner/model/plan/resources/changed_by_hand.h"
-#include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::service {
@@ -24,7 +24,6 @@ using model::Plan;
 
 namespace {
 
-constexpr int kDecimals = 4;
 constexpr int kChainDepth = 12;  // largest number of dependencies shown one below the other
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -156,73 +155,6 @@ void chain(const Plan& plan, const model::StepResult* result, const Decision& d,
       out += indent + "  (and what that depends on)\n";
     }
   }
-}
-
-/// A value that planning computed beside the nouns.
-struct Computed {
-  std::string name, value, how;
-};
-
-std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
-  std::vector<Computed> out;
-  const auto* r = v.result;
-  if (r == nullptr) return out;
-  const auto add = [&](std::string name, double value, const std::string& unit, std::string how) {
-    if (value != 0.0) out.push_back({std::move(name), trimmed(value, kDecimals) + unit, std::move(how)});
-  };
-  if (!r->cutter_id.empty()) {
-    const auto* c = model::find_cutter(plan, r->cutter_id);
-    std::string value = r->cutter_id;
-    if (c != nullptr)
-      value += " (" + cutter_text(plan, r->cutter_id) + ", T" + std::to_string(c->pocket) + ")";
-    out.push_back({"cutter", value, "see its_tool"});
-  }
-  add("axial_depth", r->axial_depth_mm, " mm", "as cut; the operation's depth divided into equal levels");
-  add("radial_depth", r->radial_depth_mm, " mm", "as cut");
-  add("spindle_rpm", std::abs(r->spindle_rpm), r->spindle_rpm < 0.0 ? " 1/min, counter-clockwise" : " 1/min",
-      "see spindle of its_technology");
-  add("vc", r->vc_m_min, " m/min", "pi D n / 1000, D the whole diameter");
-  add("feed", r->feed_mm_min, " mm/min",
-      "before the schedule along the path; see feedrate of its_technology");
-  add("fz", r->fz_mm, " mm", "feed per tooth: feed / (teeth n)");
-  add("peak_force", r->loads.peak_force_n, " N", "largest cutting force along the path");
-  add("torque", r->loads.torque_nm, " Nm", "largest");
-  add("power", r->loads.power_w, " W", "largest");
-  add("deflection", r->loads.deflection_mm, " mm", "of the tip, largest");
-  add("chip_thickness", r->loads.chip_thickness_mm, " mm", "largest");
-  const auto axes = [](const model::AxisForces& f) {
-    return trimmed(f.x_n, 0) + ", " + trimmed(f.y_n, 0) + ", " + trimmed(f.z_n, 0) + " N";
-  };
-  const auto forces = [&](const char* name, const model::AxisForces& f, const char* how) {
-    if (f.x_n != 0.0 || f.y_n != 0.0 || f.z_n != 0.0) out.push_back({name, axes(f), how});
-  };
-  forces("mean_forces", r->loads.mean_force,
-         "along the feed, to its left, away from the work: largest means");
-  forces("peak_forces", r->loads.peak_force, "the same, largest at any moment");
-  const auto* cutting = model::find_cutter(plan, r->cutter_id);
-  if (cutting != nullptr && v.operation.set() && r->loads.force_margin > 0.0)
-    out.push_back({"forces", "by coefficients",
-                   mechanics::force_source(plan.material, cutting->substrate,
-                                           mechanics::is_milled(v.operation.type, *cutting))});
-  if (r->loads.force_margin > 0.0) {
-    const char* what = "of a sharp edge with mean coefficients at the planned feed: what a load meter shows";
-    add("expected_force", r->loads.peak_force_n / r->loads.force_margin, " N", what);
-    // Where a measured set gives the forces, power may be the card's, whose margin is another.
-    if (cutting == nullptr || mechanics::measured_set(plan.material, cutting->substrate) == nullptr ||
-        !mechanics::is_milled(v.operation.type, *cutting))
-      add("expected_power", r->loads.power_w / r->loads.force_margin, " W", what);
-  }
-  add("force_margin", r->loads.force_margin, "",
-      "factor in these loads on the expected ones of a sharp edge: spread, wear and override together");
-  add("wall_error", r->loads.wall_error_mm, " mm", "that bending leaves on the wall; above 0: material");
-  add("surface_rz", 1000.0 * r->loads.surface_rz_mm, " um", "feed marks by geometry alone");
-  add("edge_life", r->loads.tool_life_min, " min", "cutting time of an edge at this speed and feed");
-  add("removal_rate", r->loads.mrr_mm3_min, " mm3/min", "largest");
-  if (r->cutting_s + r->rapid_s > 0.0) {
-    out.push_back({"time", duration(r->cutting_s + r->rapid_s),
-                   "cutting " + duration(r->cutting_s) + ", rapids " + duration(r->rapid_s)});
-  }
-  return out;
 }
 
 std::string headline(const Plan& plan, const StepView& v) {

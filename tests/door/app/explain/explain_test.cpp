@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "planner/files/exchange/exchange.h"
+#include "planner/ground/base/number.h"
 #include "planner/model/plan/corner_rest.h"
+#include "planner/physics/mechanics/force/force_law.h"
 #include "tests/door/app/plans.h"
 
 namespace capstan::app {
@@ -14,6 +16,7 @@ namespace {
 
 using service::explain;
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -84,6 +87,26 @@ TEST(Explain, LimitsAreToldWithTheirSpeedAndTheSecondsTheyCost) {
               HasSubstr("62 % of the time  held by peak force         500 N  10 % more would save 2.5 s"));
   EXPECT_THAT(*text, HasSubstr("38 % of the time  held by axis acceleration"));
   EXPECT_THAT(*text, HasSubstr("100, -40, 12 N"));
+}
+
+// A load meter shows the expected load; limits are held against that times the margin, whose factors stand
+// there.
+TEST(Explain, LoadsAreToldAsExpectedAndWithTheChainOfFactorsUpToTheLimit) {
+  auto plan = testing::planned_plate();
+  auto& step = plan.steps.front();
+  plan.provenance.push_back({"margin", "careful", "--margin"});
+  const mechanics::ForceMargin margin{.spread = mechanics::kienzle_margin(plan.material).spread,
+                                      .override_up = 1.2,
+                                      .deviations = mechanics::margin_policy("careful")->deviations};
+  step.loads.force_margin = margin.factor();
+  step.loads.peak_force_n = 1000.0 * margin.factor();
+  step.loads.power_w = 500.0 * margin.factor();
+  const auto text = explain(plan, "DRILL IT");
+  ASSERT_TRUE(text) << to_text(text.error());
+  EXPECT_THAT(*text, ContainsRegex("expected_force +1000 N"));
+  EXPECT_THAT(*text, ContainsRegex("expected_power +500 W"));
+  EXPECT_THAT(*text, HasSubstr("margin careful, exp(1.64 sqrt(ln^2 " + trimmed(margin.spread, 3) +
+                               " + ln^2 1.3 + ln^2 1.2)) of the spread of the coefficients"));
 }
 
 TEST(Explain, ALimitThatNobodyStatesIsNotTold) {
