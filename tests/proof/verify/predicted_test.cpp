@@ -348,6 +348,31 @@ TEST(PredictedFeed, ThatSteelBearsRubsInWhatHardens) {
   EXPECT_TRUE(of(k, "CHK-RUB").empty());
 }
 
+// Planning has other depths, tools and ways; what a file states is the file's to know.
+TEST(PredictedFeed, ThatRubsIsAnErrorWherePlanningChoseItAndAWarningWhereAFileStatesIt) {
+  PlanMaker k = testing::good_plan();
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  k.plan.material.iso_group = "S";
+  testing::edit_schedule(k.plan, 0, [](model::FeedSchedule& s) {
+    for (double& f : s.feed_mm_min) f = 60;
+  });
+  auto found = of(k, "CHK-RUB");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kWarning);
+  const auto* ws = k.plan.model.get<model::MachiningWorkingstep>(k.plan.steps[0].step);
+  ASSERT_NE(ws, nullptr);
+  model::MillingTechnology technology;
+  technology.feedrate = 60.0;
+  auto* op = k.plan.model.get<model::MachiningOperation>(ws->its_operation);
+  ASSERT_NE(op, nullptr);
+  op->its_technology = k.plan.model.add(technology);
+  k.plan.ledger.bind(op->its_technology, "feedrate", model::Binder::kOptimiser,
+                     {"cut", "the quickest", "own"}, {}, {});
+  found = of(k, "CHK-RUB");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::kError);
+}
+
 // What an aluminium mill bears in aluminium says nothing of steel: the limit there stays 0.02 D = 0.2 mm.
 TEST(PredictedFeed, OfAnotherMaterialsPresetIsNoLimitInThisOne) {
   PlanMaker k = testing::good_plan();

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/model/nouns/all.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/resources/specific_force.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/proof/verify/copies/copies.h"
@@ -257,11 +259,24 @@ void StepChecks::chips(const Move& m, const Bite& bite, double fz) {
 void StepChecks::rubbing() {
   constexpr double kHarmlessMm = 1.0;  // default, unsourced
   if (rubbed_mm_ <= kHarmlessMm) return;
-  out_.warn(18, "CHK-RUB", rubbed_,
-            "over " + mm(rubbed_mm_) + " of way in material the feed is down to " + mm(rubbed_at_mm_) +
-                " per tooth, where an edge rubs; at least " + mm(least_chip_mm_) + " in " +
-                plan_.material.id + ": feed faster, cut less deep, or use a stiffer cutter",
-            rubbed_at_mm_);
+  const std::string text = "over " + mm(rubbed_mm_) + " of way in material the feed is down to " +
+                           mm(rubbed_at_mm_) + " per tooth, where an edge rubs; at least " +
+                           mm(least_chip_mm_) + " in " + plan_.material.id +
+                           ": feed faster, cut less deep, or use a stiffer cutter";
+  // What a file or the operator states is theirs to know; planning has other depths, tools and ways.
+  if (feed_chosen_) {
+    out_.error(18, "CHK-RUB", rubbed_, text, rubbed_at_mm_);
+  } else {
+    out_.warn(18, "CHK-RUB", rubbed_, text, rubbed_at_mm_);
+  }
+}
+
+bool chose_feed(const model::Plan& plan, const model::MachiningWorkingstep& ws) {
+  const auto* op = plan.model.get<model::MachiningOperation>(ws.its_operation);
+  if (op == nullptr) return false;
+  for (const char* name : {"feedrate", "feedrate_per_tooth"})
+    if (model::by_planning(plan.ledger.find(op->its_technology, name))) return true;
+  return false;
 }
 
 double StepChecks::thickest_chip() const { return feed_limit_.mm * (1.0 + kWritten); }

@@ -128,6 +128,7 @@ StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& gri
                       " is too thin to be judged on cells of " + mm(grid.cell()) +
                       ": whether it touches the thread's crests is not looked at");
   ramp_chosen_ = ws != nullptr && chose_ramp(plan, *ws);
+  feed_chosen_ = ws != nullptr && chose_feed(plan, *ws);
   std::string why;
   if (undercuts(cutter_.cutter_class)) {
     why = "an undercut is not held as heights";

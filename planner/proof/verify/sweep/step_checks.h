@@ -115,6 +115,7 @@ class StepChecks {
     bool axial = false;
     long where = -1;
   } sum_;
+  bool feed_chosen_ = false;                                    ///< by planning
   bool arcs_count_ = false;                                     ///< a short arc of contact allows more speed
   double heated_min_ = 0.0, heated_ = 0.0, fastest_rpm_ = 0.0;  ///< minutes; times speed to 1 / n; 1/min
   double widest_rpm_ = 0.0;                                     ///< the fastest of cuts half as wide as it is
@@ -125,6 +126,8 @@ class StepChecks {
 void cut_before(EarlierCuts& earlier, const StepMoves& step);
 /// Whether planning chose how steep the step goes down: it made the path, and the file asks for no angle.
 [[nodiscard]] bool chose_ramp(const model::Plan& plan, const model::MachiningWorkingstep& ws);
+/// Whether planning chose the step's feed, and neither a file nor the operator.
+[[nodiscard]] bool chose_feed(const model::Plan& plan, const model::MachiningWorkingstep& ws);
 [[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);
 [[nodiscard]] bool works_along_axis(const model::Cutter& c);
 /// Motor power and torque for continuous running at a speed, between the curve's points; power linear

@@ -264,6 +264,7 @@ Key KnownSteps::key_of(const StepMoves& step, const SweptSetup& setup, bool begu
       memo::pack(bytes, ws->its_operation.type);
       memo::pack(bytes, plan_.model.get<model::Two5dMillingOperation>(ws->its_operation) != nullptr);
       memo::pack(bytes, chose_ramp(plan_, *ws));
+      memo::pack(bytes, chose_feed(plan_, *ws));
     }
   }
   memo::pack(bytes, setup.squares.near(step, reach_mm, setup.target.stock().hi.z + kClearMm));
