@@ -228,6 +228,40 @@ TEST(AreaPath, FinishesTheShellThatRoughingLeft) {
   EXPECT_NEAR(map.highest(geometry::offset(geometry::offset(t.shape.reach, -4.0), 3.7)), -9.0, 1e-4);
 }
 
+TEST(AreaPath, FollowsAFinishedWallPastWhereItBegan) {
+  PathJob t = area_job(geometry::rectangle({0, 0}, {60, 40}), 6.0, 8.0);
+  t.operation = model::TypeId::kBottomAndSideFinishMilling;
+  t.strategy = StrategyKind::kContourParallel;
+  t.axial_depth_mm = 6.0;
+  t.left_on_side_mm = 0.5;
+  t.left_on_bottom_mm = 0.3;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_LE(gouge_mm(*g, t.shape.reach, 4.0, -1e-6), 0.003);
+  // The centre's way along the wall: the rectangle shrunk by the radius, which the path meets and leaves
+  // once.
+  const auto on_wall = [&](std::size_t i) {
+    const double x = g->path.x[i], y = g->path.y[i];
+    return g->path.z[i] < -5.9 && x > 4.0 - 1e-6 && x < 56.0 + 1e-6 && y > 4.0 - 1e-6 && y < 36.0 + 1e-6 &&
+           (std::abs(x - 4.0) < 1e-6 || std::abs(x - 56.0) < 1e-6 || std::abs(y - 4.0) < 1e-6 ||
+            std::abs(y - 36.0) < 1e-6);
+  };
+  double along = 0.0;
+  std::size_t met = 0;
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    if (!on_wall(i)) continue;
+    if (on_wall(i - 1)) {
+      along += model::move_length(g->path, i);
+    } else {
+      ++met;
+    }
+  }
+  EXPECT_EQ(met, 1U);
+  // Once around, 2 (52 + 32) mm, and a tenth of the diameter once more.
+  EXPECT_NEAR(along, 168.0 + 0.8, 1e-3);
+}
+
 TEST(AreaPath, StopsAtTheTopOfALowIsland) {
   PathJob t = area_job(geometry::rectangle({0, 0}, {80, 60}), 10.0, 8.0);
   const Region island = geometry::disc({40, 30}, 10.0);

@@ -26,10 +26,16 @@ std::vector<Track> tracks_of(const Region& piece, Loops which, bool natural, boo
   return out;
 }
 
+/// How far a closed wall is followed past its beginning, over the cutter's diameter: where an arc leaves the
+/// wall at the very point where another met it, the bending of the first teeth stays as a line on the wall.
+/// Default, unsourced.
+constexpr double kOverlap = 0.1;
+
 struct Lead {
   Track track;  ///< turned to where the arc meets it
-  Vec2 from, to, centre;
-  double radius = 0.0;
+  Vec2 from, centre;
+  Track past;  ///< the beginning of the track once more; empty: the wall is left where it was met
+  Vec2 to, leaving_centre;
   bool clockwise = false;
 };
 
@@ -46,19 +52,35 @@ bool arc_inside(const Level& level, Vec2 centre, Vec2 a, Vec2 b) {
   return true;
 }
 
+/// The arc that leaves a track at a point, which is not its end; false where it meets something.
+bool leaves_at(const Level& level, const Track& track, double radius, bool natural, Lead& out) {
+  const Vec2 t = direction_at(track.start, track.segments.front(), 0.0);
+  const Vec2 n = natural ? left_of(t) : -1.0 * left_of(t);  // away from the wall
+  out.leaving_centre = track.start + radius * n;
+  out.to = out.leaving_centre + radius * t;
+  return arc_inside(level, out.leaving_centre, track.start, out.to);
+}
+
 bool lead_at(const Level& level, const Track& track, const Spot& spot, double radius, bool natural,
-             Lead& out) {
+             double overlap_mm, Lead& out) {
   out.track = begun_at(track, spot);
   if (out.track.segments.empty()) return false;
   const Vec2 t = direction_at(out.track.start, out.track.segments.front(), 0.0);
-  const Vec2 n = natural ? left_of(t) : -1.0 * left_of(t);  // away from the wall
+  const Vec2 n = natural ? left_of(t) : -1.0 * left_of(t);
   out.centre = out.track.start + radius * n;
   out.from = out.centre - radius * t;
-  out.to = out.centre + radius * t;
-  out.radius = radius;
   out.clockwise = !natural;
-  return arc_inside(level, out.centre, out.from, out.track.start) &&
-         arc_inside(level, out.centre, out.track.start, out.to);
+  if (!arc_inside(level, out.centre, out.from, out.track.start)) return false;
+  const bool closed = norm(out.track.end() - out.track.start) < kSmallestArc;
+  if (closed && overlap_mm < length_of(out.track)) {
+    const Track later = begun_at(out.track, at_length(out.track, overlap_mm));
+    if (!later.segments.empty() && leaves_at(level, later, radius, natural, out)) {
+      out.past = part_of(out.track, 0.0, overlap_mm);
+      return true;
+    }
+  }
+  out.past = {};
+  return leaves_at(level, out.track, radius, natural, out);
 }
 
 /// Summary of the places of the outer ring that are nearest to one point of the inner ring. Their stripe must
@@ -366,7 +388,8 @@ bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
   for (const double part : {1.0, 0.5, 0.2}) {
     for (const Spot& s : spots) {
       Lead lead;
-      if (!lead_at(level, track, s, part * wish, natural, lead)) continue;
+      const double overlap = 2.0 * cutter.radius_mm * kOverlap;
+      if (!lead_at(level, track, s, part * wish, natural, overlap, lead)) continue;
       if (level.cleared && !level.cleared->contains(lead.from)) continue;
       const bool straight = here_known && std::abs(cutter.writer.at().z - level.z_mm) < 1e-9 &&
                             norm(xy(cutter.writer.at()) - lead.from) <= 4.0 * cutter.radius_mm &&
@@ -381,7 +404,9 @@ bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
       const Vec2 p = lead.track.start;
       cutter.writer.arc({p.x, p.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
       if (!cutter.follow(level, lead.track)) return true;
-      cutter.writer.arc({lead.to.x, lead.to.y, level.z_mm}, lead.centre, lead.clockwise, MoveRole::kCut);
+      if (!lead.past.segments.empty() && !cutter.follow(level, lead.past)) return true;
+      cutter.writer.arc({lead.to.x, lead.to.y, level.z_mm}, lead.leaving_centre, lead.clockwise,
+                        MoveRole::kCut);
       return true;
     }
   }
