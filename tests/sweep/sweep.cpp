@@ -28,17 +28,8 @@ void keep(const std::string& name, const std::string& ending, const std::string&
     (void)write_file(std::string(folder) + "/" + name + ending, text);
 }
 
-bool mills(const model::Cutter& c) {
-  switch (c.cutter_class) {
-    case model::CutterClass::kEndmill:
-    case model::CutterClass::kBallEndmill:
-    case model::CutterClass::kBullnoseEndmill:
-    case model::CutterClass::kFacemill:
-      return true;
-    default:
-      return false;
-  }
-}
+/// What is fed sideways; drills, reamers, taps and sinks are fed by the turn.
+bool mills(const model::Cutter& c) { return !model::has(c.cutter_class, model::CutterTrait::kAlongAxis); }
 
 /// The thinnest chip of the edge, and no more than what the cutter's start values say.
 double least_chip(const model::Cutter& c, const model::WorkMaterial& m) {
@@ -166,6 +157,11 @@ std::string broken(const Case& c, const Outcome& o) {
              fixed(zone, 3) + "\n";
     if (!mills(*cutter)) continue;
     const double least = least_chip(*cutter, plan.material);
+    // The feed per tooth bounds the chip from above only: a step whose thickest chip is thinner than the
+    // least one rubs all along, however it is fed.
+    if (s.loads.chip_thickness_mm > 0.0 && s.loads.chip_thickness_mm < least * (1.0 - kWritten))
+      out += id + ": its thickest chip is " + fixed(s.loads.chip_thickness_mm, 5) + " of at least " +
+             fixed(least, 5) + " mm\n";
     if (const auto [way, fz] = rubbed(s, *cutter, least); way > kHarmlessMm)
       out += id + ": " + fixed(way, 1) + " mm of way below the least chip, down to " + fixed(fz, 5) + " of " +
              fixed(least, 5) + " mm\n";
@@ -179,7 +175,11 @@ bool helps(const std::string& reason) {
   static const std::regex kFigure(
       R"([0-9] ?(mm2?|um|deg|m/min|mm/min|1/min|min|s|N|Nm|kW|W|HRC|HB|%)(?![A-Za-z0-9]))");
   static const std::regex kOption("--[a-z]+");
-  return std::regex_search(reason, kFigure) || std::regex_search(reason, kOption);
+  // What there would have to be, or is to be done.
+  static const std::regex kRemedy(
+      R"(\b(use|name|choose|take|allow|allowed|would|needs?|asks?|at least|at most|no [a-z -]+ of)\b)");
+  if (std::regex_search(reason, kOption)) return true;
+  return std::regex_search(reason, kFigure) && std::regex_search(reason, kRemedy);
 }
 
 }  // namespace capstan::testing::sweep

@@ -49,10 +49,12 @@ TEST(SweepProperty, PlansKeepTheLeastChipTolerancesAndLimitsRefusalsHelpAndAMach
     if (only == nullptr || all[i].name().find(only) != std::string::npos) holds(sweep, all[i], true);
 }
 
-TEST(SweepHelp, NeedsAFigureWithItsUnitOrAnOption) {
+TEST(SweepHelp, NeedsAFigureWithItsUnitAndWhatWouldDoOrAnOption) {
   EXPECT_TRUE(helps("no reamer of 10 mm in the library"));
   EXPECT_TRUE(helps("state the tool's material (--assume)"));
+  EXPECT_TRUE(helps("the narrowest drill turns at 185 m/min, 52 are allowed"));
   EXPECT_FALSE(helps("it cannot be made"));
+  EXPECT_FALSE(helps("it is 5 mm deep"));
   EXPECT_FALSE(helps("no tool fits"));
   EXPECT_FALSE(helps("no tool fits feature 12 of machine 2"));
   EXPECT_FALSE(helps("needs tool 3 mounted -- or not"));

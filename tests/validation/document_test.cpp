@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
@@ -32,6 +36,66 @@ TEST(Document, HasAPlaceForEachComparisonAndSaysTheFiguresThatAreComputed) {
     }
   }
   if (!skipped.empty()) GTEST_SKIP() << "not checked: " << skipped;
+}
+
+/// The cells of the rows of a table of the document, by the words of its head.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& text, const std::string& first) {
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream in(line.substr(1));
+    for (std::string cell; std::getline(in, cell, '|');) {
+      const std::size_t from = cell.find_first_not_of(' '), to = cell.find_last_not_of(' ');
+      out.push_back(from == std::string::npos ? "" : cell.substr(from, to - from + 1));
+    }
+    return out;
+  };
+  std::vector<std::map<std::string, std::string>> out;
+  std::vector<std::string> head;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("|")) {
+      head.clear();
+    } else if (line.starts_with("| " + first + " |") && out.empty()) {
+      head = cells(line);
+    } else if (!head.empty() && !line.starts_with("|--")) {
+      const auto row = cells(line);
+      for (std::size_t i = 0; i < std::min(head.size(), row.size()); ++i) {
+        if (i == 0) out.emplace_back();
+        out.back()[head[i]] = row[i];
+      }
+    }
+  }
+  return out;
+}
+
+// The document's figures are those that are computed (above); these are the aims.
+TEST(Document, ShowsEveryPartWithinItsAimAgainstAShopAndNothingThatTheCheckCondemns) {
+  const auto parts = rows_of(standing(document(), "productivity"), "part");
+  int aimed = 0;
+  for (auto part : parts) {
+    const std::string name = part["part"] + ", " + part["material"];
+    EXPECT_EQ(part["errors"], "0") << name;
+    EXPECT_EQ(part["not planned"], "0") << name;
+    if (part["ratio"] == "-") continue;
+    EXPECT_LE(std::stod(part["ratio"]), std::stod(part["aim"])) << name;
+    ++aimed;
+  }
+  EXPECT_GE(aimed, 11);
+}
+
+TEST(Document, ShowsRoughingThatIsNotSlowerThanFreeCadsPathsAtEqualLimits) {
+  const auto cuts = rows_of(standing(document(), "freecad"), "part");
+  ASSERT_EQ(cuts.size(), 12u);  // two parts, two depths, three materials
+  for (auto cut : cuts) {
+    for (const char* rival :
+         {"pocket, one feed", "adaptive, one feed", "pocket, our feeds", "adaptive, our feeds"}) {
+      const std::string& cell = cut[rival];
+      const std::size_t at = cell.find('(');
+      ASSERT_NE(at, std::string::npos) << rival << ": " << cell;
+      EXPECT_LE(std::stod(cell.substr(at + 1)), 1.0)
+          << cut["part"] << ", " << cut["material"] << ": " << rival;
+    }
+  }
 }
 
 TEST(Document, IsQuotedByTheReadmeAsItStands) {

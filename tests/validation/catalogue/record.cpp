@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/nouns/all.h"
 #include "tests/validation/report.h"
 
 namespace capstan::validation::catalogue {
@@ -12,8 +13,10 @@ namespace {
 
 using testing::sweep::Case;
 
-constexpr const char* kHead = "machine,feature,material,plan_s,catalogue_s,features_not_made,first_reason\n";
-constexpr std::size_t kColumns = 7;
+constexpr const char* kHead =
+    "machine,feature,material,plan_s,catalogue_s,features_not_made,clearing,broken,"
+    "first_reason\n";
+constexpr std::size_t kColumns = 9;
 constexpr double kRounding = 0.1;  // s, of what stands in the record
 
 double tenths(double s) { return std::round(10.0 * s) / 10.0; }
@@ -27,6 +30,23 @@ std::string beginning(const std::string& reason) {
   return out;
 }
 
+/// Which way of clearing won where rings and constant engagement were both tried.
+std::string clearing_of(const model::Plan& plan) {
+  bool rings = false, constant = false;
+  for (const model::StepResult& s : plan.steps) {
+    const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
+    const auto* chosen =
+        ws == nullptr ? nullptr : plan.ledger.find(ws->its_operation, "its_machining_strategy");
+    if (chosen == nullptr) continue;
+    const bool taken = plan.ledger.reason(chosen->reason).id == "path.constant_engagement";
+    constant |= taken;
+    rings |= !taken && std::any_of(chosen->rejected.begin(), chosen->rejected.end(),
+                                   [](const auto& r) { return r.what.starts_with("constant engagement "); });
+  }
+  if (rings && constant) return "both";
+  return constant ? "constant engagement" : rings ? "rings" : "";
+}
+
 }  // namespace
 
 Row row_of(const Case& c, const testing::sweep::Outcome& o) {
@@ -37,6 +57,8 @@ Row row_of(const Case& c, const testing::sweep::Outcome& o) {
           0.0,
           tenths(o.catalogue_s),
           o.failed.empty() ? unplanned.size() : 1,
+          o.failed.empty() ? clearing_of(o.made.plan) : "",
+          o.failed.empty() ? beginning(testing::sweep::broken(c, o)) : "",
           beginning(!o.failed.empty()   ? o.failed
                     : unplanned.empty() ? ""
                                         : unplanned.front().reason)};
@@ -58,7 +80,8 @@ std::string written(const std::vector<Row>& rows) {
   std::string out = kHead;
   for (const Row& r : rows)
     out += r.machine + "," + r.feature + "," + r.material + "," + fixed(r.plan_s, 1) + "," +
-           fixed(r.catalogue_s, 1) + "," + std::to_string(r.not_made) + "," + r.refused + "\n";
+           fixed(r.catalogue_s, 1) + "," + std::to_string(r.not_made) + "," + r.clearing + "," + r.broken +
+           "," + r.refused + "\n";
   return out;
 }
 
@@ -77,8 +100,8 @@ std::vector<Row> read(const std::string& text) {
       return *value;
     };
     const double plan_s = number(3), catalogue_s = number(4), not_made = number(5);
-    out.push_back(
-        {cells[0], cells[1], cells[2], plan_s, catalogue_s, static_cast<std::size_t>(not_made), cells[6]});
+    out.push_back({cells[0], cells[1], cells[2], plan_s, catalogue_s, static_cast<std::size_t>(not_made),
+                   cells[6], cells[7], cells[8]});
   }
   return out;
 }
@@ -92,6 +115,11 @@ std::string apart(const Row& recorded, const Row& now) {
   if (differs(recorded.plan_s, now.plan_s)) say("plan, s", recorded.plan_s, now.plan_s);
   if (differs(recorded.catalogue_s, now.catalogue_s))
     say("catalogue, s", recorded.catalogue_s, now.catalogue_s);
+  const auto say_word = [&](const std::string& what, const std::string& was, const std::string& is) {
+    if (was != is) out += (out.empty() ? "" : ", ") + what + " '" + is + "', recorded '" + was + "'";
+  };
+  say_word("clearing", recorded.clearing, now.clearing);
+  say_word("broken", recorded.broken, now.broken);
   if (recorded.not_made != now.not_made)
     say("features not made", static_cast<double>(recorded.not_made), static_cast<double>(now.not_made));
   return out;

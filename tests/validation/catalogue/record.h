@@ -16,6 +16,8 @@ struct Row {
   double plan_s = 0.0;       ///< 0: a feature of it is not made
   double catalogue_s = 0.0;  ///< 0: the catalogue has no such tool
   std::size_t not_made = 0;  ///< features
+  std::string clearing;      ///< of areas for which both were tried: "rings", "constant engagement" or "both"
+  std::string broken;        ///< what the plan promises and does not keep, its beginning
   std::string refused;       ///< the first reason, its beginning
   [[nodiscard]] bool whole() const { return not_made == 0; }
   [[nodiscard]] double ratio() const { return whole() && catalogue_s > 0.0 ? plan_s / catalogue_s : 0.0; }

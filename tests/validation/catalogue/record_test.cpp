@@ -12,8 +12,8 @@
 namespace capstan::validation::catalogue {
 namespace {
 
-const Row kMade{"generic_vmc", "slot", "C45", 21.3, 29.3, 0, ""};
-const Row kRefused{"small_router", "slot", "50 HRC", 0.0, 80.0, 1, "no cutter fits; 6000 1/min"};
+const Row kMade{"generic_vmc", "slot", "C45", 21.3, 29.3, 0, "rings", "", ""};
+const Row kRefused{"small_router", "slot", "50 HRC", 0.0, 80.0, 1, "", "", "no cutter fits; 6000 1/min"};
 
 TEST(CatalogueRecord, IsReadAsItIsWritten) {
   const auto rows = read(written({kMade, kRefused}));
@@ -31,7 +31,7 @@ TEST(CatalogueRecord, KeepsCommasOfReasonsOutOfItsCells) {
   EXPECT_EQ(r.refused, "no tool; of 2; at all");
   ASSERT_EQ(read(written({r})).size(), 1U);
   EXPECT_EQ(read(written({r})).front(), r);
-  EXPECT_THROW((void)read(written({r}) + "a,b,c,1.0,2.0,none,\n"), std::runtime_error);
+  EXPECT_THROW((void)read(written({r}) + "a,b,c,1.0,2.0,none,,,\n"), std::runtime_error);
   EXPECT_THROW((void)read(written({r}) + "a,b,c,1.0\n"), std::runtime_error);
 }
 
@@ -44,6 +44,9 @@ TEST(CatalogueRecord, IsApartWhereATimeDiffersByMoreThanRoundingOrAFeatureIsMiss
   now = kMade;
   now.not_made = 1;
   EXPECT_EQ(apart(kMade, now), "features not made 1.0, recorded 0.0");
+  now = kMade;
+  now.clearing = "constant engagement";
+  EXPECT_EQ(apart(kMade, now), "clearing 'constant engagement', recorded 'rings'");
 }
 
 TEST(CatalogueRecord, HasARowForEachCaseOnce) {
@@ -54,6 +57,14 @@ TEST(CatalogueRecord, HasARowForEachCaseOnce) {
   EXPECT_EQ(rows.size(), testing::sweep::all_cases().size());
   EXPECT_EQ(names.size(), rows.size());
   for (const auto& c : testing::sweep::all_cases()) EXPECT_TRUE(row_for(rows, c)) << c.name();
+}
+
+// No error finding, no feed or chip below the least, no wall predicted out of its zone, no limit exceeded, no
+// refusal that does not help: `sweep::broken`.
+TEST(CatalogueRecord, HasNoPlanThatBreaksWhatItPromises) {
+  const auto rows =
+      read(capstan::testing::slurp(capstan::testing::source_dir() + "/docs/validation/catalogue_times.csv"));
+  for (const Row& r : rows) EXPECT_EQ(r.broken, "") << r.machine << ", " << r.feature << ", " << r.material;
 }
 
 // Nine of the 36 cases are planned for it; ./dev validate plans all of them.
