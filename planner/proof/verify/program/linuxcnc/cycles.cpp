@@ -39,7 +39,7 @@ void Interpreter::one_hole(int mode, double x, double y, double z, double r, dou
   } else {
     to({x, y, z}, MoveKind::kLine, mode == 840);
   }
-  if ((mode == 820 || mode == 840 || mode == 890) && p > 0.0) dwell(p);
+  if ((mode == 820 || mode == 840 || mode == 860 || mode == 890) && p > 0.0) dwell(p);
   const int turning = spindle_;
   if (mode == 860) spindle_ = 0;
   if (mode == 840) spindle_ = -spindle_;
