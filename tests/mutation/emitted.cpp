@@ -234,6 +234,7 @@ std::vector<Emitted> emitted_for(const std::string& dialect) {
     out.push_back(written("one tool in two set-ups", on(one_tool_in_two_setups())));
     return out;
   }
+  if (dialect == "mach3") return out;  // nor does it
   out.push_back(written("tapped hole", on(tapped()), {"CHK-GOUGE", "CHK-GOUGE-WALL"}));
   for (Emitted& e : emitted_pecked(dialect)) out.push_back(std::move(e));
   return out;

@@ -62,8 +62,8 @@ CycleCode cycle_code(const HoleCycle& h, bool waits, const Pecking& p) {
   const std::string code = clears ? "G83" : "G73";
   if (gcode::are_pecks(h, sizes->first_mm, sizes->first_mm)) return {code, " Q" + n(sizes->first_mm)};
   if (!p.shrinking || sizes->step_mm > sizes->first_mm) return {};
-  return {code, " I" + n(sizes->first_mm) + " J" + n(sizes->first_mm - sizes->step_mm) + " K" +
-                    n(sizes->step_mm)};
+  return {code,
+          " I" + n(sizes->first_mm) + " J" + n(sizes->first_mm - sizes->step_mm) + " K" + n(sizes->step_mm)};
 }
 
 /// Modal: at each further place of a block with X or Y again, from the initial level (G98).
@@ -72,11 +72,10 @@ std::optional<gcode::CycleText> hole_text(const HoleCycle& h, std::span<const ge
   const bool waits = rounded(h.dwell_s, 3) > 0.0;
   const auto [code, pecks] = cycle_code(h, waits, pecking);
   if (code.empty()) return std::nullopt;
-  return gcode::CycleText{"G98 " + code + place_words(h) + pecks +
-                          (waits ? " " + dwell_word(h.dwell_s, in_seconds) : "") + " F" +
-                          with_point(h.feed_mm_min, h.feed_decimals) +
-                          gcode::place_blocks(places, h.decimals, {}, &with_point) + "\nG80" +
-                          (h.stops ? "\nM5" : "")};
+  return gcode::CycleText{
+      "G98 " + code + place_words(h) + pecks + (waits ? " " + dwell_word(h.dwell_s, in_seconds) : "") + " F" +
+      with_point(h.feed_mm_min, h.feed_decimals) + gcode::place_blocks(places, h.decimals, {}, &with_point) +
+      "\nG80" + (h.stops ? "\nM5" : "")};
 }
 
 struct Tapping {

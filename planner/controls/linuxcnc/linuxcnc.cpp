@@ -31,7 +31,8 @@ std::string cycle_code(const gcode::HoleCycle& h, bool waits) {
   if (h.stops) return "G86";
   if (!h.pecks) return h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
   const auto sizes = gcode::peck_sizes(h);
-  const bool back = h.pecks->clears || std::abs(h.pecks->back_mm - kPeckDeltaMm) < 0.5 * std::pow(10.0, -h.decimals);
+  const bool back =
+      h.pecks->clears || std::abs(h.pecks->back_mm - kPeckDeltaMm) < 0.5 * std::pow(10.0, -h.decimals);
   if (!sizes || !back || waits || h.feeds_out || h.pecks->dwell_s > 0.0 ||
       !gcode::are_pecks(h, sizes->first_mm, sizes->first_mm))
     return "";
@@ -42,18 +43,16 @@ std::string cycle_code(const gcode::HoleCycle& h, bool waits) {
 /// with the spindle stopped at the bottom as G86, which has its P always. The tool is over the first, so that
 /// G98 brings it back to where it is; a block with X or Y again is a further hole.
 /// Source: LinuxCNC 2.9, G-codes.
-std::optional<gcode::CycleText> hole_text(const gcode::HoleCycle& h,
-                                          std::span<const geometry::Vec2> places) {
+std::optional<gcode::CycleText> hole_text(const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
   const bool waits = rounded(h.dwell_s, kDwellDecimals) > 0.0;
   const std::string code = cycle_code(h, waits);
   if (code.empty()) return std::nullopt;
-  return gcode::CycleText{"G98 " + code + " X" + trimmed(h.at.x, h.decimals) + " Y" +
-                          trimmed(h.at.y, h.decimals) + " Z" + trimmed(h.bottom_z, h.decimals) + " R" +
-                          trimmed(h.r_z, h.decimals) +
-                          (waits || h.stops ? " P" + trimmed(h.dwell_s, kDwellDecimals) : "") + " F" +
-                          trimmed(h.feed_mm_min, h.feed_decimals) +
-                          gcode::place_blocks(places, h.decimals, {}, &trimmed) + "\nG80" +
-                          (h.stops ? "\nM5" : "")};
+  return gcode::CycleText{
+      "G98 " + code + " X" + trimmed(h.at.x, h.decimals) + " Y" + trimmed(h.at.y, h.decimals) + " Z" +
+      trimmed(h.bottom_z, h.decimals) + " R" + trimmed(h.r_z, h.decimals) +
+      (waits || h.stops ? " P" + trimmed(h.dwell_s, kDwellDecimals) : "") + " F" +
+      trimmed(h.feed_mm_min, h.feed_decimals) + gcode::place_blocks(places, h.decimals, {}, &trimmed) +
+      "\nG80" + (h.stops ? "\nM5" : "")};
 }
 
 gcode::Words words(const model::Machine& machine) {

@@ -57,6 +57,10 @@ inline constexpr std::array kControlRows{
     ControlRow{"grbl", 0.86602540378443864676, 0.5, false,
                "tool_change=m6 tool_length=touch_off mist=no block_numbers=none line_length=120 "
                "start_blocks= end_blocks="},
+    // Constant velocity, with a look-ahead of blocks; shares of the axes' limits: default, unsourced.
+    ControlRow{"mach3", 0.86602540378443864676, 0.5, false,
+               "cycles=feature dwell=seconds path_tolerance=assumed block_numbers=none line_length=200 "
+               "start_blocks= end_blocks= shop_codes="},
 };
 
 /// The control's row; null for a dialect without one.

@@ -64,7 +64,8 @@ std::optional<bool> Following::hole_way(std::size_t i) {
 
 /// Whether the path comes back down into a hole that it clears, at the place of move `i` and behind it.
 bool Following::is_cleared(std::size_t i) const {
-  for (std::size_t k = i; k < path_.size() && path_.x[k] == path_.x[i - 1] && path_.y[k] == path_.y[i - 1]; ++k) {
+  for (std::size_t k = i; k < path_.size() && path_.x[k] == path_.x[i - 1] && path_.y[k] == path_.y[i - 1];
+       ++k) {
     if (path_.kind[k] == MoveKind::kLine && path_.role[k] == MoveRole::kLink && path_.z[k] < path_.z[k - 1])
       return true;
   }

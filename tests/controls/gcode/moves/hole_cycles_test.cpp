@@ -89,9 +89,12 @@ TEST(PeckedHoles, PecksOfBothKindsOrWithOtherWaysBackAreNoCycle) {
   const auto at = both;
   both = CutterPath();
   for (std::size_t i = 0; i < 5; ++i) {
-    if (i == 0) both.start(at.point(0));
-    else if (at.kind[i] == model::MoveKind::kRapid) both.rapid(at.point(i), at.role[i]);
-    else both.line(at.point(i), at.role[i]);
+    if (i == 0)
+      both.start(at.point(0));
+    else if (at.kind[i] == model::MoveKind::kRapid)
+      both.rapid(at.point(i), at.role[i]);
+    else
+      both.line(at.point(i), at.role[i]);
   }
   both.rapid({5, 6, 2}, MoveRole::kRetract);
   both.line({5, 6, -13.5}, MoveRole::kLink);
@@ -118,7 +121,7 @@ TEST(PeckedHoles, SizesAreThoseThatSayEveryPeck) {
   ASSERT_TRUE(all);
   EXPECT_EQ(all->first_mm, 16.0);
   EXPECT_EQ(all->step_mm, 4.0);
-  EXPECT_FALSE(sizes({-10, -14, -19}));        // 5 at the end, where 4 were to come
+  EXPECT_FALSE(sizes({-10, -14, -19}));         // 5 at the end, where 4 were to come
   EXPECT_FALSE(sizes({-10, -14, -17, -20.5}));  // 4, 3, 3.5
   EXPECT_FALSE(sizes({-17}));                   // none
 }

@@ -175,7 +175,8 @@ void Interpreter::code_rules(const BlockWords& s) {
 void Interpreter::point_rules(const BlockWords& s) {
   const bool per_turn = feed_mode_ == 95 || s.code(950);
   for (const char c : std::string_view("XYZIJKRQFE")) {
-    if (c == 'K' && !(ways_.haas && (motion_ == 830 || motion_ == 730 || s.code(830) || s.code(730)))) continue;
+    if (c == 'K' && !(ways_.haas && (motion_ == 830 || motion_ == 730 || s.code(830) || s.code(730))))
+      continue;
     if (!s.is(c) || s.point[c - 'A'] || s.of(c) == 0.0) continue;
     if (c == 'F' && !per_turn && !ways_.haas) continue;  // mm/min either way
     if (c == 'J' && (motion_ == 840 || motion_ == 740 || s.code(840) || s.code(740)))

@@ -52,8 +52,7 @@ Interpreter::Interpreter(const model::Machine& machine) {
   ways_.extended_offsets = static_cast<int>(option_number(machine, "extended_offsets"));
   ways_.peck_clearance_mm = option_number(machine, "peck_clearance_mm");
   // Haas has one setting, 22, for both.
-  ways_.chip_break_mm =
-      ways_.haas ? ways_.peck_clearance_mm : option_number(machine, "chip_break_mm");
+  ways_.chip_break_mm = ways_.haas ? ways_.peck_clearance_mm : option_number(machine, "chip_break_mm");
   ways_.tolerance_mm = std::max(0.0, machine.control.path_tolerance_mm);
   const model::LinearAxis& z = machine.axes[2];
   ways_.top_mm = z.travel_max_mm > z.travel_min_mm ? z.travel_max_mm : 0.0;
