@@ -61,7 +61,7 @@ struct PlanOptions {
   bool features_only = false;  ///< of a CAD file: its features and tolerances are written, nothing is planned
   std::string time = {};       ///< of `bind_...`: when, for the plan's record; any text
   std::string control =
-      {};  ///< in place of the machine's own: "fanuc", "grbl", "haas", "heidenhain", "linuxcnc", "siemens"
+      {};  ///< in place of the machine's own: "fanuc", "grbl", "haas", "heidenhain", "linuxcnc", "mach3", "siemens"
   unsigned next = 0;  ///< of `bind_...`: so many workingsteps only; 0: the whole plan
   unsigned from = 0;  ///< of `bind_...`: the first of them, from 1; 0: the first of which something is open
   bool stop_at_deadline =

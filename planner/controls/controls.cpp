@@ -7,6 +7,7 @@
 #include "planner/controls/grbl/grbl.h"
 #include "planner/controls/heidenhain/heidenhain.h"
 #include "planner/controls/linuxcnc/linuxcnc.h"
+#include "planner/controls/mach3/mach3.h"
 #include "planner/controls/siemens/siemens.h"
 
 namespace capstan::controls {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::array kDialects{
     &linuxcnc::kDialect, &fanuc::kFanuc,        &fanuc::kHaas,
-    &siemens::kDialect,  &heidenhain::kDialect, &grbl::kDialect,
+    &siemens::kDialect,  &heidenhain::kDialect, &grbl::kDialect, &mach3::kDialect,
 };
 
 }  // namespace

@@ -131,6 +131,46 @@ inline Plan pattern_plan(const char* dialect, const std::vector<geometry::Vec2>&
   return plan;
 }
 
+/// A hole at (20, 20), pecked to these heights: after each but the last by rapid up to 6 and down at 3000
+/// mm/min to 0.5 above it (`clears`), or 0.5 up at that feed.
+inline Plan pecked_plan(const char* dialect, const std::vector<double>& bottoms, bool clears) {
+  Plan plan = plan_for(dialect);
+  model::Cutter drill = plan.cutters[0];
+  drill.id = "d8";
+  drill.cutter_class = model::CutterClass::kTwistDrill;
+  drill.cutting_diameter_mm = 8;
+  drill.pocket = 3;
+  plan.cutters.push_back(drill);
+  CutterPath p;
+  p.start({20, 20, 10});
+  p.rapid({20, 20, 6}, MoveRole::kApproach);
+  p.line({20, 20, 2}, MoveRole::kApproach);
+  for (std::size_t i = 0; i < bottoms.size(); ++i) {
+    p.line({20, 20, bottoms[i]}, MoveRole::kDrill);
+    const bool last = i + 1 == bottoms.size();
+    if (last || clears) p.rapid({20, 20, 6}, MoveRole::kRetract);
+    if (!last) p.line({20, 20, bottoms[i] + 0.5}, MoveRole::kLink);
+  }
+  p.rapid({20, 20, 10}, MoveRole::kRetract);
+  auto& step = capstan::testing::add_step(plan, "deep hole", "d8", p, 1200, 180);
+  model::FeedSchedule s = *step.schedule;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p.role[i] == MoveRole::kApproach || p.role[i] == MoveRole::kLink) s.feed_mm_min[i] = 3000.0;
+  }
+  step.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+  return plan;
+}
+
+/// A hole at (20, 20) whose boring bar comes out with the spindle stopped.
+inline Plan bored_plan(const char* dialect) {
+  Plan plan = plan_for(dialect);
+  auto& step = capstan::testing::add_step(plan, "bore", "em18", hole(20, 20, false, false), 1200, 180);
+  model::FeedSchedule s = *step.schedule;
+  s.spindle_rpm.back() = 0.0;
+  step.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+  return plan;
+}
+
 /// So many places on a circle, counter-clockwise.
 inline std::vector<geometry::Vec2> ring(geometry::Vec2 centre, double radius, double first_deg,
                                         double step_deg, int number) {

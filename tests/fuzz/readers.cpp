@@ -228,6 +228,7 @@ void program_fanuc(std::string bytes) { program_of("fanuc", std::move(bytes)); }
 void program_siemens(std::string bytes) { program_of("siemens", std::move(bytes)); }
 void program_heidenhain(std::string bytes) { program_of("heidenhain", std::move(bytes)); }
 void program_grbl(std::string bytes) { program_of("grbl", std::move(bytes)); }
+void program_mach3(std::string bytes) { program_of("mach3", std::move(bytes)); }
 void program_table(std::string bytes) {
   (void)verify::check_program_text(
       {"input.ngc", "T1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z5\nM30\n", std::move(bytes)}, nullptr, generic(), {});
@@ -300,6 +301,9 @@ const std::vector<Reader>& readers() {
       {"program_grbl",
        program_grbl,
        {"tests/controls/grbl/golden/pocket.gcode", "tests/controls/grbl/golden/holes_stated.gcode"}},
+      {"program_mach3",
+       program_mach3,
+       {"tests/controls/mach3/golden/pocket.tap", "tests/controls/mach3/golden/holes.tap"}},
       {"program_table", program_table, {}},
   };
   return kAll;

@@ -45,6 +45,7 @@ std::vector<Class> classes_of(const std::string& dialect) {
   }
   const auto own = dialect == "siemens" ? dangerous_in_siemens()
                    : dialect == "grbl"  ? dangerous_in_grbl()
+                   : dialect == "mach3" ? dangerous_in_mach3()
                                         : dangerous_in_fanuc();
   out.insert(out.end(), own.begin(), own.end());
   return out;

@@ -52,6 +52,7 @@ struct Class {
 [[nodiscard]] std::vector<Class> dangerous_in_siemens();
 /// And those of Grbl: lengths as numbers, characters that are commands.
 [[nodiscard]] std::vector<Class> dangerous_in_grbl();
+[[nodiscard]] std::vector<Class> dangerous_in_mach3();
 /// Those of Heidenhain's cycles, and what is not dangerous in its programs.
 [[nodiscard]] std::vector<Class> heidenhain_cycles();
 /// All ways to edit Heidenhain's, which share no word with the others.

@@ -1,5 +1,7 @@
 #include "tests/mutation/emitted.h"
 
+#include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -113,6 +115,34 @@ model::Plan tapped() {
   return k.plan;
 }
 
+/// The drilled hole of the good plan, pecked: the first ends at `first_z`, each further one is `step_mm`.
+model::Plan pecked(bool clears, double first_z, double step_mm) {
+  auto k = plans::empty_plan();
+  k.plan.machine.spindle.spin_up_s = 1.0;
+  const double bottom = -20 - plans::point_length();
+  model::CutterPath p;
+  p.start({15, 15, 10});
+  p.rapid({15, 15, 6}, MoveRole::kApproach);
+  p.line({15, 15, 2}, MoveRole::kApproach);
+  for (double z = first_z;; z -= step_mm) {
+    p.line({15, 15, std::max(z, bottom)}, MoveRole::kDrill);
+    if (z <= bottom + 0.5e-3) break;
+    if (clears) p.rapid({15, 15, 6}, MoveRole::kRetract);
+    p.line({15, 15, z + 0.5}, MoveRole::kLink);
+  }
+  p.rapid({15, 15, 10}, MoveRole::kRetract);
+  const std::size_t n = p.size();
+  auto& s = k.step<model::Drilling>("drill", k.hole("H", 15, 15, 8, 20), "d8", p, 225, 1500);
+  model::FeedSchedule f{std::vector<double>(n, 225.0), std::vector<double>(n, 1500.0),
+                        std::vector<double>(n, 0.0)};
+  for (std::size_t i = 0; i < n; ++i) {
+    if (p.role[i] == MoveRole::kApproach || p.role[i] == MoveRole::kLink) f.feed_mm_min[i] = 3000.0;
+  }
+  s.path = std::make_shared<const model::CutterPath>(std::move(p));
+  s.schedule = std::make_shared<const model::FeedSchedule>(std::move(f));
+  return k.plan;
+}
+
 /// Two turns and a half of a helix above the work.
 model::Plan with_helix(model::Plan plan) {
   verify::testing::edit_path(plan, 0, [](auto& p) {
@@ -151,13 +181,47 @@ const std::vector<Emitted>& emitted() {
   return kAll;
 }
 
-std::vector<Emitted> emitted_for(const std::string& dialect) {
-  const auto on = [&](model::Plan plan) {
-    plan.machine = controls::with_control(std::move(plan.machine), dialect);
-    const auto offsets = controls::find_dialect(dialect)->work_offsets;
-    for (std::size_t i = 0; i < plan.setups.size(); ++i) plan.setups[i].work_offset = offsets[i];
+namespace {
+
+model::Plan on_control(model::Plan plan, const std::string& dialect) {
+  plan.machine = controls::with_control(std::move(plan.machine), dialect);
+  const auto offsets = controls::find_dialect(dialect)->work_offsets;
+  for (std::size_t i = 0; i < plan.setups.size(); ++i) plan.setups[i].work_offset = offsets[i];
+  return plan;
+}
+
+}  // namespace
+
+std::vector<Emitted> emitted_pecked(const std::string& dialect) {
+  const auto on = [&](model::Plan plan, std::vector<model::ControlOption> options) {
+    plan = on_control(std::move(plan), dialect);
+    plan.machine.control_options = model::ControlOptions{std::move(options)};
     return plan;
   };
+  std::vector<Emitted> out;
+  const double bottom = -20 - plans::point_length();
+  if (dialect == "linuxcnc")  // from 6 down by 10
+    out.push_back(written("cleared hole", on(pecked(true, -4, 10), {{"cycles", "feature"}})));
+  if (dialect == "fanuc") {
+    out.push_back(written("cleared hole", on(pecked(true, -4, 10), {{"peck_clearance_mm", "0.2"}})));
+    out.push_back(written("chips broken", on(pecked(false, -6, 8), {{"chip_break_mm", "0.5"}})));
+  }
+  if (dialect == "haas") {
+    // Fed again below and above where the plan is.
+    for (const char* above : {"0.2", "0.5", "0.8"})
+      out.push_back(written(std::string("cleared to ") + above,
+                            on(pecked(true, -8, 6), {{"peck_clearance_mm", above}})));
+    out.push_back(written("chips broken", on(pecked(false, -8, 6), {{"peck_clearance_mm", "0.5"}})));
+  }
+  if (dialect == "siemens") {  // two of 8 behind the first
+    out.push_back(written("cleared hole", on(pecked(true, bottom + 16, 8), {})));
+    out.push_back(written("chips broken", on(pecked(false, bottom + 16, 8), {})));
+  }
+  return out;
+}
+
+std::vector<Emitted> emitted_for(const std::string& dialect) {
+  const auto on = [&](model::Plan plan) { return on_control(std::move(plan), dialect); };
   std::vector<Emitted> out;
   const bool turns = dialect == "siemens" || dialect == "heidenhain";
   out.push_back(
@@ -170,7 +234,9 @@ std::vector<Emitted> emitted_for(const std::string& dialect) {
     out.push_back(written("one tool in two set-ups", on(one_tool_in_two_setups())));
     return out;
   }
+  if (dialect == "mach3") return out;  // nor does it
   out.push_back(written("tapped hole", on(tapped()), {"CHK-GOUGE", "CHK-GOUGE-WALL"}));
+  for (Emitted& e : emitted_pecked(dialect)) out.push_back(std::move(e));
   return out;
 }
 

@@ -21,7 +21,9 @@ struct Emitted {
 /// Of plans made by hand: a pocket, a drilled and reamed hole, arcs, a helix, waits; two set-ups; a tapped
 /// hole.
 [[nodiscard]] const std::vector<Emitted>& emitted();
-/// The same plans as programs of another control.
+/// A hole that is pecked, as the control's cycle: cleared between two pecks, or with its chip broken.
+[[nodiscard]] std::vector<Emitted> emitted_pecked(const std::string& dialect);
+/// The same plans as programs of another control, and the pecked hole.
 [[nodiscard]] std::vector<Emitted> emitted_for(const std::string& dialect);
 /// These, and the plate of examples/plate_bound.p21 as the pipeline plans it.
 [[nodiscard]] const std::vector<Emitted>& emitted_and_planned();

@@ -126,6 +126,23 @@ TEST(MutationSeed, EveryDangerousEditOfAGrblProgramIsFoundAndNoBenignOneBlamed) 
   RecordProperty("edits", edits);
 }
 
+TEST(MutationSeed, EveryDangerousEditOfAMach3ProgramIsFoundAndNoBenignOneBlamed) {
+  Options o;
+  o.edits = soaking() ? 12 : 6;
+  o.first_seed = next_seed();
+  o.dialect = "mach3";
+  std::set<std::string> own;
+  for (const Class& c : dangerous_in_mach3()) own.insert(c.name);
+  for (const Row& row : study(o)) {
+    if (own.contains(row.of.name)) {
+      EXPECT_GT(row.edits, 0) << row.of.name << " edits none of the programs";
+    }
+    EXPECT_EQ(row.dangerous_missed, 0) << told(row);
+    EXPECT_EQ(row.different_missed, 0) << told(row);
+    EXPECT_EQ(row.benign_blamed, 0) << told(row);
+  }
+}
+
 // A first block that names a work offset in place of ending the length offset (G59 for G49).
 TEST(MutationSeed, AWorkOffsetBeforeTheFirstStepIsFound) {
   for (const Emitted& e : emitted()) {

@@ -47,7 +47,7 @@ model::Plan with_a_short_arc(const char* control) {
 }
 
 TEST(Rounding, AnArcShorterThanTheLastDecimalIsNoWholeTurn) {
-  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain", "grbl"}) {
+  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain", "grbl", "mach3"}) {
     const model::Plan plan = with_a_short_arc(control);
     const auto findings =
         verify::check_program_text({"part", program_of(plan), ""}, &plan, plan.machine, plan.cutters);
@@ -83,7 +83,7 @@ model::Plan with_a_small_arc(const char* control) {
 }
 
 TEST(Rounding, ASmallArcWhoseCentreIsRoundedEndsWhereItIsMeant) {
-  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain", "grbl"}) {
+  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain", "grbl", "mach3"}) {
     const model::Plan plan = with_a_small_arc(control);
     const auto findings =
         verify::check_program_text({"part", program_of(plan), ""}, &plan, plan.machine, plan.cutters);

@@ -20,12 +20,14 @@ namespace capstan::controls::fanuc {
 /// Tapping  `M29 S`, `G84` (`G74` for left-hand taps) with the pitch as F in G95, or pitch times speed in
 /// G94.
 ///
-/// Holes    `G81`, `G82`, `G85`, `G89` with all words in each block where they make the path's moves. Pecks
-///          are explicit moves: the plan counts the first from the raw piece, and G83 counts it from R.
+/// Holes    `G81`, `G82`, `G85`, `G89` with all words in each block where they make the path's moves, `G86`
+///          where the spindle stops at the bottom. Pecks by `G83` and `G73` where the machine's file says
+///          where these come back to (options `peck_clearance_mm`, `chip_break_mm`): from R by equal Q; at
+///          Haas also by `I`, `J`, `K`, a first peck and equal ones behind it. Else they are explicit moves.
 ///
 /// Stops    a comment, then `M0`.
 ///
-/// Source   FANUC B-63844EN/02, B-63944EN-2/02, B-63833EN-1/02; Haas 96-8000.
+/// Source   FANUC B-63844EN/02, B-63944EN-2/02, B-63833EN-1/02; Haas 96-8000 (G73, page 185; G83, page 191).
 extern const Dialect kFanuc;
 extern const Dialect kHaas;
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "planner/controls/fanuc/fanuc.h"
+#include "planner/controls/gcode/moves/hole_cycles.h"
 #include "planner/controls/gcode/moves/patterns.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/ground/base/number.h"
@@ -36,14 +37,45 @@ std::string place_words(const HoleCycle& h) {
          with_point(h.bottom_z, h.decimals) + " R" + with_point(h.r_z, h.decimals);
 }
 
+/// How the machine pecks, mm; 0: its file does not say.
+struct Pecking {
+  double clearance = 0.0;  ///< G83 is fed again so far above the last bottom
+  double retract = 0.0;    ///< G73 comes up by it
+  bool shrinking = false;  ///< I, J and K: a first peck, by how much each is less, the least
+};
+
+/// The code of a cycle and, behind the place's words, those of its pecks; no code where none makes these
+/// moves.
+struct CycleCode {
+  std::string code = {}, words = {};
+};
+CycleCode cycle_code(const HoleCycle& h, bool waits, const Pecking& p) {
+  if (h.stops) return {waits ? "" : "G86"};
+  if (!h.pecks) return {h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81")};
+  const double half = 0.5 * std::pow(10.0, -h.decimals);
+  const bool clears = h.pecks->clears;
+  // Where G83 is fed again is the machine's: it is known and above the bottom. A broken chip is as planned.
+  const bool back = clears ? p.clearance > half : std::abs(p.retract - h.pecks->back_mm) < half;
+  const auto sizes = gcode::peck_sizes(h);
+  if (!back || !sizes || h.feeds_out || h.pecks->dwell_s > 0.0 || (waits && !p.shrinking)) return {};
+  const auto n = [&](double v) { return with_point(v, h.decimals); };
+  const std::string code = clears ? "G83" : "G73";
+  if (gcode::are_pecks(h, sizes->first_mm, sizes->first_mm)) return {code, " Q" + n(sizes->first_mm)};
+  if (!p.shrinking || sizes->step_mm > sizes->first_mm) return {};
+  return {code,
+          " I" + n(sizes->first_mm) + " J" + n(sizes->first_mm - sizes->step_mm) + " K" + n(sizes->step_mm)};
+}
+
 /// Modal: at each further place of a block with X or Y again, from the initial level (G98).
-std::string hole_text(const HoleCycle& h, std::span<const geometry::Vec2> places, bool in_seconds) {
+std::optional<gcode::CycleText> hole_text(const HoleCycle& h, std::span<const geometry::Vec2> places,
+                                          bool in_seconds, const Pecking& pecking) {
   const bool waits = rounded(h.dwell_s, 3) > 0.0;
-  const char* code = h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
-  return "G98 " + std::string(code) + place_words(h) +
-         (waits ? " " + dwell_word(h.dwell_s, in_seconds) : "") + " F" +
-         with_point(h.feed_mm_min, h.feed_decimals) +
-         gcode::place_blocks(places, h.decimals, {}, &with_point) + "\nG80";
+  const auto [code, pecks] = cycle_code(h, waits, pecking);
+  if (code.empty()) return std::nullopt;
+  return gcode::CycleText{
+      "G98 " + code + place_words(h) + pecks + (waits ? " " + dwell_word(h.dwell_s, in_seconds) : "") + " F" +
+      with_point(h.feed_mm_min, h.feed_decimals) + gcode::place_blocks(places, h.decimals, {}, &with_point) +
+      "\nG80" + (h.stops ? "\nM5" : "")};
 }
 
 struct Tapping {
@@ -77,6 +109,9 @@ gcode::Words words_of(const model::Machine& machine) {
   const bool smooth = is("smoothness", "yes"), by_reference = is("retract", "g28");
   const Tapping tapping{is("tap", "m29"), is("tap_feed", "per_revolution"),
                         control_number(machine, "tap_retract", 0.0)};
+  const bool haas = machine.control.dialect == "haas";
+  const double clearance = control_number(machine, "peck_clearance_mm", 0.0);
+  const Pecking pecking{clearance, haas ? clearance : control_number(machine, "chip_break_mm", 0.0), haas};
   gcode::Words w;
   w.longest_line = static_cast<std::size_t>(control_number(machine, "line_length", 200.0));
   w.speed_decimals = 0;
@@ -109,8 +144,8 @@ gcode::Words words_of(const model::Machine& machine) {
   w.tap = [tapping](const HoleCycle& h) { return tap_text(h, tapping); };
   w.tap_stops_spindle = true;
   w.by_cycles = is("cycles", "feature");
-  w.cycle = [in_seconds](const HoleCycle& h, std::span<const geometry::Vec2> places) {
-    return std::optional(gcode::CycleText{hole_text(h, places, in_seconds)});
+  w.cycle = [in_seconds, pecking](const HoleCycle& h, std::span<const geometry::Vec2> places) {
+    return hole_text(h, places, in_seconds, pecking);
   };
   if (is("ai_contour", "yes")) {
     w.smooth_on = "G5.1 Q1";

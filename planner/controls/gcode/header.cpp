@@ -22,6 +22,13 @@ void write_tools(const model::Plan& plan, const std::vector<const Cutter*>& cutt
                std::string(model::to_text(c->cutter_class)));
   }
   for (const Cutter* c : cutters) {
+    for (const model::SisterTool& s : c->sisters) {
+      if (model::find_cutter(plan, s.id) == nullptr) continue;
+      out.comment("T" + std::to_string(c->pocket) + ": a sister of T" + std::to_string(s.pocket) +
+                  ", whose edges would not last for all of its steps");
+    }
+  }
+  for (const Cutter* c : cutters) {
     const auto assumed = model::assumed_material_of(plan, c->id);
     if (!assumed) continue;
     out.comment("T" + std::to_string(c->pocket) + ": what its edges are made of is not stated; " +

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner/ground/geometry/vec.h"
 
@@ -14,6 +15,15 @@ namespace capstan::controls::gcode {
 /// Decimals of a number in a program at most: a double of six digits before the point has no more to say.
 inline constexpr int kMostDecimals = 7;
 
+/// How a hole is pecked. Heights of the work offset, rounded; mm, s.
+struct Pecks {
+  std::vector<double> bottoms_z;  ///< of all pecks but the last, which ends at the hole's bottom
+  bool clears = false;            ///< up to the cycle's `r_z` after each; else up a little, to break the chip
+  double back_mm = 0.0;           ///< so far above the last bottom it is fed again
+  double dwell_s = 0.0;           ///< at each of these bottoms
+  friend bool operator==(const Pecks&, const Pecks&) = default;
+};
+
 /// One hole as a canned cycle makes it. Units  mm, mm/min, s; heights of the work offset, rounded.
 struct HoleCycle {
   geometry::Vec2 at;
@@ -21,6 +31,8 @@ struct HoleCycle {
   double r_z = 0.0;        ///< from where it is fed
   double bottom_z = 0.0;
   bool feeds_out = false;                   ///< back to `r_z` at the same feed
+  bool stops = false;                       ///< the spindle stands while the tool comes out
+  std::optional<Pecks> pecks = {};          ///< none: in one feed
   double feed_mm_min = 0.0, dwell_s = 0.0;  ///< the dwell is at the bottom
   double rpm = 0.0, pitch_mm = 0.0;         ///< of a tap; rpm below 0 for a left-hand one
   int decimals = 0, feed_decimals = 0;      ///< of the control
@@ -122,7 +134,8 @@ struct Words {
   /// The control has stopped the spindle when a tap is out.
   bool tap_stops_spindle = false;
   /// Equal holes, one or more, as a canned cycle at each of these places (as planned, not rounded), the tool
-  /// over the first; cancelled behind the last. Nothing where this control has none that makes these moves.
+  /// over the first; cancelled behind the last. Nothing where this control has none that makes these moves:
+  /// `pecks` and `stops` are no moves of most cycles.
   /// Null: explicit moves always.
   std::function<std::optional<CycleText>(const HoleCycle& hole, std::span<const geometry::Vec2> places)>
       cycle = {};

@@ -422,6 +422,7 @@ class Writer {
       }
     }
     program_.forget_feed();
+    if (holes->cycle.stops) speed_ = 0.0;
     return holes->last_move;
   }
 

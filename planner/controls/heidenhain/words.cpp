@@ -218,7 +218,8 @@ gcode::Words words_of(const model::Plan& plan) {
   w.cycle_call_there = "M99";
   w.by_cycles = is("cycles", "feature");
   w.cycle = [](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {
-    return std::optional(gcode::CycleText{hole_text(h)});
+    // Cycles 203 and 205 have other parameters in each version; 202 wants a spindle that can be oriented.
+    return h.pecks || h.stops ? std::nullopt : std::optional(gcode::CycleText{hole_text(h)});
   };
   w.more_centre_decimals = std::max(0, kMostDecimals - machine.control.decimals);
   w.turns = true;

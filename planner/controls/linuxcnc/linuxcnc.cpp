@@ -1,10 +1,12 @@
 #include "planner/controls/linuxcnc/linuxcnc.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "planner/controls/gcode/moves/hole_cycles.h"
 #include "planner/controls/gcode/moves/patterns.h"
 #include "planner/controls/gcode/writer.h"
 #include "planner/ground/base/number.h"
@@ -19,17 +21,38 @@ constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",
 
 constexpr int kPitchDecimals = 6, kDwellDecimals = 3;
 
-/// A hole as G81 (out by rapid) or G85 (out at feed to R, from there by rapid), with a dwell as G82 or G89.
-/// The tool is over the first, so that G98 brings it back to where it is; a block with X or Y again is a
-/// further hole. Source: LinuxCNC 2.9, G-codes.
-std::string hole_text(const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
+/// G73 backs off and G83 stops short of the last bottom by it: G83_RAPID_DELTA, 0.010 inch, in mm.
+/// Source: LinuxCNC 2.9, interp_cycles.cc, convert_cycle_g73 and convert_cycle_g83.
+constexpr double kPeckDeltaMm = 0.254;
+
+/// The code, with the word of its pecks; empty where no cycle makes these moves. G83 is fed again a little
+/// above the last bottom, wherever the path is; G73 comes up as far as the path, and both peck from R.
+std::string cycle_code(const gcode::HoleCycle& h, bool waits) {
+  if (h.stops) return "G86";
+  if (!h.pecks) return h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
+  const auto sizes = gcode::peck_sizes(h);
+  const bool back =
+      h.pecks->clears || std::abs(h.pecks->back_mm - kPeckDeltaMm) < 0.5 * std::pow(10.0, -h.decimals);
+  if (!sizes || !back || waits || h.feeds_out || h.pecks->dwell_s > 0.0 ||
+      !gcode::are_pecks(h, sizes->first_mm, sizes->first_mm))
+    return "";
+  return std::string(h.pecks->clears ? "G83" : "G73") + " Q" + trimmed(sizes->first_mm, h.decimals);
+}
+
+/// A hole as G81 (out by rapid) or G85 (out at feed to R, from there by rapid), with a dwell as G82 or G89;
+/// with the spindle stopped at the bottom as G86, which has its P always. The tool is over the first, so that
+/// G98 brings it back to where it is; a block with X or Y again is a further hole.
+/// Source: LinuxCNC 2.9, G-codes.
+std::optional<gcode::CycleText> hole_text(const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
   const bool waits = rounded(h.dwell_s, kDwellDecimals) > 0.0;
-  const char* code = h.feeds_out ? (waits ? "G89" : "G85") : (waits ? "G82" : "G81");
-  return "G98 " + std::string(code) + " X" + trimmed(h.at.x, h.decimals) + " Y" +
-         trimmed(h.at.y, h.decimals) + " Z" + trimmed(h.bottom_z, h.decimals) + " R" +
-         trimmed(h.r_z, h.decimals) + (waits ? " P" + trimmed(h.dwell_s, kDwellDecimals) : "") + " F" +
-         trimmed(h.feed_mm_min, h.feed_decimals) + gcode::place_blocks(places, h.decimals, {}, &trimmed) +
-         "\nG80";
+  const std::string code = cycle_code(h, waits);
+  if (code.empty()) return std::nullopt;
+  return gcode::CycleText{
+      "G98 " + code + " X" + trimmed(h.at.x, h.decimals) + " Y" + trimmed(h.at.y, h.decimals) + " Z" +
+      trimmed(h.bottom_z, h.decimals) + " R" + trimmed(h.r_z, h.decimals) +
+      (waits || h.stops ? " P" + trimmed(h.dwell_s, kDwellDecimals) : "") + " F" +
+      trimmed(h.feed_mm_min, h.feed_decimals) + gcode::place_blocks(places, h.decimals, {}, &trimmed) +
+      "\nG80" + (h.stops ? "\nM5" : "")};
 }
 
 gcode::Words words(const model::Machine& machine) {
@@ -52,9 +75,7 @@ gcode::Words words(const model::Machine& machine) {
           },
   };
   out.by_cycles = model::control_option(machine, "cycles") == "feature";
-  out.cycle = [](const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
-    return std::optional(gcode::CycleText{hole_text(h, places)});
-  };
+  out.cycle = &hole_text;
   return out;
 }
 

@@ -12,6 +12,8 @@ namespace capstan::controls::linuxcnc {
 /// Path    `G64 P` with the tolerance, `G61` without one.
 /// Top     of Z by `G53 G0 Z`.
 /// Tapping `G33.1`, which turns the spindle round by itself.
+/// Holes   with `cycles: feature`: `G81`, `G82`, `G85`, `G89`, `G86` where the spindle stops at the bottom;
+///         `G83` and `G73` where the pecks are equal from R on.
 /// Stops   `(MSG, ...)`, then `M0`.
 /// Source  LinuxCNC 2.9 manual, G-code reference and "RS274/NGC".
 extern const Dialect kDialect;

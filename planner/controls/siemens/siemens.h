@@ -28,8 +28,9 @@ namespace capstan::controls::siemens {
 /// Arcs     centre from the start by I and J; a helix of more than one turn by `TURN=`, the further turns.
 ///
 /// Holes    `MCALL CYCLE81`, `82`, `85` and `84`, a positioning block, `MCALL`: RTP is where the tool came
-///          from, RFP + SDIS where it is fed from, DP absolute. Pecks are explicit moves: the plan counts the
-///          first from the raw piece, and CYCLE83 counts it from RFP. Equal holes of a step stand between one
+///          from, RFP + SDIS where it is fed from, DP absolute. `CYCLE83` where all pecks behind
+///          the first are equal; other pecks, and a bar that comes out of a hole with the spindle stopped
+///          (CYCLE86 orients it), are explicit moves. Equal holes of a step stand between one
 ///          MCALL and its end: `HOLES1` for a row, `HOLES2` for a circle, else a block per place. Modes of
 ///          the later lists of parameters
 ///          (_GMODE, _DMODE, _AMODE) are left out: 0, as the shorter lists.

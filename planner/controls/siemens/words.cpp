@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "planner/controls/gcode/moves/hole_cycles.h"
 #include "planner/controls/gcode/moves/patterns.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/controls/siemens/siemens.h"
@@ -59,6 +60,32 @@ gcode::CycleText hole_text(const HoleCycle& h, Places places) {
                              ? called(h, "CYCLE82(" + planes(h) + "," + dwell + ")", places)
                              : called(h, "CYCLE81(" + planes(h) + ")", places);
   out.text.insert(0, "F" + feed + "\n");
+  return out;
+}
+
+/// CYCLE83: equal pecks (DAM 0), each as the first, which ends at FDEP and counts from RFP. Nothing where the
+/// last one is less than they, for how the control divides the last two is not looked up; nor where the pecks
+/// wait and the bottom does not. VARI 1 clears the hole, _DIS1 says where it is fed again; VARI 0 comes up by
+/// _VRT.
+std::optional<gcode::CycleText> pecked_text(const HoleCycle& h, Places places) {
+  const auto sizes = gcode::peck_sizes(h);
+  if (!sizes || h.feeds_out) return std::nullopt;
+  const auto n = [&](double v) { return trimmed(v, h.decimals); };
+  const double first_z = h.pecks->bottoms_z.front(), reference = first_z + sizes->step_mm;
+  const double clearance = rounded(h.r_z - reference, h.decimals);
+  const double last = h.pecks->bottoms_z.back() - h.bottom_z;
+  const double half = 0.5 * std::pow(10.0, -h.decimals);
+  const double waits = rounded(h.pecks->dwell_s, 3), waits_below = rounded(h.dwell_s, 3);
+  if (clearance < 0.0 || reference > h.initial_z - half || std::abs(last - sizes->step_mm) > half ||
+      (waits > 0.0 && waits_below == 0.0))
+    return std::nullopt;
+  const std::string back = n(h.pecks->back_mm), dwell = trimmed(waits, 3);
+  const std::string call = "CYCLE83(" + n(h.initial_z) + "," + n(reference) + "," + n(clearance) + "," +
+                           n(h.bottom_z) + ",," + n(first_z) + ",,0," + dwell + ",0,1," +
+                           (h.pecks->clears ? "1" : "0") + ",,," + (h.pecks->clears ? "" : back) + "," +
+                           trimmed(waits_below, 3) + (h.pecks->clears ? "," + back : "") + ")";
+  gcode::CycleText out = called(h, call, places);
+  out.text.insert(0, "F" + trimmed(h.feed_mm_min, h.feed_decimals) + "\n");
   return out;
 }
 
@@ -132,7 +159,10 @@ gcode::Words words_of(const model::Machine& machine) {
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
   w.by_cycles = is("cycles", "feature");
-  w.cycle = [](const HoleCycle& h, Places places) { return std::optional(hole_text(h, places)); };
+  w.cycle = [](const HoleCycle& h, Places places) {
+    if (h.stops) return std::optional<gcode::CycleText>();  // CYCLE86 orients the spindle, which not all can
+    return h.pecks ? pecked_text(h, places) : std::optional(hole_text(h, places));
+  };
   w.more_centre_decimals = kMoreCentreDecimals;
   w.turns = is("turns", "yes");
   return w;

@@ -5,6 +5,7 @@
 
 #include "planner/controls/controls.h"
 #include "planner/door/pipeline/stages.h"
+#include "planner/door/pipeline/tools/sisters.h"
 #include "planner/making/given/machine_needs.h"
 #include "planner/making/given/tool_material.h"
 #include "planner/making/piece/corner_rests.h"
@@ -145,6 +146,7 @@ Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Req
   }
   if (bind == Bind::kAll) {
     const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
+    share_among_sisters(plan, asked.inputs.library, job);
     step::tell_edges(plan, asked.inputs.cases.get(), job);
     given::state_machine_needs(plan);
     plan.provenance = piece::settled_corner_rests(piece, drafts.steps, job);

@@ -34,9 +34,10 @@ inline constexpr std::array kControlOptions{
     ControlOptionRow{
         "cycles", "feature explicit", 0, 0, false,
         "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
-        "G82, G85, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 85, 84, with HOLES1 and HOLES2; Heidenhain: "
-        "CYCL DEF 200, 201, 207 with M99; LinuxCNC: G81, G82, G85, G89, and G33.1 for threads), equal holes "
-        "of a step at once; or explicit moves",
+        "G82, G83, G73, G85, G86, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 83, 85, 84, with HOLES1 and "
+        "HOLES2; Heidenhain: CYCL DEF 200, 201, 207 with M99; LinuxCNC: G81, G82, G83, G73, G85, G86, G89, "
+        "and G33.1 for threads; Mach3: G81, G82, G85, G86, G89), equal holes of a step at once; or explicit "
+        "moves",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
         "2.9, G-codes, canned cycles"},
     ControlOptionRow{
@@ -53,7 +54,7 @@ inline constexpr std::array kControlOptions{
                      "J of G84: how many times faster the tap comes out; 0: no J", "Haas G84, J"},
     ControlOptionRow{"dwell", "milliseconds seconds", 0, 0, false,
                      "P of G4 and of cycles: whole milliseconds, or seconds with a decimal point",
-                     "0i 5.1 (G04 P without point); Haas G04"},
+                     "0i 5.1 (G04 P without point); Haas G04; Mach3: a setting"},
     ControlOptionRow{"extended_offsets", "", 0, 300, true,
                      "work offsets beyond G59: so many of G54.1 P, at Haas of G154 P",
                      "0i 7.2.3 (option, 48 or 300); Haas G154"},
@@ -90,8 +91,12 @@ inline constexpr std::array kControlOptions{
     ControlOptionRow{"line_length", "", 72, 255, true, "characters of a block at most", "default, unsourced"},
     ControlOptionRow{
         "peck_clearance_mm", "", 0, 10, false,
-        "where G83 ends its rapid above the last peck, for the check; programs peck by explicit moves",
+        "where G83 ends its rapid above the last peck, at Haas also how far G73 comes up; not stated: pecks "
+        "are explicit moves",
         "30i 5.1.6 (parameter 5115); Haas setting 22"},
+    ControlOptionRow{"chip_break_mm", "", 0, 10, false,
+                     "how far G73 comes up to break the chip; not stated: such pecks are explicit moves",
+                     "30i 5.1.1 (parameter 5114)"},
     ControlOptionRow{"codes", "", 0, 0, false,
                      "the codes that this machine has, as G0 G1 M3, with blanks between; not stated: all",
                      "the machine builder's list of codes"},

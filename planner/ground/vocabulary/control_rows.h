@@ -33,7 +33,7 @@ inline constexpr std::array kControlRows{
                "cycles=feature retract=g53 tap=m29 tap_feed=per_revolution dwell=milliseconds "
                "extended_offsets=0 ai_contour=no path_tolerance=assumed next_tool=staged arcs=half "
                "largest_radius_mm=99999.999 helices=yes block_numbers=steps program_number=1 "
-               "prove_out=m1 comments=upper line_length=200 peck_clearance_mm= codes= "
+               "prove_out=m1 comments=upper line_length=200 peck_clearance_mm= chip_break_mm= codes= "
                "start_blocks= end_blocks= shop_codes= through_coolant="},
     ControlRow{"haas", 0.86602540378443864676, 0.5, false,
                "cycles=feature retract=g53 tap=g84 tap_feed=per_minute tap_retract=0 dwell=seconds "
@@ -57,6 +57,10 @@ inline constexpr std::array kControlRows{
     ControlRow{"grbl", 0.86602540378443864676, 0.5, false,
                "tool_change=m6 tool_length=touch_off mist=no block_numbers=none line_length=120 "
                "start_blocks= end_blocks="},
+    // Constant velocity, with a look-ahead of blocks; shares of the axes' limits: default, unsourced.
+    ControlRow{"mach3", 0.86602540378443864676, 0.5, false,
+               "cycles=feature dwell=seconds path_tolerance=assumed block_numbers=none line_length=200 "
+               "start_blocks= end_blocks= shop_codes="},
 };
 
 /// The control's row; null for a dialect without one.

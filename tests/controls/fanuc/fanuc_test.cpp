@@ -48,6 +48,45 @@ TEST(FanucProgram, EqualHolesOfAStepAreFurtherPlacesOfOneCycle) {
               HasSubstr("\nG98 G81 X10. Y10. Z-18.2 R2. F180.\nX86.\nX10. Y70.\nX86.\nG80\n"));
 }
 
+TEST(FanucProgram, EqualPecksFromRAreACycleWhereTheMachineSaysWhereItComesBackTo) {
+  Plan plan = plans::pecked_plan("fanuc", {-4, -14, -22.4}, true);
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("G83")));
+  choose(plan, "peck_clearance_mm", "0.2");
+  EXPECT_THAT(program_of(plan), HasSubstr("\nG98 G83 X20. Y20. Z-22.4 R6. Q10. F180.\nG80\n"));
+  // A first peck of 14 mm and then 10 is no cycle of this control.
+  Plan other = plans::pecked_plan("fanuc", {-8, -18, -22.4}, true);
+  choose(other, "peck_clearance_mm", "0.2");
+  EXPECT_THAT(program_of(other), Not(HasSubstr("G83")));
+}
+
+TEST(FanucProgram, AChipIsBrokenByACycleOnlyWhereTheMachineComesUpAsFarAsThePlan) {
+  // From 2: pecks of 8 mm, 0.5 up.
+  Plan plan = plans::pecked_plan("fanuc", {-6, -14, -22}, false);
+  choose(plan, "chip_break_mm", "0.5");
+  EXPECT_THAT(program_of(plan), HasSubstr("\nG98 G73 X20. Y20. Z-22. R2. Q8. F180.\nG80\n"));
+  Plan less = plans::pecked_plan("fanuc", {-6, -14, -22}, false);
+  choose(less, "chip_break_mm", "0.4");
+  EXPECT_THAT(program_of(less), Not(HasSubstr("G73")));
+}
+
+TEST(FanucProgram, AFirstPeckOfItsOwnIsSaidToAHaas) {
+  Plan plan = plans::pecked_plan("haas", {-10, -18, -22.4}, true);
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("G83")));
+  choose(plan, "peck_clearance_mm", "0.5");
+  // From 6: 16, and 8 less to 8.
+  EXPECT_THAT(program_of(plan), HasSubstr("\nG98 G83 X20. Y20. Z-22.4 R6. I16. J8. K8. F180.\nG80\n"));
+  Plan chips = plans::pecked_plan("haas", {-10, -18, -22.4}, false);
+  choose(chips, "peck_clearance_mm", "0.5");
+  EXPECT_THAT(program_of(chips), HasSubstr("\nG98 G73 X20. Y20. Z-22.4 R2. I12. J4. K8. F180.\nG80\n"));
+}
+
+TEST(FanucProgram, ABarThatComesOutWithTheSpindleStoppedIsG86) {
+  for (const char* dialect : {"fanuc", "haas"})
+    EXPECT_THAT(program_of(plans::bored_plan(dialect)),
+                HasSubstr("\nG98 G86 X20. Y20. Z-18.2 R2. F180.\nG80\nM5\n"))
+        << dialect;
+}
+
 TEST(FanucProgram, EachOptionOfTheMachineChangesWhatItSays) {
   const auto with = [](const char* name, const char* value) {
     Plan plan = holes_plan("fanuc");

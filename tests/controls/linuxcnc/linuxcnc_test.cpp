@@ -281,6 +281,51 @@ TEST(LinuxCncInterpreter, MakesOfCyclesTheMovesOfThePath) {
   EXPECT_EQ(by_cycles, by_moves);
 }
 
+TEST(LinuxCnc, PecksAreACycleWhereTheyAreEqualFromROnAndABarWithTheSpindleStoppedIsG86) {
+  const auto by_cycles = [](Plan plan) {
+    plans::choose(plan, "cycles", "feature");
+    return program_of(plan);
+  };
+  EXPECT_THAT(by_cycles(plans::pecked_plan("linuxcnc", {-4, -14, -22.4}, true)),
+              HasSubstr("\nG98 G83 Q10 X20 Y20 Z-22.4 R6 F180\nG80\n"));
+  EXPECT_THAT(by_cycles(plans::pecked_plan("linuxcnc", {-8, -18, -22.4}, true)), Not(HasSubstr("G83")));
+  // G73 comes up by 0.254 mm; the plan by 0.5.
+  EXPECT_THAT(by_cycles(plans::pecked_plan("linuxcnc", {-6, -14, -22}, false)), Not(HasSubstr("G73")));
+  EXPECT_THAT(by_cycles(plans::bored_plan("linuxcnc")),
+              HasSubstr("\nG98 G86 X20 Y20 Z-18.2 R2 P0 F180\nG80\nM5\n"));
+}
+
+TEST(LinuxCncInterpreter, PecksFromRAndComesBackTo0254AboveTheLastBottom) {
+  CAPSTAN_NEEDS_RS274();
+  Plan plan = plans::pecked_plan("linuxcnc", {-4, -14, -22.4}, true);
+  plans::choose(plan, "cycles", "feature");
+  const Rs274Run r = run(plan);
+  EXPECT_EQ(r.status, 0) << r.output;
+  std::vector<double> heights;
+  for (const auto& c : r.only({"STRAIGHT_TRAVERSE", "STRAIGHT_FEED"})) {
+    const double way = c.name == "STRAIGHT_FEED" ? 1000.0 : 0.0;  // of a feed
+    if (c.numbers[0] == 20.0 && c.numbers[1] == 20.0) heights.push_back(c.numbers[2] + way);
+  }
+  const std::vector<double> cycle{6, 996, 6, -3.746, 986, 6, -13.746, 977.6, 10};
+  EXPECT_NE(std::search(heights.begin(), heights.end(), cycle.begin(), cycle.end(),
+                        [](double a, double b) { return std::abs(a - b) < kCanonUnit; }),
+            heights.end())
+      << r.output;
+}
+
+TEST(LinuxCncInterpreter, G86StopsTheSpindleAtTheBottomAndStartsItAgainAbove) {
+  CAPSTAN_NEEDS_RS274();
+  Plan plan = plans::bored_plan("linuxcnc");
+  plans::choose(plan, "cycles", "feature");
+  const Rs274Run r = run(plan);
+  EXPECT_EQ(r.status, 0) << r.output;
+  std::vector<std::string> names;
+  for (const auto& c : r.calls) names.push_back(c.name);
+  const std::vector<std::string> cycle{"STRAIGHT_FEED", "DWELL", "STOP_SPINDLE_TURNING", "STRAIGHT_TRAVERSE",
+                                       "START_SPINDLE_CLOCKWISE"};
+  EXPECT_NE(std::search(names.begin(), names.end(), cycle.begin(), cycle.end()), names.end()) << r.output;
+}
+
 TEST(LinuxCnc, RefusesATapWhoseFeedIsNotItsPitch) {
   Plan plan = testing::empty_plan();
   CutterPath p;

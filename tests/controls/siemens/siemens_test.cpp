@@ -64,6 +64,21 @@ TEST(SiemensProgram, EqualHolesOnALineOrACircleAreAPatternOfTheControlAndOthersA
   EXPECT_THAT(four, Not(HasSubstr("HOLES")));
 }
 
+TEST(SiemensProgram, EqualPecksBehindTheFirstAreCYCLE83AndOthersAreMoves) {
+  // RFP is a peck of 8 above the first bottom, and SDIS from there to where the tool comes back to, 6.
+  EXPECT_THAT(program_of(plans::pecked_plan("siemens", {-10, -18, -26}, true)),
+              HasSubstr("\nF180\nMCALL CYCLE83(10,-2,8,-26,,-10,,0,0,0,1,1,,,,0,0.5)\nG0 X20 Y20\nMCALL\n"));
+  // Fed from 2, and 0.5 up after each.
+  EXPECT_THAT(program_of(plans::pecked_plan("siemens", {-10, -18, -26}, false)),
+              HasSubstr("\nF180\nMCALL CYCLE83(10,-2,4,-26,,-10,,0,0,0,1,0,,,0.5,0)\nG0 X20 Y20\nMCALL\n"));
+  // 6 mm at the end: how the control divides its last two pecks is not looked up.
+  EXPECT_THAT(program_of(plans::pecked_plan("siemens", {-10, -18, -24}, true)), Not(HasSubstr("CYCLE83")));
+}
+
+TEST(SiemensProgram, ABarThatComesOutWithTheSpindleStoppedIsMoves) {
+  EXPECT_THAT(program_of(plans::bored_plan("siemens")), HasSubstr("\nG1 Z-18.2 F180\nM5\nG0 Z10\n"));
+}
+
 TEST(SiemensProgram, EachOptionOfTheMachineChangesWhatItSays) {
   const auto with = [](const char* name, const char* value) {
     Plan plan = holes_plan("siemens");

@@ -40,10 +40,10 @@ TEST(CheckProfile, AnUnknownControlIsWrongUsage) {
   EXPECT_THAT(to_text(result.error().what), HasSubstr("grbl"));
 }
 
-// The figure of the machine's file is LinuxCNC's; no word of a program of Fanuc states it, one of Haas's
-// does.
+// The figure of the machine's file is LinuxCNC's; no word of a program of Fanuc or Mach3 states it, one of
+// Haas's does.
 TEST(PlanForAControl, ThatCannotStateItsToleranceIsWarnedOfOnce) {
-  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain", "grbl"}) {
+  for (const char* control : {"fanuc", "haas", "siemens", "heidenhain", "grbl", "mach3"}) {
     Request request;
     EXPECT_TRUE(set(request, "control", control));
     Job job;
@@ -52,7 +52,8 @@ TEST(PlanForAControl, ThatCannotStateItsToleranceIsWarnedOfOnce) {
     ASSERT_TRUE(planned) << to_text(planned.error().what);
     const auto assumed = std::count_if(planned->findings.begin(), planned->findings.end(),
                                        [](const model::Finding& f) { return f.code == "FIT-TOLERANCE"; });
-    EXPECT_EQ(assumed, std::string(control) == "fanuc" ? 1 : 0) << control;
+    const bool states_none = std::string(control) == "fanuc" || std::string(control) == "mach3";
+    EXPECT_EQ(assumed, states_none ? 1 : 0) << control;
     // Nobody named a machine: whose the program is made for is said.
     const auto all = job.diagnostics();
     EXPECT_EQ(std::count_if(all.begin(), all.end(),

@@ -38,7 +38,7 @@ model::Plan with_cycles(const char* control, const Places& places) {
 }
 
 TEST(ProgramPatterns, AreReadBackEqualForEveryControlThatHasCycles) {
-  for (const char* control : {"linuxcnc", "fanuc", "haas", "siemens", "heidenhain"}) {
+  for (const char* control : {"linuxcnc", "fanuc", "haas", "siemens", "heidenhain", "mach3"}) {
     for (const Places& places :
          {kGrid, kRow, ring({50, 40}, 30, -30, 60, 6), ring({7.7, -3.1}, 41.3, 11, 17, 5)}) {
       const model::Plan plan = with_cycles(control, places);

@@ -10,6 +10,8 @@ std::string other_code(std::string l, const std::string& from, const std::string
   return at == std::string::npos ? l : l.replace(at, from.size(), to);
 }
 
+bool is_pecking(const std::string& l) { return holds(l, " G83 ") || holds(l, " G73 "); }
+
 }  // namespace
 
 std::vector<Class> dangerous_in_fanuc() {
@@ -51,6 +53,25 @@ std::vector<Class> dangerous_in_fanuc() {
              [&](const std::string& l) {
                return other_code(other_code(l, "G81", "G83"), "G85", "G83") + " Q" + n(r.between(1.0, 5.0));
              });
+       }},
+      {"longer pecks", Kind::kDangerous, false,
+       [](const Emitted& e, Random& r) {
+         const char letter = holds(e.text, " Q") ? 'Q' : r.below(2) == 0 ? 'I' : 'K';
+         return word_changed(e, r, is_pecking, letter, [&](double v) { return v * r.between(1.1, 2.0); });
+       }},
+      {"chip broken in place of a cleared hole", Kind::kDangerous, false,
+       [](const Emitted& e, Random& r) {
+         return changed(
+             e, r, [](const std::string& l) { return holds(l, " G83 "); },
+             [](const std::string& l) { return other_code(l, "G83", "G73"); });
+       }},
+      {"pecks left out", Kind::kDangerous, false,
+       [](const Emitted& e, Random& r) {
+         return changed(e, r, is_pecking, [](std::string l) {
+           l = other_code(other_code(l, "G83", "G81"), "G73", "G81");
+           const std::size_t at = std::min(l.find(" Q"), l.find(" I"));
+           return l.erase(at, l.find(" F") - at);
+         });
        }},
       {"rigid tapping not called", Kind::kDangerous, false,
        [](const Emitted& e, Random& r) {

@@ -39,6 +39,7 @@ Made parameter_changed(const Emitted& e, Random& r, Is is, std::size_t at, F f) 
 
 bool is_ream(const std::string& l) { return starts(l, "MCALL CYCLE85("); }
 bool is_drill(const std::string& l) { return starts(l, "MCALL CYCLE81("); }
+bool is_pecking(const std::string& l) { return starts(l, "MCALL CYCLE83("); }
 bool is_smoothing(const std::string& l) { return starts(l, "CYCLE832(0.0"); }
 
 }  // namespace
@@ -115,6 +116,18 @@ std::vector<Class> dangerous_in_siemens() {
            return "MCALL CYCLE83(" + p[0] + "," + p[1] + "," + p[2] + "," + p[3] + ",,," +
                   n(r.between(1.0, 5.0)) + ",0,0,0,1," + (r.below(2) == 0 ? "0" : "1") + ",,1)";
          });
+       }},
+      {"longer pecks", Kind::kDangerous, false,
+       [](const Emitted& e, Random& r) {
+         return parameter_changed(e, r, is_pecking, 5, [&](double v) { return v - r.between(0.02, 8.0); });
+       }},
+      {"chip broken in place of a cleared hole, or the other way round", Kind::kDangerous, false,
+       [](const Emitted& e, Random& r) {
+         return parameter_changed(e, r, is_pecking, 11, [](double v) { return 1.0 - v; });
+       }},
+      {"pecks that shrink", Kind::kDangerous, false,
+       [](const Emitted& e, Random& r) {
+         return parameter_changed(e, r, is_pecking, 7, [&](double) { return r.between(0.5, 3.0); });
        }},
       {"pitch of a tapping cycle", Kind::kDangerous, false,
        [](const Emitted& e, Random& r) {

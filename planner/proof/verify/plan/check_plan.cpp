@@ -33,6 +33,7 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   poll();
   check_coolant(plan, steps, findings);
   check_life(steps, findings);
+  check_sisters(plan, findings);
   check_machine(plan, findings);
   check_holding(plan, findings);
   poll();

@@ -59,6 +59,9 @@ void check_coolant(const model::Plan& plan, const std::vector<StepMoves>& steps,
 /// The time that each tool cuts against the life it and its sisters have left: 30. Tools without a stated
 /// life are not judged.
 void check_life(const std::vector<StepMoves>& steps, Findings& findings);
+/// Cutters of the plan that take another one's place (Cutter::sisters names that one): loaded under a number
+/// of their own, measured, and of the same sizes: 30.
+void check_sisters(const model::Plan& plan, Findings& findings);
 
 /// What follows from each step's own numbers, whoever chose them: cutting speed against the material's card
 /// or the tool's own (16), the life of an edge at it against the step's time, edges that a tool takes in all

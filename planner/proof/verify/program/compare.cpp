@@ -2,7 +2,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/resources/control_options.h"
-#include "planner/proof/verify/program/following.h"
+#include "planner/proof/verify/following/following.h"
 #include "planner/proof/verify/program/program_checks.h"
 
 namespace capstan::verify {

@@ -76,6 +76,14 @@ constexpr std::array kReaders{
                   .states_tolerance = false,
                   .words = grbl::kWords,
                   .options = "tool_change=m6 tool_length=touch_off mist=no"},
+    DialectReader{.dialect = "mach3",
+                  .name = "Mach3",
+                  .work_offsets = linuxcnc::kMach3Offsets,
+                  .program = &linuxcnc::read_mach3,
+                  .tool_table = nullptr,
+                  .speed_decimals = 0,
+                  .states_tolerance = false,
+                  .options = linuxcnc::kMach3Options},
 };
 
 }  // namespace

@@ -114,11 +114,12 @@ void Interpreter::word_rules(const BlockWords& s) {
   unused('D', s.code(410) || s.code(420));
   unused('E', accuracy);
   unused('H', s.code(430));
-  unused('I', arcs);
-  unused('J', arcs || (taps && ways_.haas));
-  unused('K', cycles && !ways_.haas);
+  const bool shrinks = pecks && ways_.haas;
+  unused('I', arcs || shrinks);
+  unused('J', arcs || shrinks || (taps && ways_.haas));
+  unused('K', shrinks || (cycles && !ways_.haas));
   unused('L', cycles && ways_.haas);
-  unused('P', dwells || offset || accuracy || motion == 820 || motion == 890 || taps);
+  unused('P', dwells || offset || accuracy || motion == 820 || motion == 890 || taps || shrinks);
   unused('Q', pecks || s.code(51));
   unused('R', arcs || cycles);
   if (arcs && s.is('R') && (s.is('I') || s.is('J')))
@@ -130,6 +131,7 @@ void Interpreter::word_rules(const BlockWords& s) {
       fault(33, "CHK-WORD", std::string("the word ") + c + " is " + plain(s.of(c)) + ", below zero");
   }
   for (const char c : {'S', 'T', 'H', 'D', 'L', 'K', 'N', 'O'}) {
+    if (c == 'K' && shrinks) continue;  // a length
     if (s.is(c) && s.point[c - 'A'])
       fault(33, "CHK-WORD",
             std::string("the word ") + c + " has a decimal point; it takes whole numbers only");
@@ -172,7 +174,9 @@ void Interpreter::code_rules(const BlockWords& s) {
 /// Without its point a length counts least increments, or millimetres, by a parameter of the machine.
 void Interpreter::point_rules(const BlockWords& s) {
   const bool per_turn = feed_mode_ == 95 || s.code(950);
-  for (const char c : std::string_view("XYZIJRQFE")) {
+  for (const char c : std::string_view("XYZIJKRQFE")) {
+    if (c == 'K' && !(ways_.haas && (motion_ == 830 || motion_ == 730 || s.code(830) || s.code(730))))
+      continue;
     if (!s.is(c) || s.point[c - 'A'] || s.of(c) == 0.0) continue;
     if (c == 'F' && !per_turn && !ways_.haas) continue;  // mm/min either way
     if (c == 'J' && (motion_ == 840 || motion_ == 740 || s.code(840) || s.code(740)))

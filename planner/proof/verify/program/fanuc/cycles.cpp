@@ -18,12 +18,14 @@ constexpr int kMostPecks = 100000;
 }
 
 /// Feeds of Q, each followed by a rapid to R (G83) and back to d above the last bottom, or by a short way up
-/// (G73).
+/// (G73). Haas's I, J and K: the first feed is I, each further one less by J, none less than K (96-8000, G73
+/// and G83); setting 52, which adds a way above R, is taken as 0.
 void Interpreter::pecks(double x, double y) {
-  const double d = ways_.peck_clearance_mm;
-  double bottom = r_;
+  const double d = motion_ == 830 ? ways_.peck_clearance_mm : ways_.chip_break_mm;
+  double bottom = r_, one = shrinks_ ? i_ : q_;
   for (int n = 0; bottom > z_ && n < kMostPecks && cycle_blocks_ <= kCycleBlockCap; ++n) {
-    bottom = std::max(z_, bottom - q_);
+    bottom = std::max(z_, bottom - one);
+    if (shrinks_) one = std::max(one - j_, k_);
     to({x, y, bottom}, MoveKind::kLine);
     if (bottom <= z_) break;
     to({x, y, motion_ == 830 ? r_ : std::min(r_, bottom + d)}, MoveKind::kRapid);
@@ -72,12 +74,39 @@ void Interpreter::one_hole(double x, double y, double faster_back) {
   } else {
     to({x, y, z_}, MoveKind::kLine);
   }
-  if ((motion_ == 820 || motion_ == 890) && p_s_ > 0.0) dwell(p_s_);
+  // Haas also waits behind the last peck (96-8000, G73 and G83).
+  const bool pecked = ways_.haas && (motion_ == 830 || motion_ == 730);
+  if ((motion_ == 820 || motion_ == 890 || pecked) && p_s_ > 0.0) dwell(p_s_);
   const int turning = spindle_;
   if (motion_ == 860) spindle_ = 0;
   if (motion_ == 850 || motion_ == 890) to({x, y, r_}, MoveKind::kLine);
   to({x, y, back}, MoveKind::kRapid);
   spindle_ = turning;
+}
+
+/// Haas's I, J and K hold as Q does, and one of the two ways is stated. False where pecks are not followed.
+bool Interpreter::peck_words(const BlockWords& s) {
+  if (!ways_.haas || (motion_ != 830 && motion_ != 730)) return true;
+  const bool any = s.is('I') || s.is('J') || s.is('K');
+  if (any && s.is('Q')) {
+    fault(26, "CHK-UNVERIFIABLE", "pecks with both Q and one of I, J and K are not followed", true);
+    return false;
+  }
+  if (s.is('Q')) shrinks_ = false;
+  if (!any) return true;
+  if (!s.is('I') || !s.is('J') || !s.is('K')) {
+    fault(26, "CHK-CYCLE", "pecks with one of I, J and K and not all three: state them, or Q");
+    return false;
+  }
+  i_ = s.of('I') * units();
+  j_ = s.of('J') * units();
+  k_ = s.of('K') * units();
+  shrinks_ = true;
+  if (i_ > 0.0 && j_ >= 0.0 && k_ > 0.0) return true;
+  fault(26, "CHK-CYCLE",
+        "the pecks I " + mm(i_) + ", J " + mm(j_) + ", K " + mm(k_) +
+            ": I and K must be above zero, and J not below it");
+  return false;
 }
 
 void Interpreter::cycle(const BlockWords& s) {
@@ -89,12 +118,13 @@ void Interpreter::cycle(const BlockWords& s) {
   if (s.is('Z')) z_ = s.of('Z') * units();
   if (s.is('R')) r_ = s.of('R') * units();
   if (s.is('Q')) q_ = s.of('Q') * units();
+  if (!peck_words(s)) return;
   if (s.is('P')) p_s_ = seconds_of_p(s);
   has_z_ = has_z_ || s.is('Z');
   has_r_ = has_r_ || s.is('R');
   if (!has_z_ || !has_r_) return wrong("a cycle begins without Z and R");
   if (!(r_ > z_)) return wrong("R " + mm(r_) + " is not above the bottom, Z " + mm(z_));
-  if ((motion_ == 830 || motion_ == 730) && !(q_ > 0.0))
+  if ((motion_ == 830 || motion_ == 730) && !shrinks_ && !(q_ > 0.0))
     return wrong("the peck Q is " + mm(q_) + "; it must be above zero");
   if (!known_[2]) return wrong("a cycle begins where the height is not known");
   if (at_.z < r_ - 1e-9)

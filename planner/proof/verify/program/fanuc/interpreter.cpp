@@ -51,6 +51,8 @@ Interpreter::Interpreter(const model::Machine& machine) {
   ways_.last_decimal_mm = std::pow(10.0, -machine.control.decimals);
   ways_.extended_offsets = static_cast<int>(option_number(machine, "extended_offsets"));
   ways_.peck_clearance_mm = option_number(machine, "peck_clearance_mm");
+  // Haas has one setting, 22, for both.
+  ways_.chip_break_mm = ways_.haas ? ways_.peck_clearance_mm : option_number(machine, "chip_break_mm");
   ways_.tolerance_mm = std::max(0.0, machine.control.path_tolerance_mm);
   const model::LinearAxis& z = machine.axes[2];
   ways_.top_mm = z.travel_max_mm > z.travel_min_mm ? z.travel_max_mm : 0.0;
@@ -224,6 +226,7 @@ void Interpreter::motion(const BlockWords& s) {
     }
     if (is_cycle(g) && !is_cycle(motion_)) {
       has_r_ = has_z_ = false;
+      shrinks_ = false;
       q_ = p_s_ = 0.0;  // cancelled with the cycle that stated them: 30i 5.1
       initial_ = known_[2] ? at_.z : 1e300;
     }

@@ -43,7 +43,7 @@ class Interpreter : private BlockState {
   struct Ways {
     bool haas = false, seconds = false, m29 = false, proves_out = false;
     int extended_offsets = 0;
-    double peck_clearance_mm = 0.0, tolerance_mm = 0.0, top_mm = 0.0;
+    double peck_clearance_mm = 0.0, chip_break_mm = 0.0, tolerance_mm = 0.0, top_mm = 0.0;
     bool quadrants = false, helices = true;
     double largest_radius_mm = 0.0, last_decimal_mm = 0.0;
     std::size_t longest_block = 0;  ///< characters
@@ -74,6 +74,7 @@ class Interpreter : private BlockState {
   void way_home(const BlockWords& s);
   void cycle(const BlockWords& s);
   void one_hole(double x, double y, double faster_back);
+  bool peck_words(const BlockWords& s);
   void pecks(double x, double y);
   void tap(double x, double y, double faster_back);
   /// Seconds with a point, milliseconds without.
@@ -88,6 +89,8 @@ class Interpreter : private BlockState {
   double accuracy_mm_ = 0.0;  ///< of G187, else the machine's
   double r_ = 0.0, z_ = 0.0, q_ = 0.0, p_s_ = 0.0, initial_ = 0.0;
   bool has_r_ = false, has_z_ = false;
+  bool shrinks_ = false;  ///< pecks by Haas's I, J and K
+  double i_ = 0.0, j_ = 0.0, k_ = 0.0;
 };
 
 }  // namespace capstan::verify::fanuc

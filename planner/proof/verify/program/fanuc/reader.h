@@ -15,8 +15,8 @@ namespace capstan::verify::fanuc {
 /// G89-G91, G94, G95, G98, G99, M0-M9, M29, M30, and at Haas G154 P and G187. Cycles are expanded into moves,
 /// kCycleBlockCap of them at most. What is beyond that (variables, subprograms, other planes, G76, G87, G88)
 /// becomes a fault, and reading goes on. What one machine does otherwise than another (the time that P
-/// counts, rigid tapping, d of G83) and what it does not take (codes, helices, radii, quadrants, long blocks)
-/// is by its file, with the defaults of options.h.
+/// counts, rigid tapping, d of G83 and G73) and what it does not take (codes, helices, radii, quadrants, long
+/// blocks) is by its file, with the defaults of options.h.
 ///
 /// A length without a decimal point is a fault: it counts least increments on one machine and millimetres on
 /// the next (parameter 3401).
@@ -32,7 +32,7 @@ namespace capstan::verify::fanuc {
 /// What is taken where the machine's file says nothing.
 inline constexpr std::string_view kFanucOptions =
     "tap=m29 dwell=milliseconds extended_offsets=0 arcs=half largest_radius_mm=99999.999 helices=yes "
-    "prove_out=m1 line_length=200 peck_clearance_mm= codes= shop_codes= through_coolant=";
+    "prove_out=m1 line_length=200 peck_clearance_mm= chip_break_mm= codes= shop_codes= through_coolant=";
 inline constexpr std::string_view kHaasOptions =
     "tap=g84 dwell=seconds extended_offsets=99 arcs=half largest_radius_mm=15404.000 helices=yes "
     "prove_out=m1 line_length=200 peck_clearance_mm= codes= shop_codes= through_coolant=M88/M89";

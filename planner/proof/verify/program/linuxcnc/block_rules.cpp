@@ -124,10 +124,11 @@ bool cycle_code(int g) { return g == 730 || (g >= 810 && g <= 890); }
 void Interpreter::block_rules(const Line& l, const BlockSaid& s) {
   for (std::size_t i = 1; i < l.words.size(); ++i) {
     if (l.words[i].letter == 'N')
-      fault(33, "CHK-WORD", "N follows other words; LinuxCNC reads it at the start of a block only");
+      fault(33, "CHK-WORD", "N follows other words; " + name() + " reads it at the start of a block only");
   }
   word_rules(s);
   code_rules(s);
+  if (ways_.mach3) mach3_rules(l, s);
 }
 
 void Interpreter::word_rules(const BlockSaid& s) {
@@ -146,7 +147,7 @@ void Interpreter::word_rules(const BlockSaid& s) {
     new_unit = new_unit || ((g == 200 || g == 210) && (!units_stated_ || (g == 200) != inch_));
     const int group = group_of_g(g);
     if (group != 0 && groups[group])
-      fault(33, "CHK-WORD", "two " + std::string(in_group(group)) + " in one block are refused by LinuxCNC");
+      fault(33, "CHK-WORD", "two " + std::string(in_group(group)) + " in one block are refused by " + name());
     groups[group] = group != 0;
   }
   const bool arcs = motion == 20 || motion == 30;
@@ -154,7 +155,7 @@ void Interpreter::word_rules(const BlockSaid& s) {
   const auto unused = [&](char c, bool used) {
     if (s.is(c) && !used)
       fault(33, "CHK-WORD",
-            std::string("no code of this block uses its word ") + c + "; LinuxCNC refuses it");
+            std::string("no code of this block uses its word ") + c + "; " + name() + " refuses it");
   };
   for (const char c : {'A', 'B', 'C', 'U', 'V', 'W'}) {
     if (s.is(c))
@@ -169,17 +170,18 @@ void Interpreter::word_rules(const BlockSaid& s) {
   unused('J', arcs);
   unused('K', motion == 331);
   unused('L', cycles);
-  unused('P', dwells || blend || arcs || cycles);
-  unused('Q', blend || motion == 730 || motion == 830);
+  unused('P', dwells || (blend && !ways_.mach3) || arcs || cycles);
+  unused('Q', (blend && !ways_.mach3) || motion == 730 || motion == 830);
   unused('R', arcs || cycles);
   if (arcs && s.is('P') && !dwells && !blend && s.of('P') != 1.0)
     fault(33, "CHK-WORD", "an arc of P" + plain(s.of('P')) + " turns is not followed");
   if (arcs && s.is('R') && (s.is('I') || s.is('J')))
-    fault(23, "CHK-ARC", "an arc with both R and a centre is refused by LinuxCNC");
+    fault(23, "CHK-ARC", "an arc with both R and a centre is refused by " + name());
   for (const char c : {'F', 'S', 'T', 'H', 'D', 'L'}) {
     if (s.is(c) && s.of(c) < 0.0)
       fault(33, "CHK-WORD",
-            std::string("the word ") + c + " is " + plain(s.of(c)) + "; LinuxCNC refuses what is below zero");
+            std::string("the word ") + c + " is " + plain(s.of(c)) + "; " + name() +
+                " refuses what is below zero");
   }
   for (const char c : {'T', 'H', 'D', 'L'}) {
     if (s.is(c) && s.of(c) != std::floor(s.of(c)))
@@ -187,12 +189,11 @@ void Interpreter::word_rules(const BlockSaid& s) {
             std::string("the word ") + c + " is " + plain(s.of(c)) + "; it must be a whole number");
   }
   if (s.is('L') && s.of('L') == 0.0)
-    fault(26, "CHK-CYCLE", "LinuxCNC refuses a cycle with L0; L counts its repeats, 1 or more");
+    fault(26, "CHK-CYCLE", name() + " refuses a cycle with L0; L counts its repeats, 1 or more");
   if (new_unit && s.is('F'))
-    fault(
-        2, "CHK-UNITS",
-        "the block changes the unit of length and sets F; LinuxCNC takes F in the unit before: set F in the "
-        "next block");
+    fault(2, "CHK-UNITS",
+          "the block changes the unit of length and sets F; " + name() +
+              " takes F in the unit before: set F in the next block");
 }
 
 void Interpreter::code_rules(const BlockSaid& s) {
@@ -219,9 +220,9 @@ void Interpreter::code_rules(const BlockSaid& s) {
   }
   if (motion_said && (motion == 20 || motion == 30) && !s.is('I') && !s.is('J') && !s.is('R'))
     fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (R)");
-  if (g53 && motion != 0 && motion != 10) fault(33, "CHK-WORD", "LinuxCNC refuses G53 without G0 or G1");
+  if (g53 && motion != 0 && motion != 10) fault(33, "CHK-WORD", name() + " refuses G53 without G0 or G1");
   if (g53 && !absolute)
-    fault(33, "CHK-WORD", "LinuxCNC refuses G53 in incremental mode (G91); state G90 before it");
+    fault(33, "CHK-WORD", name() + " refuses G53 in incremental mode (G91); state G90 before it");
   if (feed_mode == 93 && axes && motion != 0 && motion >= 0 && !s.is('F'))
     fault(18, "CHK-FEED", "a feed move in inverse time (G93) needs an F of its own in its block");
   if (motion == 331 && axes && spindle_ == 0) {
@@ -235,19 +236,19 @@ void Interpreter::code_rules(const BlockSaid& s) {
   if (motion_said && (motion == 820 || motion == 860 || motion == 890) && !s.is('P'))
     fault(26, "CHK-CYCLE", "the cycle has no P, the seconds that it dwells at its bottom");
   if (s.m_count > kMostM)
-    fault(33, "CHK-WORD", "more than four M codes in one block are refused by LinuxCNC");
+    fault(33, "CHK-WORD", "more than four M codes in one block are refused by " + name());
   bool groups[6] = {};
   for (int i = 0; i < s.m_count; ++i) {
     const int group = group_of_m(s.m[i]);
     if (group != 0 && groups[group])
       fault(33, "CHK-WORD",
-            "two M codes of one kind (stop, spindle, coolant) in one block are refused by LinuxCNC");
+            "two M codes of one kind (stop, spindle, coolant) in one block are refused by " + name());
     groups[group] = group != 0;
   }
 }
 
 void Interpreter::command(const std::string& name) {
-  if (name.empty()) return;
+  if (name.empty() || ways_.mach3) return;
   const std::string what = name == "ABORT"           ? "ends the program here"
                            : name.starts_with("PY")  ? "runs Python, which is not followed"
                            : name.starts_with("LOG") ? "writes into a file of the control"

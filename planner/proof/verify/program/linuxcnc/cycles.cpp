@@ -39,12 +39,14 @@ void Interpreter::one_hole(int mode, double x, double y, double z, double r, dou
   } else {
     to({x, y, z}, MoveKind::kLine, mode == 840);
   }
-  if ((mode == 820 || mode == 840 || mode == 890) && p > 0.0) dwell(p);
+  if ((mode == 820 || mode == 840 || mode == 860 || mode == 890) && p > 0.0) dwell(p);
   const int turning = spindle_;
   if (mode == 860) spindle_ = 0;
   if (mode == 840) spindle_ = -spindle_;
   const bool feeds_out = mode == 840 || mode == 850 || mode == 890;
-  to({x, y, feeds_out ? r : back}, feeds_out ? MoveKind::kLine : MoveKind::kRapid, mode == 840);
+  // NIST's interpreter, of which Mach3's is made, comes out at feed all the way.
+  to({x, y, feeds_out && !ways_.mach3 ? r : back}, feeds_out ? MoveKind::kLine : MoveKind::kRapid,
+     mode == 840);
   spindle_ = turning;
   to({x, y, back}, MoveKind::kRapid);
 }
@@ -63,7 +65,7 @@ void Interpreter::cycle(const BlockSaid& s) {
   if (s.is('R')) cycle_r_ = s.of('R') * units();
   if (s.is('Q')) cycle_q_ = s.of('Q') * units();
   has_q_ = has_q_ || s.is('Q');
-  if (s.is('P')) cycle_p_ = s.of('P');
+  if (s.is('P')) cycle_p_ = s.of('P') * ways_.unit_of_p_s;
   if (!cycle_known_ && (!s.is('Z') || !s.is('R'))) {
     fault(26, "CHK-CYCLE", "a cycle begins without Z and R");
     return;

@@ -27,6 +27,10 @@ constexpr bool is_other_m(int m) {
                          (m >= 700 && m <= 730) || m == 980 || m == 990 || is_of_shop(m));
 }
 
+/// Mach3 runs a macro of the shop for each M that it has not itself: M47 goes back to the program's head, M98
+/// and M99 are its subroutines.
+constexpr bool may_be_macro(int m) { return m % 10 == 0 && m != 470 && m != 980 && m != 990; }
+
 /// A tool or offset number; out of range becomes one that no table has.
 int whole(double v) { return v >= 0.0 && v < 1e9 ? static_cast<int>(v) : 1000000000; }
 
@@ -130,7 +134,7 @@ void Interpreter::state_code(int g, const BlockSaid& s) {
       exact_stop_ = g == 611;
       break;
     case 640:  // without P as fast as it likes
-      tolerance_ = s.is('P') ? s.of('P') * units() : kNoTolerance;
+      tolerance_ = ways_.mach3 ? ways_.tolerance_mm : s.is('P') ? s.of('P') * units() : kNoTolerance;
       naive_ = s.is('Q') ? s.of('Q') * units() : tolerance_;
       exact_stop_ = false;
       break;
@@ -146,10 +150,9 @@ void Interpreter::state_code(int g, const BlockSaid& s) {
       stated_ |= kStatedDistance;
       break;
     case 901:
-      absolute_arcs_ = true;
-      break;
     case 911:
-      absolute_arcs_ = false;
+      absolute_arcs_ = g == 901;
+      arcs_stated_ = true;
       break;
     case 930:
     case 940:
@@ -226,9 +229,10 @@ void Interpreter::machine_codes(const BlockSaid& s) {
       case 300:
         break;
       default:
-        if (is_of_shop(s.m[i]) && builders(s.m[i] / 10)) break;
+        if ((ways_.mach3 ? may_be_macro(s.m[i]) : is_of_shop(s.m[i])) && builders(s.m[i] / 10)) break;
         fault(33, is_other_m(s.m[i]) ? "CHK-UNVERIFIABLE" : "CHK-CODE",
-              code_text('M', s.m[i]) + (is_other_m(s.m[i]) ? " is not followed" : " is none of LinuxCNC's"),
+              code_text('M', s.m[i]) +
+                  (is_other_m(s.m[i]) ? " is not followed" : " is none of " + name() + "'s"),
               is_other_m(s.m[i]));
     }
   }
@@ -280,7 +284,7 @@ void Interpreter::percent(const Line& l) {
   if (!any_line_) {
     percent_ = true;
   } else if (!percent_) {
-    fault(32, "CHK-END", "a % here, in a program that does not begin with one, is refused by LinuxCNC");
+    fault(32, "CHK-END", "a % here, in a program that does not begin with one, is refused by " + name());
   } else {
     percent_end_ = true;
   }
@@ -328,7 +332,7 @@ void Interpreter::line(const Line& l, long number) {
     state_code(g, s);
   }
   if (dwells) {
-    dwell(s.of('P'));
+    dwell(s.of('P') * ways_.unit_of_p_s);
   } else {
     motion(s, g53);
   }
@@ -353,8 +357,10 @@ Program Interpreter::finish(long lines) {
   return std::move(out_);
 }
 
-Program read_program(std::string_view text, std::string_view shop_codes, std::string_view through_coolant) {
-  Interpreter machine(shop_codes, through_coolant);
+namespace {
+
+/// All lines of a program, one after the other.
+Program read_with(std::string_view text, Interpreter machine) {
   Line line;
   long number = 0;
   if (text.size() > kProgramCap) return too_large_program();
@@ -363,16 +369,26 @@ Program read_program(std::string_view text, std::string_view shop_codes, std::st
     std::string_view one = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++number;
-    if (one.size() > kLineCap) {
+    if (one.size() > machine.longest_line()) {
       line = {};
-      line.fault = "the line has " + std::to_string(one.size()) + " characters; LinuxCNC reads " +
-                   std::to_string(kLineCap) + " at most";
+      line.fault = "the line has " + std::to_string(one.size()) + " characters; " + machine.name() +
+                   " reads " + std::to_string(machine.longest_line()) + " at most";
     } else {
       split_line(one, line);
     }
     machine.line(line, number);
   }
   return machine.finish(number);
+}
+
+}  // namespace
+
+Program read_program(std::string_view text, std::string_view shop_codes, std::string_view through_coolant) {
+  return read_with(text, Interpreter(shop_codes, through_coolant));
+}
+
+Program read_mach3(std::string_view text, const model::Machine& machine) {
+  return read_with(text, Interpreter(machine));
 }
 
 }  // namespace capstan::verify::linuxcnc

@@ -8,12 +8,24 @@
 
 namespace capstan::verify::linuxcnc {
 
+/// What a control that speaks RS274/NGC does otherwise than LinuxCNC.
+struct Ways {
+  bool mach3 = false;
+  double unit_of_p_s = 1.0;   ///< of P, the time of G4 and of cycles
+  double tolerance_mm = 0.0;  ///< of G64, which has no word for it at Mach3
+  std::size_t longest_line = kLineCap;
+};
+
 /// The interpreter's state, and what one line does to it.
 class Interpreter : private BlockState {
  public:
   Interpreter(std::string_view shop_codes, std::string_view through_coolant) {
     builders_codes(shop_codes, through_coolant);
   }
+  /// Mach3's, by what the machine's file says (mach3.cpp).
+  explicit Interpreter(const model::Machine& machine);
+  [[nodiscard]] std::string name() const { return ways_.mach3 ? "Mach3" : "LinuxCNC"; }
+  [[nodiscard]] std::size_t longest_line() const { return ways_.longest_line; }
   void line(const Line& l, long number);
   [[nodiscard]] Program finish(long lines);
 
@@ -23,6 +35,8 @@ class Interpreter : private BlockState {
   void block_rules(const Line& l, const BlockSaid& s);
   void word_rules(const BlockSaid& s);
   void code_rules(const BlockSaid& s);
+  /// What Mach3 has not, or does by a setting: mach3.cpp.
+  void mach3_rules(const Line& l, const BlockSaid& s);
   void percent(const Line& l);
   /// A comment that LinuxCNC carries out (Line::command).
   void command(const std::string& name);
@@ -35,7 +49,9 @@ class Interpreter : private BlockState {
   void cycle(const BlockSaid& s);
   void one_hole(int mode, double x, double y, double z, double r, double q, double p, double clear);
 
-  int motion_ = -1;  ///< modal motion code times ten
+  Ways ways_;
+  bool arcs_stated_ = false;  ///< G90.1 or G91.1
+  int motion_ = -1;           ///< modal motion code times ten
   int next_tool_ = -1;
   bool any_line_ = false, percent_ = false, percent_end_ = false;
   bool return_to_r_ = false;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "planner/model/plan/resources/machine.h"
 #include "planner/proof/verify/program/program.h"
 #include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/program/tool_table.h"
@@ -27,6 +28,18 @@ inline constexpr std::size_t kLineCap = 252;
 [[nodiscard]] Program read_program(std::string_view text, std::string_view shop_codes = {},
                                    std::string_view through_coolant = {});
 
+/// Reads programs of Mach3, whose interpreter is of NIST's RS274/NGC as LinuxCNC's is, by what the machine's
+/// file says of it (options `dwell`, `line_length`, `shop_codes`). What it does otherwise: G64 has no P and
+/// rounds as its settings say; the unit of P is a setting; arcs have the centre of G90.1 or G91.1, a setting
+/// where neither stands; G85 and G89 come out at feed to where the cycle ends. G33.1, G43.1, G59.1 to G59.3,
+/// G61.1, M60 and `;` are not of it; G73, G83 and G84, which its settings and plugins decide, are not
+/// followed.
+///
+/// Cost    linear in the text. No recursion.
+/// Source  Using Mach3Mill, revision 1.84, as others quote it (comments, G4, G64, G90.1, G91.1, M6); NIST
+///         RS274/NGC 3 (cycles; emc.sourceforge.net/Handbook).
+[[nodiscard]] Program read_mach3(std::string_view text, const model::Machine& machine);
+
 /// LinuxCNC's tool table as LinuxCNC reads it: a line per tool of words T, P, Z, D and others, a comment
 /// after `;`. Units   as written, taken as mm. Source  LinuxCNC 2.9 manual, "Tool table format".
 [[nodiscard]] ToolTable read_tool_table(std::string_view text);
@@ -35,6 +48,11 @@ inline constexpr std::size_t kLineCap = 252;
 /// tests/door/service/controls_test.cpp holds it against the writer's.
 inline constexpr std::array<std::string_view, 9> kWorkOffsets = {"G54", "G55",   "G56",   "G57",  "G58",
                                                                  "G59", "G59.1", "G59.2", "G59.3"};
+
+/// Mach3's, of those that have a code of their own.
+inline constexpr std::array<std::string_view, 6> kMach3Offsets = {"G54", "G55", "G56", "G57", "G58", "G59"};
+/// What is taken where the machine's file says nothing.
+inline constexpr std::string_view kMach3Options = "dwell=seconds line_length=200 shop_codes=";
 
 /// Source  LinuxCNC 2.9 manual, "O-codes", "Named parameters" and "G64".
 inline constexpr std::array kSigns{

@@ -67,6 +67,7 @@ bool strip(std::string_view text, std::string& code, Line& out) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == ';') {
+      out.semicolon = true;
       out.comments.emplace_back(text.substr(i + 1));
       // Behind a semicolon Python alone is more than words.
       if (const std::string command = command_in(out.comments.back()); command == "PY") out.command = command;
@@ -95,7 +96,7 @@ void split_line(std::string_view text, Line& out) {
   out.words.clear();
   out.comments.clear();
   out.command.clear();
-  out.percent = out.deleted = out.unverifiable = out.no_number = false;
+  out.percent = out.deleted = out.semicolon = out.unverifiable = out.no_number = false;
   out.fault.clear();
   std::string code;
   if (!strip(text, code, out)) {

@@ -16,7 +16,7 @@ struct Line {
   std::vector<Word> words;
   std::vector<std::string> comments;
   std::string command;  ///< what LinuxCNC carries out of the line's comments, "ABORT"; empty: nothing
-  bool percent = false, deleted = false;
+  bool percent = false, deleted = false, semicolon = false;
   std::string fault;          ///< why the rest was not read; empty when all was
   bool unverifiable = false;  ///< the fault is something this reader does not follow
   bool no_number = false;     ///< the fault is that a word has no number that LinuxCNC reads

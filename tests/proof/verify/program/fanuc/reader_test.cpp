@@ -81,11 +81,31 @@ TEST(FanucCycles, WaitAtTheBottomAndComeOutAtFeedAsTheirCodesSay) {
 
 // 5.1.6 G83: back to R after each Q, by rapid to d above where the last ended; 5.1.1 G73: d up.
 TEST(FanucCycles, PeckByQFromRAndComeBackToDAboveTheLastBottom) {
-  const std::vector<model::ControlOption> d = {{"peck_clearance_mm", "0.5"}};
+  const std::vector<model::ControlOption> d = {{"peck_clearance_mm", "0.5"}, {"chip_break_mm", "0.3"}};
   EXPECT_EQ(moves(read("G98 G83 X5. Y6. Z-6. R2. Q4. F100.\nG80\n", "fanuc", d)),
             (Moves{"R 5 6 2", "L 5 6 -2", "R 5 6 2", "R 5 6 -1.5", "L 5 6 -6", "R 5 6 20"}));
   EXPECT_EQ(moves(read("G98 G73 X5. Y6. Z-6. R2. Q4. F100.\nG80\n", "fanuc", d)),
-            (Moves{"R 5 6 2", "L 5 6 -2", "R 5 6 -1.5", "L 5 6 -6", "R 5 6 20"}));
+            (Moves{"R 5 6 2", "L 5 6 -2", "R 5 6 -1.7", "L 5 6 -6", "R 5 6 20"}));
+}
+
+// Haas 96-8000, G83 and G73: the first pass cuts in by I, each succeeding one J less, the least is K; P waits
+// behind the last one. Setting 22 is d of both.
+TEST(FanucCycles, AHaasPecksByIThenLessByJAndNoLessThanK) {
+  const std::vector<model::ControlOption> d = {{"peck_clearance_mm", "0.5"}};
+  const auto deep = read("G98 G83 X5. Y6. Z-9. R2. I5. J2. K2. P0.4 F100.\nG80\n", "haas", d);
+  EXPECT_EQ(faults(deep), "");
+  // Pecks of 5, 3, 2 and the 1 that is left.
+  EXPECT_EQ(moves(deep), (Moves{"R 5 6 2", "L 5 6 -3", "R 5 6 2", "R 5 6 -2.5", "L 5 6 -6", "R 5 6 2",
+                                "R 5 6 -5.5", "L 5 6 -8", "R 5 6 2", "R 5 6 -7.5", "L 5 6 -9", "D 0.4",
+                                "R 5 6 20"}));
+  const auto chips = read("G98 G73 X5. Y6. Z-6. R2. I5. J2. K2. F100.\nG80\n", "haas", d);
+  EXPECT_EQ(moves(chips), (Moves{"R 5 6 2", "L 5 6 -3", "R 5 6 -2.5", "L 5 6 -6", "R 5 6 20"}));
+  EXPECT_TRUE(finds(read("G98 G73 X5. Y6. Z-6. R2. I5. J2. K2. Q3. F100.\nG80\n", "haas", d),
+                    "CHK-UNVERIFIABLE"));
+  EXPECT_TRUE(finds(read("G98 G83 X5. Y6. Z-6. R2. I5. J2. F100.\nG80\n", "haas", d), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(read("G98 G83 X5. Y6. Z-6. R2. I5. J2. K2 F100.\nG80\n", "haas", d), "CHK-POINT"));
+  // Of a FANUC I and J are words of nothing, and K counts repeats.
+  EXPECT_TRUE(finds(read("G98 G83 X5. Y6. Z-6. R2. I5. J2. K2 F100.\nG80\n", "fanuc", d), "CHK-WORD"));
 }
 
 // 5.1.10 G86: the spindle stops at the bottom.

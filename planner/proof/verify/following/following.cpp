@@ -1,4 +1,4 @@
-#include "planner/proof/verify/program/following.h"
+#include "planner/proof/verify/following/following.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,18 @@ constexpr double kPi = std::numbers::pi;
 bool known(const Block& b) { return b.known_to[0] && b.known_to[1] && b.known_to[2]; }
 bool known_from(const Block& b) { return b.known_from[0] && b.known_from[1] && b.known_from[2]; }
 
-const char* name(MoveKind k) {
+Move move_of(const Block& b) {
+  Move m;
+  m.kind = b.move;
+  m.from = b.from;
+  m.to = b.to;
+  m.centre = b.centre;
+  return m;
+}
+
+}  // namespace
+
+const char* Following::name(MoveKind k) {
   switch (k) {
     case MoveKind::kRapid:
       return "a rapid";
@@ -46,17 +57,6 @@ const char* name(MoveKind k) {
       return "a dwell";
   }
 }
-
-Move move_of(const Block& b) {
-  Move m;
-  m.kind = b.move;
-  m.from = b.from;
-  m.to = b.to;
-  m.centre = b.centre;
-  return m;
-}
-
-}  // namespace
 
 Following::Following(const ProgramCase& c, std::size_t marker, std::size_t step,
                      std::vector<const Block*> text, bool high, Findings& out)
@@ -96,6 +96,9 @@ Move Following::planned(std::size_t i) const {
 double Following::radius_of(std::size_t i) const { return norm(xy(path_.point(i)) - planned(i).centre); }
 double Following::feed_of(std::size_t i) const {
   return step_.schedule ? step_.schedule->feed_mm_min[i] : step_.feed_mm_min;
+}
+double Following::feed_slack() const {
+  return 0.51 * std::pow(10.0, -c_.machine.control.feed_decimals) + 1e-9;
 }
 double Following::speed_of(std::size_t i) const {
   return step_.schedule ? step_.schedule->spindle_rpm[i] : step_.spindle_rpm;
@@ -262,6 +265,7 @@ bool Following::one(std::size_t i) {
   if (i <= done_to_) return true;
   if (path_.kind[i] == MoveKind::kDwell) return dwell(i);
   if (const auto made = hole_way(i)) return *made;
+  if (const auto made = peck_way(i)) return *made;
   const Vec3 goal = round(path_.point(i));
   const bool arcs = is_arc(path_.kind[i]);
   // A whole turn ends where it begins; so does an arc that is shorter than the last decimal.
@@ -277,56 +281,6 @@ bool Following::one(std::size_t i) {
     return say(b->line, "the text goes to " + text_of(b->to) + "; the plan to " + text_of(goal),
                static_cast<long>(i));
   return numbers_agree(i, *b);
-}
-
-/// Straight down to where the tool is fed into the hole, or straight up out of it: a canned cycle makes such
-/// a way in pieces of its own. By rapid where the plan goes through air at feed to R, and above R on the way
-/// out. Handled only where the text is a cycle's; `done_to_` is then the last move of the way.
-std::optional<bool> Following::hole_way(std::size_t i) {
-  // A modal call follows a move to where the tool already is.
-  std::size_t first = at_;
-  while (first < text_.size() && still(*text_[first])) ++first;
-  if (first >= text_.size() || !text_[first]->from_cycle) return std::nullopt;
-  const auto straight = [&](std::size_t k, Vec3 from) {
-    return path_.kind[k] != MoveKind::kDwell && !is_arc(path_.kind[k]) && same(path_.x[k], from.x) &&
-           same(path_.y[k], from.y);
-  };
-  const auto in_air = [&](std::size_t k) {
-    return path_.kind[k] == MoveKind::kRapid || path_.role[k] == model::MoveRole::kApproach;
-  };
-  const bool up = path_.z[i] > last_.z;
-  const bool fed = path_.kind[i] == MoveKind::kLine;
-  if (up ? path_.role[i] != model::MoveRole::kRetract : !in_air(i)) return std::nullopt;
-  Vec3 goal = last_;
-  std::size_t end = i;
-  for (; end < path_.size() && straight(end, last_); ++end) {
-    const Vec3 to = round(path_.point(end));
-    if (up ? to.z <= goal.z : !in_air(end) || to.z >= goal.z) break;
-    goal = to;
-  }
-  if (end == i) return std::nullopt;
-  std::size_t begun = i - 1;
-  while (begun > 1 && !in_air(begun)) --begun;
-  const double r = round(path_.point(begun)).z;
-  while (!same(last_, goal)) {
-    const Block* b = next(i, goal);
-    if (b == nullptr) return false;
-    const double sign = up ? 1.0 : -1.0;
-    const bool on_way = same(b->to.x, goal.x) && same(b->to.y, goal.y) && sign * (b->to.z - last_.z) > 0.0 &&
-                        (sign * (goal.z - b->to.z) > 0.0 || same(b->to.z, goal.z));
-    const bool above = last_.z > r || same(last_.z, r);
-    const bool kind =
-        b->move == MoveKind::kRapid ? !up || !fed || above : up && fed && b->move == MoveKind::kLine;
-    if (!on_way || !kind)
-      return say(b->line,
-                 std::string("the text has ") + name(b->move) + " to " + text_of(b->to) + "; the plan has " +
-                     name(path_.kind[i]) + " on its way to " + text_of(goal),
-                 static_cast<long>(i));
-    if (!numbers_agree(b->move == MoveKind::kRapid ? end - 1 : i, *b)) return false;
-    last_ = b->to;
-  }
-  done_to_ = end - 1;
-  return true;
 }
 
 /// One axis after the other, each on its way.
@@ -474,8 +428,7 @@ bool Following::numbers_agree(std::size_t i, const Block& b) {
                      plain(wanted) + " s to come up to speed",
                  move, 15, "CHK-SPIN-UP");
   }
-  const double feed_unit = std::pow(10.0, -c_.machine.control.feed_decimals);
-  if (!b.synchronised && std::abs(b.feed_mm_min - feed_of(i)) > 0.51 * feed_unit + 1e-9)
+  if (!b.synchronised && std::abs(b.feed_mm_min - feed_of(i)) > feed_slack())
     return say(b.line, "the feed is " + plain(b.feed_mm_min) + " mm/min; the plan says " + plain(feed_of(i)),
                move);
   return true;

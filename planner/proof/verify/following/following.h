@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,12 @@ class Following {
   bool arc(std::size_t i, geometry::Vec3 goal);
   bool rapid(std::size_t i, geometry::Vec3 begin, geometry::Vec3 goal);
   std::optional<bool> hole_way(std::size_t i);
+  std::optional<bool> peck_way(std::size_t i);
+  [[nodiscard]] bool is_cleared(std::size_t i) const;
+  bool fed_through_air(std::size_t i, std::size_t end, const Block& b, geometry::Vec3 goal);
+  void split(const Block& b, geometry::Vec3 at);
+  bool rapid_agrees(std::size_t i, const Block& b);
+  [[nodiscard]] static const char* name(model::MoveKind k);
   bool arc_piece(std::size_t i, const Block& b, const Move& whole, double& done);
   bool nothing_behind();
   /// The next block that does something; null when there is none, or it waits when it should not.
@@ -54,6 +61,8 @@ class Following {
   [[nodiscard]] Move planned(std::size_t i) const;
   [[nodiscard]] double radius_of(std::size_t i) const;
   [[nodiscard]] double feed_of(std::size_t i) const;
+  /// What rounding a feed as programs write it leaves, mm/min.
+  [[nodiscard]] double feed_slack() const;
   [[nodiscard]] double speed_of(std::size_t i) const;
   bool say(long line, const std::string& what, long move, int property = 33, const char* code = "CHK-TEXT");
 
@@ -63,6 +72,7 @@ class Following {
   const model::CutterPath& path_;
   const model::Cutter* cutter_;
   std::vector<const Block*> text_;
+  std::deque<Block> rest_;  ///< of blocks that the path makes in two moves
   bool high_;
   Findings& out_;
   int decimals_;
