@@ -30,9 +30,9 @@ struct Inspected {
   bool has_nominal = false;
   double nominal_mm = 0.0, upper_mm = 0.0, lower_mm = 0.0;  ///< the limits: deviations from the nominal
   double value_mm = 0.0;
-  bool toleranced = false;        ///< both limits are stated
-  double ra_um = 0.0;             ///< of kRoughness, in place of `value_mm`
-  std::optional<double> ra_most;  ///< um; its upper limit, where the row states one
+  bool toleranced = false;             ///< both limits are stated
+  double ra_um = 0.0;                  ///< of kRoughness, in place of `value_mm`
+  std::optional<double> ra_most = {};  ///< um; its upper limit, where the row states one
   std::uint64_t line = 0;
 };
 
@@ -72,12 +72,12 @@ struct Timed {
 
 /// One row of a table of wear: an edge after a time in the cut.
 struct Worn {
-  std::string part;               ///< or number of the test
-  std::string edge;               ///< serial number of the edge; empty: not stated
-  std::string workingstep;        ///< may be empty
-  int tool = 0;                   ///< number in the program; 0: not stated
-  double time_s = 0.0;            ///< in the cut, since the edge was new
-  std::optional<double> wear_mm;  ///< VB; nothing: it was not read then
+  std::string part;                    ///< or number of the test
+  std::string edge;                    ///< serial number of the edge; empty: not stated
+  std::string workingstep;             ///< may be empty
+  int tool = 0;                        ///< number in the program; 0: not stated
+  double time_s = 0.0;                 ///< in the cut, since the edge was new
+  std::optional<double> wear_mm = {};  ///< VB; nothing: it was not read then
   /// As the table has them, of the cut; 0: not stated.
   double feed_per_turn_mm = 0.0, depth_mm = 0.0, rpm = 0.0;
   std::uint64_t line = 0;
