@@ -117,6 +117,7 @@ struct Observed {
   std::optional<Figure> spindle_load_percent = {};  ///< of rated load, peak
   std::optional<Figure> peak_force_n = {}, torque_nm = {}, power_w = {};
   std::optional<Figure> size_deviation_mm = {};  ///< actual size - asked size: a bore that is too wide is > 0
+  std::optional<Figure> depth_deviation_mm = {};     ///< the same of a depth: one that is too deep is > 0
   std::optional<Figure> position_deviation_mm = {};  ///< distance of the actual place from the asked one
   std::optional<Figure> lag_mm = {};                 ///< largest following error
   std::optional<Figure> surface_ra_um = {};

@@ -1,6 +1,9 @@
 #include "casebase/record/fields.h"
 
+#include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <string>
 
 namespace capstan::casebase {
 namespace {
@@ -120,6 +123,8 @@ auto table() {
       Field{81, "breakage", "1", FigureAt{at<kObserved, &O::breakage>}, 0.0, 1.0},
       Field{82, "executed_fz_mm", "mm", FigureAt{at<kObserved, &O::executed_fz_mm>}, 1e-5, 10.0},
       Field{83, "executed_vc_m_min", "m/min", FigureAt{at<kObserved, &O::executed_vc_m_min>}, 0.01, 20000.0},
+      Field{84, "depth_deviation_mm", "mm", FigureAt{at<kObserved, &O::depth_deviation_mm>}, -kDeviationMax,
+            kDeviationMax},
       Field{90, "wear_series_mm", "mm", SeriesAt{at<kObserved, &O::wear_series_mm>}, 0.0, kWearMax},
       Field{91, "load_series_percent", "%", SeriesAt{at<kObserved, &O::load_series_percent>}, -1000.0,
             1000.0},
@@ -145,6 +150,13 @@ const auto& all() {
 
 std::span<const Field> fields() { return all(); }
 std::span<const Field> question_fields() { return fields().first(kQuestionFields); }
+
+const Field& field_named(std::string_view name) {
+  const auto& table = all();
+  const auto at = std::find_if(table.begin(), table.end(), [&](const Field& f) { return f.name == name; });
+  if (at == table.end()) throw std::logic_error("a case has no field " + std::string(name));
+  return *at;
+}
 
 bool is_default(const Field& f, const Case& c) {
   if (const auto* t = std::get_if<TextAt>(&f.at)) return value(*t, c).empty();

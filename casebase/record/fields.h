@@ -47,6 +47,8 @@ struct Field {
 /// All fields by rising tag. The question's come first: they are `question_fields()`.
 [[nodiscard]] std::span<const Field> fields();
 [[nodiscard]] std::span<const Field> question_fields();
+/// The field of a name that the table has, e.g. for its limits. Throws std::logic_error for another name.
+[[nodiscard]] const Field& field_named(std::string_view name);
 
 /// The place of a field in a case that may only be read.
 template <class At>

@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 
+#include "casebase/record/fields.h"
 #include "casebase/retain/cells.h"
 #include "casebase/retain/lines.h"
 #include "planner/ground/base/no_number.h"
@@ -24,9 +26,11 @@ struct Suffix {
   std::string_view text;
   double factor;
 };
-constexpr std::array kLengths = {Suffix{"_mm", 1.0}, Suffix{"_in", kMmPerInch}};
-constexpr std::array kFeeds = {Suffix{"_ipm", kMmPerInch}, Suffix{"_in_min", kMmPerInch}, Suffix{"_mm_min", 1.0},
-                               Suffix{"_mm_s", 60.0}};
+constexpr double kMmPerUm = 1e-3;
+constexpr std::array kLengths = {Suffix{"_mm", 1.0}, Suffix{"_in", kMmPerInch}, Suffix{"_um", kMmPerUm}};
+constexpr std::array kTimes = {Suffix{"_s", 1.0}, Suffix{"_min", 60.0}, Suffix{"_h", 3600.0}};
+constexpr std::array kFeeds = {Suffix{"_ipm", kMmPerInch}, Suffix{"_in_min", kMmPerInch},
+                               Suffix{"_mm_min", 1.0}, Suffix{"_mm_s", 60.0}};
 
 struct Found {
   std::size_t at = 0;
@@ -128,6 +132,81 @@ Result<std::vector<SeparatedRow>> table_of(std::string_view text, const std::str
   return rows;
 }
 
+// mm of one unit of a word; nothing for a word that is no unit of length.
+std::optional<double> length_unit(std::string_view word) {
+  struct Unit {
+    std::string_view word;
+    double mm;
+  };
+  // The micro sign, and the small letter mu.
+  constexpr std::array kUnits = {Unit{"mm", 1.0},
+                                 Unit{"in", kMmPerInch},
+                                 Unit{"inch", kMmPerInch},
+                                 Unit{"um", kMmPerUm},
+                                 Unit{"micron", kMmPerUm},
+                                 Unit{"\xC2\xB5m", kMmPerUm},
+                                 Unit{"\xCE\xBCm", kMmPerUm},
+                                 Unit{"uin", 1e-6 * kMmPerInch}};
+  for (const Unit& u : kUnits) {
+    if (u.word == word) return u.mm;
+  }
+  return std::nullopt;
+}
+
+// What a row is about, by its type or by the remark at the end of its characteristic.
+Measures measures_of(const Inspected& row) {
+  struct Word {
+    std::string_view word;
+    Measures kind;
+  };
+  constexpr std::array kKinds = {Word{"diameter", Measures::kSize},
+                                 Word{"dia", Measures::kSize},
+                                 Word{"width", Measures::kSize},
+                                 Word{"length", Measures::kSize},
+                                 Word{"size", Measures::kSize},
+                                 Word{"depth", Measures::kDepth},
+                                 Word{"height", Measures::kDepth},
+                                 Word{"position", Measures::kPlace},
+                                 Word{"true position", Measures::kPlace},
+                                 Word{"ra", Measures::kRoughness},
+                                 Word{"roughness", Measures::kRoughness},
+                                 Word{"roughness ra", Measures::kRoughness},
+                                 Word{"surface roughness", Measures::kRoughness}};
+  const auto slash = row.characteristic.rfind('/');
+  const std::string word = !row.type.empty()            ? lower(row.type)
+                           : slash == std::string::npos ? std::string()
+                                                        : lower(row.characteristic.substr(slash + 1));
+  for (const Word& k : kKinds) {
+    if (k.word == word) return k.kind;
+  }
+  return row.type.empty() ? Measures::kSize : Measures::kOther;
+}
+
+// Why a deviation cannot be one of a case: beyond the limits of the field that keeps it.
+std::optional<std::string> beyond(std::string_view field, double value, const std::string& text) {
+  const Field& f = field_named(field);
+  if (value >= f.low && value <= f.high) return std::nullopt;
+  return text + " is out of range: " + shortest(f.low) + " to " + shortest(f.high) + " " +
+         std::string(f.unit);
+}
+std::optional<std::string> beyond_what_is_kept(const Inspected& row) {
+  const double off = row.has_nominal ? row.value_mm - row.nominal_mm : row.value_mm;
+  const std::string text = "a deviation of " + shortest(off) + " mm";
+  switch (row.kind) {
+    case Measures::kRoughness:
+      return beyond("surface_ra_um", row.ra_um, "a roughness of " + shortest(row.ra_um) + " um");
+    case Measures::kPlace:
+      return beyond("position_deviation_mm", off, text);
+    case Measures::kSize:
+      return row.has_nominal ? beyond("size_deviation_mm", off, text) : std::nullopt;
+    case Measures::kDepth:
+      return row.has_nominal ? beyond("depth_deviation_mm", off, text) : std::nullopt;
+    case Measures::kOther:
+      break;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<std::vector<Inspected>> read_inspection(std::string_view text, const std::string& file, double unit_mm,
@@ -137,7 +216,8 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
   constexpr std::array<std::string_view, 3> kUpper = {"tol_plus", "upper", "upper_tolerance"},
                                             kLower = {"tol_minus", "lower", "lower_tolerance"},
                                             kValue = {"value", "actual", "measured"};
-  const std::string expected = "columns part, characteristic and value; nominal, tol_plus, tol_minus, unit";
+  const std::string expected =
+      "columns part, characteristic and value; type, nominal, tol_plus, tol_minus, unit";
   const auto rows = table_of(text, file, expected);
   if (!rows) return tl::unexpected(rows.error());
   const auto& head = rows->front().cells;
@@ -153,24 +233,33 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
         row.characteristic = without_blanks(cells[name->at]);
         if (type) row.type = without_blanks(cells[type->at]);
         if (row.part.empty() || row.characteristic.empty()) return "part or characteristic is empty";
-        double factor = unit_mm;
+        row.kind = measures_of(row);
+        if (row.kind == Measures::kOther) return std::nullopt;  // in whatever unit
+        const bool roughness = row.kind == Measures::kRoughness;
+        double factor = roughness ? kMmPerUm : unit_mm;
+        bool said = false;  // by the row's own cell, which goes before the columns' names
         if (unit) {
           const std::string word = lower(cells[unit->at]);
-          if (word == "mm") {
-            factor = 1.0;
-          } else if (word == "in" || word == "inch") {
-            factor = kMmPerInch;
-          } else if (!word.empty()) {
-            return "the unit '" + word.substr(0, 20) + "' is neither mm nor in";
+          const auto mm = length_unit(word);
+          if (!mm && !word.empty()) {
+            return "the unit '" + word.substr(0, 20) + "' is none of mm, in, um and uin";
           }
+          said = mm.has_value();
+          factor = mm.value_or(factor);
         }
         std::optional<std::string> wrong;
-        const auto v = number(cells, value, factor, kLengthMax, wrong);
-        const auto n = number(cells, nominal, factor, kLengthMax, wrong);
-        const auto u = number(cells, upper, factor, kLengthMax, wrong);
-        const auto l = number(cells, low, factor, kLengthMax, wrong);
+        const auto length = [&](std::optional<Found> column) {
+          if (column && said) column->factor = 0.0;
+          return number(cells, column, factor, kLengthMax, wrong);
+        };
+        const auto v = length(value), n = length(nominal), u = length(upper), l = length(low);
         if (wrong) return wrong;
         if (!v) return "there is no value";
+        if (roughness) {
+          row.ra_um = *v / kMmPerUm;
+          if (n || u) row.ra_most = (n.value_or(0.0) + u.value_or(0.0)) / kMmPerUm;
+          return beyond_what_is_kept(row);
+        }
         row.value_mm = *v;
         row.has_nominal = n.has_value();
         row.nominal_mm = n.value_or(0.0);
@@ -178,7 +267,7 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
         row.upper_mm = u.value_or(0.0);
         row.lower_mm = l.value_or(0.0);
         if (row.toleranced && row.lower_mm > row.upper_mm) return "the lower limit is above the upper one";
-        return std::nullopt;
+        return beyond_what_is_kept(row);
       });
 }
 
@@ -237,6 +326,65 @@ Result<std::vector<Timed>> read_times(std::string_view text, const std::string& 
                             return "it moved for longer than it was active";
                           return std::nullopt;
                         });
+}
+
+Result<std::vector<Worn>> read_wear(std::string_view text, const std::string& file, double unit_mm,
+                                    Job& job) {
+  constexpr std::array<std::string_view, 6> kTest = {"part",   "part_index", "part_number",
+                                                     "serial", "case",       "test"};
+  constexpr std::array<std::string_view, 4> kEdge = {"edge", "tool_edge", "tool_serial", "insert"};
+  constexpr std::array<std::string_view, 1> kStep = {"workingstep"};
+  constexpr std::array<std::string_view, 3> kTool = {"tool", "tool_number", "t"};
+  constexpr std::array<std::string_view, 2> kTime = {"time", "cutting_time"},
+                                            kFeed = {"feed", "feed_per_turn"},
+                                            kSpeed = {"spindle_rpm", "rpm"};
+  constexpr std::array<std::string_view, 3> kWear = {"vb", "wear", "flank_wear"},
+                                            kDepth = {"depth", "doc", "ap"};
+  const std::string expected = "columns part or edge, time, and vb or wear; feed, depth, rpm, workingstep";
+  const auto rows = table_of(text, file, expected);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto& head = rows->front().cells;
+  const auto part = find(head, kTest, {}), edge = find(head, kEdge, {}), step = find(head, kStep, {}),
+             tool = find(head, kTool, {}), time = find(head, kTime, kTimes),
+             wear = find(head, kWear, kLengths), feed = find(head, kFeed, kLengths),
+             depth = find(head, kDepth, kLengths), speed = find(head, kSpeed, {});
+  if ((!part && !edge) || !time || !wear) return fail(no_column(file, rows->front().line, expected));
+  std::map<std::pair<std::string, std::string>, double> last;  // by part and edge, s
+  return rows_of<Worn>(
+      *rows, file, expected, job,
+      [&](const std::vector<std::string>& cells, Worn& row) -> std::optional<std::string> {
+        if (part) row.part = without_blanks(cells[part->at]);
+        if (edge) row.edge = without_blanks(cells[edge->at]);
+        if (row.part.empty() && row.edge.empty()) return "it names neither part nor edge";
+        if (step) row.workingstep = without_blanks(cells[step->at]);
+        std::optional<std::string> wrong;
+        const double number_of_tool = number(cells, tool, 1.0, 1e6, wrong).value_or(0.0);
+        const auto t = number(cells, time, 60.0, kTimeMax, wrong);
+        row.wear_mm = number(cells, wear, unit_mm, kLengthMax, wrong);
+        row.feed_per_turn_mm = number(cells, feed, unit_mm, kLengthMax, wrong).value_or(0.0);
+        row.depth_mm = number(cells, depth, unit_mm, kLengthMax, wrong).value_or(0.0);
+        row.rpm = number(cells, speed, 1.0, 1e6, wrong).value_or(0.0);
+        if (wrong) return wrong;
+        if (!t) return "there is no time";
+        if (*t < 0.0 || number_of_tool < 0.0 || row.feed_per_turn_mm < 0.0 || row.depth_mm < 0.0 ||
+            row.rpm < 0.0)
+          return "a number is negative";
+        if (row.wear_mm) {
+          if (auto far =
+                  beyond("wear_series_mm", *row.wear_mm, "a wear of " + shortest(*row.wear_mm) + " mm"))
+            return far;
+        }
+        row.time_s = *t;
+        row.tool = static_cast<int>(number_of_tool);
+        // An edge keeps its clock from part to part; a part without a named edge has one of its own.
+        const auto clock =
+            row.edge.empty() ? std::pair(row.part, std::string()) : std::pair(std::string(), row.edge);
+        const auto [at, fresh] = last.emplace(clock, *t);
+        if (!fresh && *t <= at->second)
+          return "the time goes back, from " + shortest(at->second) + " to " + shortest(*t) + " s";
+        at->second = *t;
+        return std::nullopt;
+      });
 }
 
 }  // namespace capstan::casebase::retain

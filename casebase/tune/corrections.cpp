@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 /// Each model is made linear and handed to `regress`:
 ///
 ///     force   ln kc = ln kc1.1 - mc ln h
-///     life    ln T  = ln T0 - 1/n ln(v / v0) - 1/p ln(h / h0) - 1/q ln(a / a0)
+///     life    ln T  = ln T0 - 1/n ln(v / v0) - 1/p ln(h / h0) - 1/q ln(a / a0), T0 of each material
 ///     time    ln(observed / planned) = a + b ln(block / 0.1 s)
 ///     bores   deviation = a + b ln(feed / 0.05 mm) + c ln(stick-out / 4 D)
 namespace capstan::casebase::tune {
@@ -21,8 +23,9 @@ namespace {
 constexpr double kMcSpread = 0.06;
 // 1 / n of carbide: 2 to 5 (Kalpakjian & Schmid: n 0.2 to 0.5); of feed and depth about 1 and less.
 constexpr double kLifeBySpeedSpread = 1.0, kLifeByFeedSpread = 0.7, kLifeByDepthSpread = 0.7;
-constexpr double kForceNoise = 0.08;  // std dev of ln kc between cuts of one edge. Default, unsourced
-constexpr double kForceEdges = 0.08;  // and between edges. Default, unsourced
+constexpr double kForceNoise = 0.08;   // std dev of ln kc between cuts of one edge. Default, unsourced
+constexpr double kForceEdges = 0.08;   // and between edges. Default, unsourced
+constexpr std::size_t kLifeTerms = 4;  // life, speed, feed, depth
 // Edges or parts that are left out in turn: fewer tell nothing, more take long. Default, unsourced.
 constexpr std::size_t kLeastLeftOut = 3, kMostLeftOut = 300;
 constexpr double kBlock0S = 0.1;  // where the time's first term counts
@@ -38,19 +41,28 @@ bool usable(std::initializer_list<double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0.0; });
 }
 
+/// `own`: so many rows at the front are what is corrected; those behind them only help to tell the fit.
 Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<const Row> rows,
-               const RegressionOptions& options, Regression fit, bool leave_out = true) {
+               const RegressionOptions& options, Regression fit, bool leave_out = true,
+               std::optional<std::size_t> own = std::nullopt) {
   Corrected out;
   out.model = std::move(model);
   out.terms = std::move(terms);
-  out.cases = rows.size();
+  out.cases = own.value_or(rows.size());
   out.groups = fit.groups;
-  if (leave_out && fit.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
-    const std::vector<LeftOut> left_out = leave_groups_out(rows, fit.coefficient.size(), options);
-    out.left_out = {rms(left_out), coverage_90(left_out)};
+  if (out.cases < rows.size()) {
+    std::set<std::size_t> groups;
+    for (const Row& row : rows.first(out.cases)) groups.insert(row.group);
+    out.groups = groups.size();
   }
-  out.doubted = static_cast<std::size_t>(
-      std::count_if(fit.weight.begin(), fit.weight.end(), [](double w) { return w < 0.5; }));
+  if (leave_out && out.groups >= kLeastLeftOut && fit.groups <= kMostLeftOut) {
+    std::vector<LeftOut> left_out = leave_groups_out(rows, fit.coefficient.size(), options);
+    left_out.resize(out.cases);
+    out.left_out = {rms(left_out), coverage_90(left_out), left_out};
+  }
+  const auto end = fit.weight.begin() + static_cast<std::ptrdiff_t>(out.cases);
+  out.doubted =
+      static_cast<std::size_t>(std::count_if(fit.weight.begin(), end, [](double w) { return w < 0.5; }));
   out.fit = std::move(fit);
   return out;
 }
@@ -180,24 +192,34 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
                                            const model::ToolLifeLaw& handbook) {
   if (!usable({handbook.v0_m_min, handbook.life_min, handbook.n})) return std::nullopt;
   model::ToolLifeLaw law = handbook;
-  const auto first = std::find_if(samples.begin(), samples.end(), [](const LifeSample& s) {
+  const auto heard = [](const LifeSample& s) {
     return usable({s.vc_m_min, s.feed_mm, s.depth_mm, s.life_min});
-  });
+  };
+  const auto first = std::find_if(samples.begin(), samples.end(),
+                                  [&](const LifeSample& s) { return s.material == 0 && heard(s); });
   if (first == samples.end()) return std::nullopt;
   if (law.h0_mm <= 0.0) law.h0_mm = first->feed_mm;
   if (law.a0_mm <= 0.0) law.a0_mm = first->depth_mm;
-  std::vector<Row> rows;
-  std::vector<std::size_t> place;  // of each row in the samples
+  std::map<std::size_t, std::size_t> others;  // materials: their term behind the law's
+  for (const LifeSample& s : samples) {
+    if (s.material != 0 && heard(s)) others.emplace(s.material, kLifeTerms + others.size());
+  }
+  const std::size_t terms_in_all = kLifeTerms + others.size();
+  std::vector<Row> rows, of_others;
+  std::vector<std::size_t> place;  // of each row of the handbook's material in the samples
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const LifeSample& s = samples[i];
-    if (!usable({s.vc_m_min, s.feed_mm, s.depth_mm, s.life_min})) continue;
-    rows.push_back({{1.0, std::log(s.vc_m_min / law.v0_m_min), std::log(s.feed_mm / law.h0_mm),
-                     std::log(s.depth_mm / law.a0_mm)},
-                    std::log(s.life_min),
-                    1.0,
-                    s.group});
-    place.push_back(i);
+    if (!heard(s)) continue;
+    std::vector<double> x(terms_in_all, 0.0);
+    x[s.material == 0 ? 0 : others.at(s.material)] = 1.0;
+    x[1] = std::log(s.vc_m_min / law.v0_m_min);
+    x[2] = std::log(s.feed_mm / law.h0_mm);
+    x[3] = std::log(s.depth_mm / law.a0_mm);
+    (s.material == 0 ? rows : of_others).push_back({std::move(x), std::log(s.life_min), 1.0, s.group});
+    if (s.material == 0) place.push_back(i);
   }
+  const std::size_t own = rows.size();
+  rows.insert(rows.end(), of_others.begin(), of_others.end());
   const auto slope = [](double exponent) { return exponent > 0.0 ? -1.0 / exponent : 0.0; };
   const double scatter = handbook.scatter > 0.0 ? handbook.scatter : kLifeScatter;
   const RegressionOptions options{.prior = {{std::log(handbook.life_min), kLifeSpread},
@@ -206,7 +228,7 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
                                             {slope(handbook.q), kLifeByDepthSpread}},
                                   .noise = scatter,
                                   .hear_below = true};
-  const Regression fit = regress(rows, 4, options);
+  const Regression fit = regress(rows, terms_in_all, options);
   // Life never grows with speed; what grows with feed or depth is left out of the law.
   const auto exponent = [&](std::size_t i) {
     return fit.coefficient[i] < 0.0 ? -1.0 / fit.coefficient[i] : 0.0;
@@ -215,15 +237,18 @@ std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
   law.n = fit.coefficient[1] < 0.0 ? exponent(1) : handbook.n;
   law.p = exponent(2);
   law.q = exponent(3);
-  const std::vector<double> here = {1.0, 0.0, 0.0, 0.0};
+  std::vector<double> here(terms_in_all, 0.0);
+  here[0] = 1.0;
   law.scatter = fit.predictive_std_dev_at(here);
-  law.source = fmt::format("{} cases on {} edges", rows.size(), fit.groups);
   std::vector<CorrectedTerm> terms;
   const char* names[] = {"ln life", "exponent of speed", "exponent of feed", "exponent of depth"};
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < kLifeTerms; ++i)
     terms.push_back(term(names[i], i == 0 ? "ln min" : "", options.prior[i], fit, i));
-  LifeCorrection out{std::move(law), told("tool life", std::move(terms), rows, options, fit)};
-  for (const std::size_t row : beyond_chance(rows, 4, options, -1.0)) out.beyond.push_back(place[row]);
+  LifeCorrection out{std::move(law), told("tool life", std::move(terms), rows, options, fit, true, own)};
+  out.law.source = fmt::format("{} cases on {} edges", own, out.how.groups);
+  for (const std::size_t row : beyond_chance(rows, terms_in_all, options, -1.0)) {
+    if (row < own) out.beyond.push_back(place[row]);
+  }
   return out;
 }
 

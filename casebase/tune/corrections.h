@@ -30,6 +30,7 @@ struct Corrected {
   /// than 300.
   struct LeftOutFigures {
     double rms = 0.0, within_90 = 0.0;
+    std::vector<LeftOut> each = {};  ///< of the samples that were heard, in their order
   };
   std::optional<LeftOutFigures> left_out;
   Regression fit;
@@ -101,6 +102,9 @@ inline constexpr double kLifeSpread = 0.5, kLifeScatter = 0.3;
 struct LifeSample {
   double vc_m_min = 0.0, feed_mm = 0.0, depth_mm = 0.0, life_min = 0.0;
   std::size_t group = 0;  ///< the edge
+  /// 0: the material that the handbook's law is of. Any other material has a life of its own, of which
+  /// nothing is held beforehand, and shares the exponents alone.
+  std::size_t material = 0;
 };
 /// The extended Taylor law as exponents of the life, and what the cases make of it.
 struct LifeCorrection {
@@ -112,7 +116,8 @@ struct LifeCorrection {
 };
 /// `handbook`: v0 and life at v0; n; h0, a0, p, q where they are known. Where speed, feed or depth do not
 /// vary, their exponents stay the handbook's. A longer life that lies far from the others counts little, a
-/// shorter one in full.
+/// shorter one in full. What is counted, left out in turn and called beyond are samples of the handbook's
+/// material; nothing where there is none of it.
 [[nodiscard]] std::optional<LifeCorrection> correct_life(std::span<const LifeSample> samples,
                                                          const model::ToolLifeLaw& handbook);
 

@@ -277,7 +277,8 @@ std::vector<BoreSample> bores_of(std::span<const Case> cases) {
   return out;
 }
 
-Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook) {
+Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook,
+                           std::span<const Case> others) {
   std::vector<ForceSample> forces;
   std::vector<LifeSample> lives;
   Groups edges;
@@ -297,6 +298,13 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
     }
     if (const auto life = life_of(readings_of(o.wear_series_mm), kWornMm))
       lives.push_back({b.vc_m_min, b.fz_mm, b.ap_mm, *life, edge});
+  }
+  Groups materials;
+  for (const Case& c : others) {
+    if (c.origin != Origin::kMeasured) continue;
+    if (const auto life = life_of(readings_of(c.observed.wear_series_mm), kWornMm))
+      lives.push_back({c.bound.vc_m_min, c.bound.fz_mm, c.bound.ap_mm, *life, edges.of(edge_name(c.from)),
+                       1 + materials.of(c.asked.material_group)});
   }
   return {correct_force(forces, handbook.force), correct_life(lives, handbook.life),
           correct_time(times_of(cases)), correct_bores(bores_of(cases))};

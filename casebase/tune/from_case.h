@@ -78,6 +78,9 @@ struct CorrectionHandbook {
 /// The corrections that measured cases of one material and tool class make. A specific force is the
 /// handbook's at the mean chip of the case, times the observed peak force over the predicted one without its
 /// margin: which teeth are in the cut, and where, is then the model's in both.
-[[nodiscard]] Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook);
+/// `others`: cases of the tool class in other materials; lives of theirs help to tell the exponents of the
+/// life.
+[[nodiscard]] Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook& handbook,
+                                         std::span<const Case> others = {});
 
 }  // namespace capstan::casebase::tune

@@ -162,6 +162,36 @@ struct ExplainOutput {
                                                       const std::string& step = {},
                                                       const std::string& attribute = {});
 
+/// Logs of machines and what is known beside them. An empty text: not known, or the default.
+struct CaseImport {
+  std::string cases;              ///< the case base: a file, made where there is none, or postgresql://...
+  std::string format;             ///< of the logs: "trace", "csv", "linuxcnc", "times", "wear"
+  std::vector<std::string> logs;  ///< files
+  std::string plan;               ///< file: the plan that was cut, or a sheet (CSV) that describes a program
+  std::string program = {};       ///< file: the plan's program, whose markers tell a line's workingstep
+  std::string inspection = {};    ///< file: what was measured of the parts (CSV)
+  std::vector<std::string> parts = {};     ///< numbers of the parts: one per log, or none
+  std::string serial = {};                 ///< number of the machine
+  std::string unit = {};                   ///< "mm" or "inch", where a log does not say
+  std::vector<std::string> triggers = {};  ///< what makes a step a bad case: "lag_mm>0.05:0.2" (for 0.2 s)
+  std::vector<std::string> columns = {};   ///< names in order, of tables that do not say
+  double period_s = 0.001;                 ///< of LinuxCNC's servo thread, 1e-6 to 1
+};
+
+/// What `import_cases` came to.
+struct CaseImportOutput {
+  bool imported = false;                 ///< otherwise nothing was kept, and `diagnostics` says why
+  std::size_t cases = 0;                 ///< that the logs make
+  std::size_t added = 0;                 ///< of them, that were not there before
+  std::size_t held = 0;                  ///< in the base now
+  std::vector<PlanMessage> diagnostics;  ///< what was left out, and why, among them
+};
+
+/// Keeps what logs show of a plan's workingsteps as cases, as `capstan cases import` does: all cases of all
+/// logs, or none. Importing a log again adds nothing. Planning leans on them by PlanOptions::cases. Throws
+/// as plan_bytes.
+[[nodiscard]] CAPSTAN_API CaseImportOutput import_cases(const CaseImport& what);
+
 /// The names of the command's options that PlanOptions has fields for, without their dashes.
 [[nodiscard]] CAPSTAN_API std::vector<std::string> option_names();
 

@@ -10,10 +10,11 @@
 namespace capstan::casebase::retain {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, LogFormat>, 4> kWords = {{{"trace", LogFormat::kTrace},
+constexpr std::array<std::pair<std::string_view, LogFormat>, 5> kWords = {{{"trace", LogFormat::kTrace},
                                                                            {"csv", LogFormat::kCsv},
                                                                            {"linuxcnc", LogFormat::kLinuxcnc},
-                                                                           {"times", LogFormat::kTimes}}};
+                                                                           {"times", LogFormat::kTimes},
+                                                                           {"wear", LogFormat::kWear}}};
 
 // A row of a summary as what a log would have shown.
 Executed executed_of(const Timed& t) {
@@ -33,10 +34,11 @@ Executed executed_of(const Timed& t) {
   return e;
 }
 
+std::string whole(std::istream& in) { return {std::istreambuf_iterator<char>(in), {}}; }
+
 Result<std::vector<Case>> import_times(std::istream& in, std::span<const Step> steps, LogFrom from,
                                        const ImportOptions& options, Job& job) {
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  const auto rows = read_times(text, from.file, job);
+  const auto rows = read_times(whole(in), from.file, job);
   if (!rows) return tl::unexpected(rows.error());
   // Parts in the order in which the table names them first.
   std::vector<std::pair<std::string, std::vector<Executed>>> parts;
@@ -55,6 +57,14 @@ Result<std::vector<Case>> import_times(std::istream& in, std::span<const Step> s
     out.insert(out.end(), std::make_move_iterator(cases.begin()), std::make_move_iterator(cases.end()));
   }
   return out;
+}
+
+Result<std::vector<Case>> import_wear(std::istream& in, std::span<const Step> steps, const LogFrom& from,
+                                      const ImportOptions& options, Job& job) {
+  auto rows = read_wear(whole(in), from.file, options.units.value_or(LogUnits{}).mm, job);
+  if (!rows) return tl::unexpected(rows.error());
+  if (!from.part.empty()) std::erase_if(*rows, [&](const Worn& w) { return w.part != from.part; });
+  return cases_of_wear(steps, *rows, from, job);
 }
 
 }  // namespace
@@ -92,6 +102,9 @@ Result<std::vector<Case>> import_log(std::istream& in, LogFormat format, std::sp
   Result<std::vector<Case>> cases;
   if (format == LogFormat::kTimes) {
     cases = import_times(in, steps, from, options, job);
+    if (!cases) return cases;
+  } else if (format == LogFormat::kWear) {
+    cases = import_wear(in, steps, from, options, job);
     if (!cases) return cases;
   } else {
     Splitter splitter({.marks = options.marks,

@@ -18,10 +18,11 @@ enum class LogFormat : std::uint8_t {
   kCsv,       ///< `read_table`
   kLinuxcnc,  ///< `read_linuxcnc`
   kTimes,     ///< `read_times`: no log, but times that somebody summed up, of several parts
+  kWear,      ///< `read_wear`: no log, but the wear of edges over their cutting time
 };
-/// The format of a word ("trace", "csv", "linuxcnc", "times"), and the words, for people.
+/// The format of a word ("trace", "csv", "linuxcnc", "times", "wear"), and the words, for people.
 [[nodiscard]] std::optional<LogFormat> log_format_of(std::string_view word);
-inline constexpr std::string_view kLogFormats = "trace, csv, linuxcnc or times";
+inline constexpr std::string_view kLogFormats = "trace, csv, linuxcnc, times or wear";
 
 struct ImportOptions {
   std::optional<LogUnits> units = {};      ///< where names do not say; nothing: those of the format
@@ -36,7 +37,8 @@ struct ImportOptions {
 [[nodiscard]] std::optional<Trigger> trigger_of(std::string_view text);
 
 /// The cases of a log. Fails as the readers do, and LOG-JOIN when no step of the log makes a case.
-/// Memory   grows with the steps of the log and not with its length, but for `kTimes`, which is read whole.
+/// Memory   grows with the steps of the log and not with its length, but for `kTimes` and `kWear`, which are
+/// read whole.
 [[nodiscard]] Result<std::vector<Case>> import_log(std::istream& in, LogFormat format,
                                                    std::span<const Step> steps, const LogFrom& from,
                                                    const ImportOptions& options, Job& job);

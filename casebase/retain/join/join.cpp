@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "casebase/record/held.h"
+#include "casebase/retain/join/told.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -22,25 +23,6 @@ constexpr double kGapShare = 0.02;
 // are blocks without a motion, of which logs of motion say nothing. Defaults, unsourced.
 constexpr long kHeadLines = 20;
 constexpr double kHeadShare = 0.1;
-constexpr std::size_t kLongestText = 200;  // of names that go into a case
-
-Diagnostic left_out(const LogFrom& from, std::uint64_t line, std::string message, std::string step) {
-  return {.code = "LOG-STEP",
-          .severity = Severity::kNote,
-          .message = std::move(message),
-          .file = from.file,
-          .line = line,
-          .path = std::move(step)};
-}
-
-// The text without characters that a record may not hold.
-std::string printable(std::string_view text) {
-  std::string out(text.substr(0, kLongestText));
-  for (char& c : out) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return out;
-}
 
 // The step that uses a tool, if only one does.
 std::map<int, const Step*> steps_by_tool(std::span<const Step> steps, const LogFrom& from) {
@@ -239,68 +221,6 @@ std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Execut
     out.push_back(std::move(c));
   }
   return out;
-}
-
-void add_inspection(std::span<const Inspected> rows, std::span<const Step> steps, const LogFrom& from,
-                    std::vector<Case>& cases, Job& job) {
-  std::map<std::string_view, const std::string*> step_of;
-  for (const Step& s : steps) {
-    if (!s.is_for(from.part)) continue;
-    for (const std::string& name : s.characteristics) step_of.emplace(name, &s.id);
-  }
-  struct Values {
-    std::vector<double> sizes, places;
-    bool judged = false, beyond = false;
-  };
-  std::map<std::string, Values> of;
-  std::map<std::string_view, const Inspected*> nobodys;
-  for (const Inspected& row : rows) {
-    if (row.part != from.part) continue;
-    const auto named = step_of.find(row.characteristic);
-    const std::string step =
-        named != step_of.end() ? *named->second : row.characteristic.substr(0, row.characteristic.find('/'));
-    const bool known = std::any_of(cases.begin(), cases.end(),
-                                   [&](const Case& c) { return c.from.workingstep == printable(step); });
-    const bool place = row.type == "Position";
-    if (!known || (!place && !row.has_nominal)) {
-      nobodys.emplace(row.characteristic, &row);
-      continue;
-    }
-    Values& v = of[printable(step)];
-    const double deviation = row.has_nominal ? row.value_mm - row.nominal_mm : row.value_mm;
-    (place ? v.places : v.sizes).push_back(deviation);
-    if (!row.toleranced) continue;
-    v.judged = true;
-    v.beyond = v.beyond || deviation < row.lower_mm || deviation > row.upper_mm;
-  }
-  if (!nobodys.empty()) {
-    std::string names;
-    for (const auto& [name, row] : nobodys) names += (names.empty() ? "" : ", ") + printable(name);
-    Diagnostic d = left_out(from, nobodys.begin()->second->line,
-                            "of part '" + from.part + "' no case of this log is about " +
-                                names.substr(0, 2 * kLongestText) + ", or it has no nominal",
-                            {});
-    d.file = from.inspection;
-    job.report(std::move(d));
-  }
-  const auto mean_of = [](const std::vector<double>& values) {
-    double mean = 0.0, square = 0.0;
-    for (const double x : values) mean += x / static_cast<double>(values.size());
-    for (const double x : values) square += (x - mean) * (x - mean);
-    const double spread =
-        values.size() < 2 ? 0.0 : std::sqrt(square / static_cast<double>(values.size() - 1));
-    return Figure{mean, spread, Origin::kMeasured};
-  };
-  for (Case& c : cases) {
-    const auto at = of.find(c.from.workingstep);
-    if (at == of.end()) continue;
-    const Values& v = at->second;
-    if (!v.sizes.empty()) c.observed.size_deviation_mm = mean_of(v.sizes);
-    if (!v.places.empty()) c.observed.position_deviation_mm = mean_of(v.places);
-    if (v.beyond) c.observed.verdict = Verdict::kBad;
-    if (v.judged && !v.beyond && c.observed.verdict == Verdict::kUnknown) c.observed.verdict = Verdict::kGood;
-    c.id = id_of(c);
-  }
 }
 
 }  // namespace capstan::casebase::retain

@@ -46,11 +46,26 @@ inline constexpr int kSummedUp = 0;
 
 /// Adds what was measured of the part to the cases of one log: the row's characteristic is one of a step's,
 /// or the id of a workingstep, or of one and a remark ("HOLE1_WS.1/diameter"). Diameters, widths and lengths
-/// with a nominal give the deviation of size, positions that of place; of several values their mean, and
-/// their spread as standard deviation. A value beyond its limits makes a bad case, a measured one within them
-/// a good one, unless the log made it bad. Rows of other parts are passed over; others that find no case are
-/// reported (LOG-STEP).
+/// with a nominal give the deviation of size, depths that of depth, positions that of place; of several
+/// values their mean, and their spread as standard deviation. Of roughnesses the largest Ra counts. Sizes
+/// (depths) of several nominals in one step are no size of it: those of the nominal that the step asks for
+/// count, and the others are told. A value beyond its limits, or an Ra above what the step asks for, makes a
+/// bad case, a measured one within them a good one, unless the log made it bad. Rows of other parts are
+/// passed over; others that find no case, or of which a case keeps nothing, are reported by name and line
+/// (LOG-STEP).
 void add_inspection(std::span<const Inspected> rows, std::span<const Step> steps, const LogFrom& from,
                     std::vector<Case>& cases, Job& job);
+
+/// A case of each edge of a table of wear: its readings over its cutting time as `wear_series_mm`, the last
+/// of them as `wear_mm`, the time that it cut. An edge without a serial number is called by the file and its
+/// part. The step is the one that the rows name, or whose tool they name, or the only one for their part.
+/// Feed and speed that the table states are what was executed, as measured; what it does not state is taken
+/// from the step, as entered. The verdict is not known.
+///
+/// Told as notes (LOG-STEP) and left out: an edge of no step, or of several, for its wear is of none of them;
+/// one without a reading after it cut; one of which the table states another feed or depth than the step, by
+/// more than 1 % (default, unsourced).
+[[nodiscard]] std::vector<Case> cases_of_wear(std::span<const Step> steps, std::span<const Worn> rows,
+                                              const LogFrom& from, Job& job);
 
 }  // namespace capstan::casebase::retain

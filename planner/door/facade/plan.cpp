@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "capstan/capstan.h"
+#include "planner/door/facade/messages.h"
 #include "planner/door/facade/options.h"
 #include "planner/door/service/check.h"
 #include "planner/door/service/explain/explain.h"
@@ -22,7 +23,6 @@ namespace {
 PlanMessage message_of(const model::Plan& plan, const model::Condemnation& c) {
   return {to_text(Severity::kError), c.code, model::text_of(plan, c)};
 }
-PlanMessage message(const Diagnostic& d) { return {to_text(d.severity), d.code, to_text(d)}; }
 
 PlanMessage message(const service::FileFinding& t, bool named) {
   const model::Finding& f = t.finding;
@@ -39,9 +39,7 @@ class Work {
     if (o.progress) job.set_progress(o.progress);
   }
   Job job;
-  void tell(std::vector<PlanMessage>& diagnostics) const {
-    for (const Diagnostic& d : job.diagnostics()) diagnostics.push_back(message(d));
-  }
+  void tell(std::vector<PlanMessage>& diagnostics) const { facade::tell(job, diagnostics); }
 
  private:
   std::stop_callback<std::function<void()>> stop_;
@@ -203,8 +201,8 @@ ExplainOutput explain_bytes(std::string plan, const std::string& name, const std
     text = attribute.empty() ? service::explain(*read, step) : service::explain(*read, step, attribute);
   out.explained = text.has_value();
   if (text) out.text = *std::move(text);
-  for (const Diagnostic& d : job.diagnostics()) out.diagnostics.push_back(message(d));
-  if (!text) out.diagnostics.push_back(message(text.error()));
+  facade::tell(job, out.diagnostics);
+  if (!text) out.diagnostics.push_back(facade::message(text.error()));
   return out;
 }
 

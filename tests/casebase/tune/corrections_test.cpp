@@ -91,6 +91,47 @@ TEST(CorrectLife, FindsTaylorsExponentAndKeepsWhatDoesNotVary) {
   EXPECT_LT(c->law.scatter, 0.3);
 }
 
+/// Lives of a law with 1/p 0.5 and 1/q 1, at two feeds and two depths.
+std::vector<LifeSample> lives(double life_min, std::size_t material) {
+  std::vector<LifeSample> out;
+  for (const double feed : {0.1, 0.2})
+    for (const double depth : {1.0, 2.0})
+      out.push_back({150.0, feed, depth, life_min * std::pow(feed / 0.1, -0.5) / depth,
+                     out.size() + 10 * material, material});
+  return out;
+}
+
+TEST(CorrectLife, OtherMaterialsTellExponentsAndNoLife) {
+  const model::ToolLifeLaw handbook{.substrate = "carbide",
+                                    .v0_m_min = 150.0,
+                                    .life_min = 15.0,
+                                    .h0_mm = 0.1,
+                                    .a0_mm = 1.0,
+                                    .n = 0.25,
+                                    .source = {}};
+  // Of the own material at one feed and depth alone; the others live a tenth and ten times as long.
+  const std::vector<LifeSample> own = {
+      {150.0, 0.1, 1.0, 15.0, 0}, {150.0, 0.1, 1.0, 15.0, 1}, {150.0, 0.1, 1.0, 15.0, 2}};
+  const auto alone = correct_life(own, handbook);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->law.p, 0.0);  // nothing tells it
+  std::vector<LifeSample> all = lives(1.5, 1);
+  all.insert(all.end(), own.begin(), own.end());
+  for (const LifeSample& s : lives(150.0, 2)) all.push_back(s);
+  const auto c = correct_life(all, handbook);
+  ASSERT_TRUE(c);
+  EXPECT_NEAR(1.0 / c->law.p, 0.5, 0.1);
+  EXPECT_NEAR(1.0 / c->law.q, 1.0, 0.15);
+  EXPECT_NEAR(c->law.life_min, 15.0, 0.2);
+  EXPECT_EQ(c->how.cases, 3U);
+  EXPECT_EQ(c->how.groups, 3U);
+  EXPECT_TRUE(c->beyond.empty());
+  ASSERT_TRUE(c->how.left_out);
+  ASSERT_EQ(c->how.left_out->each.size(), 3U);
+  EXPECT_NEAR(c->how.left_out->each[0].predicted, std::log(15.0), 0.05);
+  EXPECT_FALSE(correct_life(lives(150.0, 2), handbook)) << "none of the handbook's material";
+}
+
 TEST(LifeOf, IsReadOffACurveThroughAllReadings) {
   std::vector<WearReading> readings;
   for (double t = 2.0; t <= 30.0; t += 2.0) readings.push_back({t, 0.3 * std::pow(t / 20.0, 0.6)});

@@ -217,6 +217,33 @@ TEST(CorrectionsOf, MeasuredCasesAlone) {
   EXPECT_FALSE(corrections_of(cases, handbook).force);
 }
 
+TEST(CorrectionsOf, LivesOfOtherMaterialsTellExponentsAlone) {
+  const CorrectionHandbook handbook{
+      .force = {1800.0, 0.2, 1.5},
+      .force_margin = 1.8,
+      .life = {.substrate = "carbide", .v0_m_min = 200.0, .life_min = 15.0, .n = 0.25, .source = {}}};
+  // An edge that is worn by 0.3 mm after a time, as VB ~ t^0.7.
+  const auto edge = [](int number, const char* material, double depth_mm, double life_min) {
+    Case c = cut(number);
+    c.asked.material_group = material;
+    c.bound.ap_mm = depth_mm;
+    c.from.tool_instance = material + std::to_string(number);
+    for (const double share : {0.3, 0.6, 1.0})
+      c.observed.wear_series_mm.samples.push_back({60.0 * life_min * share, 0.3001 * std::pow(share, 0.7)});
+    return c;
+  };
+  const std::vector<Case> own = {edge(1, "P/steel", 1.0, 15.0)};
+  std::vector<Case> others;
+  for (int i = 0; i < 4; ++i) others.push_back(edge(i, "K/iron", i % 2 + 1.0, 60.0 / (i % 2 + 1.0)));
+  ASSERT_TRUE(corrections_of(own, handbook).life);
+  EXPECT_EQ(corrections_of(own, handbook).life->law.q, 0.0);
+  const Corrections c = corrections_of(own, handbook, others);
+  ASSERT_TRUE(c.life);
+  EXPECT_NEAR(1.0 / c.life->law.q, 1.0, 0.2);
+  EXPECT_NEAR(c.life->law.life_min, 15.0, 0.5);
+  EXPECT_EQ(c.life->how.cases, 1U);
+}
+
 TEST(CorrectionsOf, BoresThatAreMilledAloneByPart) {
   const CorrectionHandbook handbook{.force = {1800.0, 0.2, 1.5}, .force_margin = 1.8, .life = {}};
   const auto bores = [&](const char* operation, const char* feature) {

@@ -385,8 +385,8 @@ class CommandLine {
   void case_logs(CLI::App& cases) {
     auto* in = on_base(cases, "import", "keep what logs of machines show of a plan's workingsteps as cases",
                        Command::kCasesImport);
-    LogImport& l = out_.log;
-    in->add_option("format", l.format, "trace (MTConnect), csv, linuxcnc or times (a table of times)")
+    service::LogImport& l = out_.log;
+    in->add_option("format", l.format, "trace (MTConnect), csv, linuxcnc, times or wear (tables)")
         ->required();
     files(in, "files", "logs", 1, 1000);
     in->add_option("--plan", l.plan, "the plan that was cut, or a sheet (CSV) that describes a program")

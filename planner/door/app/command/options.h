@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/door/app/command/telling/telling.h"
+#include "planner/door/service/logs/import_logs.h"
 #include "planner/door/service/request.h"
 
 namespace capstan::app {
@@ -68,17 +69,6 @@ struct CaseJudgement {
   std::string verdict, by, time_utc, reason;
 };
 
-/// What `cases import` knows of a log beside the log.
-struct LogImport {
-  std::string format, plan, program, inspection;  ///< a word; files
-  std::vector<std::string> parts;                 ///< numbers of the parts: one per file, or none
-  std::string machine;                            ///< serial number
-  std::string unit;                               ///< mm or inch, where a log does not say
-  std::vector<std::string> triggers;              ///< "lag_mm>0.05:0.2"
-  std::vector<std::string> columns;
-  double period_s = 0.001;
-};
-
 /// How tool libraries are read and written.
 struct ToolsOptions {
   std::string column_map, save_map;  ///< files
@@ -114,8 +104,8 @@ struct Options {
   std::string today;      ///< cases tune: a date
   CaseQuestion question;  ///< cases nearest; the base is in `inputs.cases`
   CaseJudgement judgement;
-  bool learn = false;  ///< cases metric
-  LogImport log;
+  bool learn = false;      ///< cases metric
+  service::LogImport log;  ///< cases import
   ServeOptions serve;
 };
 

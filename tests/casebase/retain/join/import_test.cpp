@@ -175,6 +175,7 @@ TEST(Import, TriggersAndFormatsAreReadFromText) {
   for (const char* wrong : {"", "lag_mm", "lag_mm>", "colour>3", "lag_mm>x", "lag_mm>-1", "lag_mm>1:x"})
     EXPECT_FALSE(trigger_of(wrong)) << wrong;
   EXPECT_EQ(log_format_of("trace"), LogFormat::kTrace);
+  EXPECT_EQ(log_format_of("wear"), LogFormat::kWear);
   EXPECT_FALSE(log_format_of("qif"));
 }
 

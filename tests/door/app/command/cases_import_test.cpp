@@ -94,6 +94,24 @@ TEST_F(CasesImport, ReportsWhatIsLeftOfAnEdgeOverItsCuttingTime) {
                   "\"edge\": \"EM-2\".*\"history\": ..\"cut_min\": 0\\.33.*\"cut_min\": 0\\.66"));
 }
 
+TEST_F(CasesImport, KeepsAnEdgesWearOverItsCuttingTime) {
+  put("wear_sheet.csv",
+      "parts,workingstep,operation,material_group,tool_class,machine_class,cutter_diameter_mm,teeth,vc_m_min,"
+      "fz_mm,"
+      "ap_mm\n1-2,FACE,PLANE_ROUGH_MILLING,K/cast_iron,carbide/facemill,mill,70,6,200,0.08,1.5\n");
+  put("wear.csv", "case,run,VB,time\n1,1,0.1,3\n1,2,0.25,9\n2,1,0.3,4\n");
+  const Ran kept = run("cases import base.db wear wear.csv --plan wear_sheet.csv");
+  ASSERT_EQ(kept.code, 0) << kept.err;
+  EXPECT_THAT(kept.err, HasSubstr("1 log: 2 cases, 2 of them new"));
+  EXPECT_THAT(run("cases export base.db").out, HasSubstr("180:0.1 540:0.25"));
+  put("wear.csv", "case,run,VB,time\n1,1,100,3\n1,2,250,9\n2,1,300,4\n");
+  const Ran wrong = run("cases import other.db wear wear.csv --plan wear_sheet.csv");
+  EXPECT_EQ(wrong.code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("wear.csv:2"));
+  EXPECT_THAT(wrong.err, HasSubstr("100 mm is out of range: 0 to 20 mm"));
+  EXPECT_THAT(files(), Not(::testing::Contains("other.db")));
+}
+
 TEST_F(CasesImport, JoinsALogWithAPlanByTheMarkersOfItsProgram) {
   const Ran planned =
       run("plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o plan.json -o plan.ngc");

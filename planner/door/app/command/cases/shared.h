@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "casebase/casebase.h"
-#include "casebase/retain/join/join.h"
 #include "planner/door/app/command/session.h"
+#include "planner/door/service/logs/import_logs.h"
 
 /// What the verbs of `capstan cases` have in common.
 namespace capstan::app {
@@ -17,15 +17,9 @@ void report_faults(Session& s, const casebase::CaseBase& base);
 /// Whether a case holds all words of a filter: each is its origin, its verdict, or a part of a category, of
 /// its source, part, workingstep or tool.
 [[nodiscard]] bool wanted(const casebase::Case& c, const std::vector<std::string>& words);
-/// The steps of a plan's file, or of a sheet (`casebase::retain::read_sheet`); the plan, where it is one.
-struct PlannedSteps {
-  std::optional<model::Plan> plan;
-  std::vector<casebase::retain::Step> steps;
-};
-[[nodiscard]] Result<PlannedSteps> read_steps(const std::string& path, Job& job);
-/// The markers of a plan's program. Fails LOG-PROGRAM.
-[[nodiscard]] Result<casebase::retain::ProgramMarks> read_marks(const std::string& path,
-                                                                const PlannedSteps& planned);
+using service::PlannedSteps;
+using service::read_marks;
+using service::read_steps;
 /// A number of a table; "-" for one that is not known.
 [[nodiscard]] std::string number_text(double v);
 /// The same for an observed figure, with its standard deviation where it is known.

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -269,7 +271,13 @@ std::vector<MaterialCorrections> correct_models(const casebase::CaseBase& base,
       m.handbook.force_margin = mechanics::kienzle_margin(material, {.feed_up = kUsualOverride}).factor();
       m.card = material;
     }
-    m.corrections = tune::corrections_of(cases, m.handbook);
+    std::vector<casebase::Case> others;  // what else wore such tools tells exponents of lives
+    for (const auto& [other, of_other] : groups) {
+      if (other.second != names.second || other.first == names.first) continue;
+      std::copy_if(of_other.begin(), of_other.end(), std::back_inserter(others),
+                   [](const casebase::Case& c) { return !c.observed.wear_series_mm.samples.empty(); });
+    }
+    m.corrections = tune::corrections_of(cases, m.handbook, others);
     m.card = tune::corrected(std::move(m.card), m.corrections);
     if (!models_of(m.corrections).empty()) out.push_back(std::move(m));
   }

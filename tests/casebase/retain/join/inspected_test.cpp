@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "casebase/retain/join/join.h"
+#include "casebase/tune/advise.h"
+#include "casebase/tune/from_case.h"
+#include "tests/casebase/sample.h"
+
+namespace capstan::casebase::retain {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A pocket of 20 mm width and 10 mm depth whose floor is to be Ra 1.6, and a hole of 8 mm.
+std::vector<Case> two_cases() {
+  std::vector<Case> out;
+  for (const char* step : {"POCKET", "HOLE"}) {
+    Case c = sample();
+    c.observed = {};
+    c.from.workingstep = step;
+    c.asked.diameter_mm = c.from.workingstep == "HOLE" ? 8.0 : 0.0;
+    c.asked.width_mm = c.from.workingstep == "HOLE" ? 0.0 : 20.0;
+    c.asked.depth_mm = 10.0;
+    c.asked.asked_ra_um = c.from.workingstep == "HOLE" ? 0.0 : 1.6;
+    out.push_back(c);
+  }
+  return out;
+}
+
+struct Joined {
+  Case pocket, hole;
+  std::string said;
+};
+Joined join(const std::string& rows) {
+  Job job;
+  const auto read = read_inspection("part,characteristic,type,nominal,tol_plus,tol_minus,value,unit\n" + rows,
+                                    "cmm.csv", 1.0, job);
+  EXPECT_TRUE(read) << (read ? std::string() : to_text(read.error()));
+  std::vector<Case> cases = two_cases();
+  if (read) add_inspection(*read, {}, {.part = "7", .file = "log", .inspection = "cmm.csv"}, cases, job);
+  Joined out{cases[0], cases[1], {}};
+  for (const Diagnostic& d : job.diagnostics()) out.said += to_text(d) + '\n';
+  return out;
+}
+
+TEST(InspectedStep, KeepsSizeDepthPlaceAndRoughnessEachInItsPlace) {
+  const Joined j = join(
+      "7,POCKET/w,Width,20,0.1,-0.1,20.04,mm\n7,POCKET/d,Depth,10,0.1,-0.1,9.95,mm\n"
+      "7,POCKET/p,Position,,,,0.03,mm\n7,POCKET/r,Ra,,,,1.2,um\n");
+  EXPECT_NEAR(j.pocket.observed.size_deviation_mm.value().value, 0.04, 1e-12);
+  EXPECT_NEAR(j.pocket.observed.depth_deviation_mm.value().value, -0.05, 1e-12);
+  EXPECT_NEAR(j.pocket.observed.position_deviation_mm.value().value, 0.03, 1e-12);
+  EXPECT_NEAR(j.pocket.observed.surface_ra_um.value().value, 1.2, 1e-12);
+  EXPECT_EQ(j.pocket.observed.surface_ra_um->origin, Origin::kMeasured);
+  EXPECT_EQ(j.pocket.observed.verdict, Verdict::kGood);
+  EXPECT_EQ(j.pocket.id, id_of(j.pocket));
+  EXPECT_FALSE(fault_of(j.pocket));
+  EXPECT_FALSE(j.hole.observed.size_deviation_mm);
+  EXPECT_EQ(j.said, "");
+}
+
+TEST(InspectedStep, IsJudgedByTheRoughestPlaceAgainstWhatIsAsked) {
+  const Joined fine = join("7,POCKET/1,Ra,,,,1.2,um\n7,POCKET/2,Ra,,,,1.6,um\n");
+  EXPECT_NEAR(fine.pocket.observed.surface_ra_um.value().value, 1.6, 1e-12);
+  EXPECT_GT(fine.pocket.observed.surface_ra_um->std_dev, 0.0);
+  EXPECT_EQ(fine.pocket.observed.verdict, Verdict::kGood);
+  EXPECT_EQ(join("7,POCKET/1,Ra,,,,1.2,um\n7,POCKET/2,Ra,,,,1.7,um\n").pocket.observed.verdict,
+            Verdict::kBad);
+  // Of the hole no roughness is asked for: what the row states holds, if it states any.
+  EXPECT_EQ(join("7,HOLE/r,Ra,,,,6,um\n").hole.observed.verdict, Verdict::kUnknown);
+  EXPECT_EQ(join("7,HOLE/r,Ra,3.2,,,6,um\n").hole.observed.verdict, Verdict::kBad);
+}
+
+TEST(InspectedStep, WithAnAskedRoughnessIsEvidenceOfIt) {
+  tune::PlannedStep planned;
+  planned.step = two_cases()[0];
+  const auto finish = static_cast<std::size_t>(tune::Watched::kFinish);
+  EXPECT_FALSE(tune::evidence_of(planned.step, planned).ln_load[finish]);
+  const Joined j = join("7,POCKET/r,Ra,,,,0.8,um\n");
+  ASSERT_TRUE(tune::evidence_of(j.pocket, planned).ln_load[finish]);
+  EXPECT_NEAR(*tune::evidence_of(j.pocket, planned).ln_load[finish], std::log(0.5), 1e-12);  // 0.8 of 1.6 um
+}
+
+TEST(InspectedStep, TakesTheSizesOfTheNominalThatItAsksFor) {
+  const Joined j = join(
+      "7,HOLE/1,Diameter,12,0.1,-0.1,12.08,mm\n7,HOLE/2,Diameter,8,0.1,-0.1,8.01,mm\n"
+      "7,HOLE/3,Diameter,8,0.1,-0.1,8.03,mm\n");
+  EXPECT_NEAR(j.hole.observed.size_deviation_mm.value().value, 0.02, 1e-12);
+  EXPECT_THAT(j.said, HasSubstr("HOLE/1 (Diameter, line 2)"));
+  EXPECT_THAT(j.said, Not(HasSubstr("HOLE/2")));
+  // Of neither: no size is better than one of two things.
+  const Joined none = join("7,HOLE/1,Diameter,12,0.1,-0.1,12.08,mm\n7,HOLE/2,Diameter,9,0.1,-0.1,9,mm\n");
+  EXPECT_FALSE(none.hole.observed.size_deviation_mm);
+  EXPECT_THAT(none.said, HasSubstr("HOLE/2 (Diameter, line 3)"));
+}
+
+TEST(InspectedStep, TellsByNameAndLineWhatNoCaseKeeps) {
+  const Joined j = join(
+      "7,POCKET/f,Flatness,,,,0.02,mm\n7,POCKET/a,Angle,90,0.1,-0.1,90.02,deg\n7,POCKET/n,Diameter,,,,8,mm\n"
+      "7,SLOT/w,Width,9,0.1,-0.1,9,mm\n8,POCKET/w,Width,9,0.1,-0.1,9,mm\n");
+  EXPECT_THAT(
+      j.said,
+      HasSubstr("POCKET/f (Flatness, line 2), POCKET/a (Angle, line 3), POCKET/n (Diameter, line 4)"));
+  EXPECT_THAT(j.said, HasSubstr("no case of this log is about: SLOT/w (Width, line 5)"));
+  EXPECT_THAT(j.said, HasSubstr("cmm.csv"));
+  EXPECT_THAT(j.said, Not(HasSubstr("line 6")));  // of another part
+  EXPECT_EQ(j.pocket.observed, Observed{});
+}
+
+}  // namespace
+}  // namespace capstan::casebase::retain
