@@ -52,22 +52,28 @@ std::string name_of(const Case& c, By by) {
          (c.asked.width_mm > 0.0 ? " W" + trimmed(c.asked.width_mm, 3) : std::string());
 }
 
+std::optional<Figure> off_the_aim(const Case& c) {
+  std::optional<Figure> size = c.observed.size_deviation_mm;
+  if (!size || !c.bound.aimed_over_mm) return std::nullopt;
+  size->value -= c.bound.aimed_over_mm->value;
+  return size;
+}
+
 constexpr std::array kQuantities = {
     Quantity{"time", "motion: the machine's accelerations, block time and path tolerance",
              [](const Case& c) { return c.predicted.time_s; },
-             [](const Observed& o) -> const std::optional<Figure>& { return o.time_s; }},
+             [](const Case& c) { return c.observed.time_s; }},
     Quantity{"peak force", "cutting force: kc1.1 and mc of the material, its margin",
              [](const Case& c) { return c.predicted.peak_force_n; },
-             [](const Observed& o) -> const std::optional<Figure>& { return o.peak_force_n; }},
+             [](const Case& c) { return c.observed.peak_force_n; }},
     Quantity{"torque", "cutting force at the cutter's radius",
              [](const Case& c) { return c.predicted.torque_nm; },
-             [](const Observed& o) -> const std::optional<Figure>& { return o.torque_nm; }},
+             [](const Case& c) { return c.observed.torque_nm; }},
     Quantity{"power", "cutting force and the spindle's efficiency",
              [](const Case& c) { return c.predicted.power_w; },
-             [](const Observed& o) -> const std::optional<Figure>& { return o.power_w; }},
+             [](const Case& c) { return c.observed.power_w; }},
     Quantity{"size", "bending of the cutter (amounts: it says nothing of vibration and runout)",
-             [](const Case& c) { return c.predicted.deflection_mm; },
-             [](const Observed& o) -> const std::optional<Figure>& { return o.size_deviation_mm; }},
+             [](const Case& c) { return c.predicted.deflection_mm; }, &off_the_aim, true},
 };
 
 }  // namespace
@@ -82,10 +88,7 @@ std::vector<Group> grouped(std::span<const Case> cases, By by) {
       g.good += c->observed.verdict == Verdict::kGood ? 1 : 0;
       g.bad += c->observed.verdict == Verdict::kBad ? 1 : 0;
     }
-    g.time_s = spread_of(g.cases, &Observed::time_s);
-    g.lag_mm = spread_of(g.cases, &Observed::lag_mm);
-    g.load_percent = spread_of(g.cases, &Observed::spindle_load_percent);
-    g.size_mm = spread_of(g.cases, &Observed::size_deviation_mm);
+    for (std::size_t i = 0; i < kColumns.size(); ++i) g.figures[i] = spread_of(g.cases, kColumns[i].figure);
     out.push_back(std::move(g));
   }
   return out;
@@ -94,9 +97,9 @@ std::vector<Group> grouped(std::span<const Case> cases, By by) {
 std::span<const Quantity> quantities() { return kQuantities; }
 
 double ratio_of(const Quantity& q, const Case& c) {
-  const std::optional<Figure>& seen = q.observed(c.observed);
+  const std::optional<Figure> seen = q.observed(c);
   const double expected = q.predicted(c);
-  return is_seen(seen) && expected > 0.0 ? std::abs(seen->value) / expected : 0.0;
+  return is_seen(seen) && expected > 0.0 ? std::max(kLeastRatio, std::abs(seen->value) / expected) : 0.0;
 }
 
 std::vector<Parting> partings_of(std::span<const Case* const> cases) {
@@ -114,7 +117,8 @@ std::vector<Parting> partings_of(std::span<const Case* const> cases) {
     Parting p{.quantity = &q, .count = logs.size(), .ratio = std::exp(mean)};
     if (logs.size() > 1) {
       p.ln_std_dev = std::sqrt(square / (n - 1.0));
-      p.apart = std::abs(mean) > std::max(kLeastApart, kStandardErrors * p.ln_std_dev / std::sqrt(n));
+      const double off = q.at_most ? mean : std::abs(mean);
+      p.apart = off > std::max(kLeastApart, kStandardErrors * p.ln_std_dev / std::sqrt(n));
     }
     out.push_back(p);
   }

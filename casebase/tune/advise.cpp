@@ -262,20 +262,33 @@ std::string reason_of(const Advice& a, const TuneOptions& o) {
       fmt::format("{} on {} and {}", a.heard == 1 ? "1 case" : fmt::format("{} cases", a.heard),
                   a.edges == 1 ? "1 edge" : fmt::format("{} edges", a.edges),
                   a.days == 1 ? "1 day" : fmt::format("{} days", a.days));
-  if (a.lowered && a.trial.at == a.proven.at) {
+  if (a.another_cut && a.trial.at == a.proven.at) {
     return fmt::format(
         "{}: the present values would exceed a limit ({}) too often, and no other speed or feed near "
         "mends it; take another depth, width or tool",
         base, a.binding);
+  }
+  if (a.another_cut) {
+    return fmt::format(
+        "{}: the present values would exceed a limit ({}) too often, and the gentlest near, {} speed, {} "
+        "feed, "
+        "in {:.0f} of 100 parts; take another depth, width or tool",
+        base, a.binding, percent_of(a.trial.at.ln_vc), percent_of(a.trial.at.ln_fz),
+        100.0 * std::min(1.0, a.trial.probability));
   }
   if (a.lowered) {
     return fmt::format("{}: the present values would exceed a limit ({}) too often; {} speed, {} feed", base,
                        a.binding, percent_of(a.trial.at.ln_vc), percent_of(a.trial.at.ln_fz));
   }
   if (a.trial.at == a.proven.at) {
-    return fmt::format("{}: nothing faster within {:.0f} % keeps its limits in {:.3g} of 100 parts{}", base,
-                       100.0 * (std::exp(o.step) - 1.0), 100.0 * (1.0 - o.probability),
-                       a.binding.empty() ? "" : " (" + a.binding + ")");
+    const std::string words =
+        fmt::format("{}: nothing faster within {:.0f} % keeps its limits in {:.3g} of 100 parts{}", base,
+                    100.0 * (std::exp(o.step) - 1.0), 100.0 * (1.0 - o.probability),
+                    a.binding.empty() ? "" : " (" + a.binding + ")");
+    if (a.trial.probability <= o.probability) return words;
+    // The handbook's own, which no evidence made worse than they were thought to be.
+    return fmt::format("{}; of the present values {:.0f} of 100 are expected beyond a limit", words,
+                       100.0 * std::min(1.0, a.trial.probability));
   }
   return fmt::format(
       "{}: {} speed, {} feed is expected to take {:.3g} of the handbook's time; proven after {} "
@@ -381,6 +394,7 @@ Advice advise(std::span<const Evidence> evidence, const Handbook& all, const Tun
   } else if (out.lowered && gentlest && gentlest->probability < kWorthLowering) {
     out.trial = *gentlest;
   }
+  out.another_cut = out.lowered && (out.trial.at == out.proven.at || !gate.soft(out.trial));
   out.binding = binding_of(learnt, gate, out.trial.at, options.grid);
   out.why = reason_of(out, options);
   return out;

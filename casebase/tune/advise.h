@@ -78,8 +78,11 @@ struct Advice {
   SettingView handbook = {};  ///< what is now known of the handbook's own values
   SettingView proven =
       {};  ///< the fastest that repeats have shown: planning's start value. The handbook's at first
-  SettingView trial = {};    ///< the next to be cut; the proven one where nothing better is safe
-  bool lowered = false;      ///< evidence speaks against the proven setting: `trial` is gentler, cut that
+  SettingView trial = {};  ///< the next to be cut; the proven one where nothing better is safe
+  bool lowered = false;    ///< evidence speaks against the proven setting: `trial` is gentler, cut that
+  /// ... and no speed or feed near keeps the limits as often as allowed: another depth, width or tool is
+  /// needed. `trial` is then the gentlest near that fails less than every other time, else the proven one.
+  bool another_cut = false;
   std::string binding = {};  ///< the limit that keeps the trial from more; empty: none of those watched
   std::string why = {};      ///< in a sentence
   std::size_t heard = 0, edges = 0, days = 0;

@@ -31,7 +31,7 @@ struct Evidence {
   std::string id;                ///< of the case
   std::vector<double> question;  ///< where it lies from what is asked, by the scales of normalisation.h
   Setting at;
-  double worn = 0.0;              ///< wear of the edge before the cut over what is allowed; not known: 0
+  double worn = 0.0;              ///< wear of the edge at the end of the cut over what is allowed; not known: 0
   std::optional<double> ln_time;  ///< time over the one that is planned at the handbook's values
   std::array<std::optional<double>, kWatchedCount> ln_load = {};  ///< observed over limit
   bool failed = false;                                            ///< chatter, breakage, or a bad verdict

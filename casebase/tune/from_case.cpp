@@ -55,18 +55,10 @@ double limit_of(const PlannedStep& p, Watched w) {
   return 0.0;
 }
 
-/// The wear before the cut, mm: between the readings, at the last's time less that of the step; 0: not known.
-double worn_before_mm(const Observed& o) {
+/// The wear at the end of the cut, mm; 0: not known.
+double worn_after_mm(const Observed& o) {
   const std::vector<WearReading> all = readings_of(o.wear_series_mm);
-  if (all.empty()) return 0.0;
-  const double start = all.back().time_min - (o.time_s ? o.time_s->value / 60.0 : 0.0);
-  for (std::size_t i = all.size() - 1; i > 0; --i) {
-    const WearReading &a = all[i - 1], &b = all[i];
-    if (start < a.time_min || !(b.time_min > a.time_min)) continue;
-    const double share = std::min(1.0, (start - a.time_min) / (b.time_min - a.time_min));
-    return a.wear_mm + share * (b.wear_mm - a.wear_mm);
-  }
-  return all.front().wear_mm;
+  return all.empty() ? 0.0 : all.back().wear_mm;
 }
 
 /// After how much cutting at the planned values an edge is changed, min; 0: not known.
@@ -204,7 +196,7 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   e.at = {std::log(c.bound.vc_m_min / p.step.bound.vc_m_min),
           std::log(c.bound.fz_mm / p.step.bound.fz_mm / wider)};
   const Observed& o = c.observed;
-  e.worn = std::max(0.0, worn_before_mm(o)) / kWornMm;
+  e.worn = std::max(0.0, worn_after_mm(o)) / kWornMm;
   const bool same_step = c.from.plan_hash == p.step.from.plan_hash &&
                          c.from.workingstep == p.step.from.workingstep && !c.from.workingstep.empty();
   if (evidence(o.time_s) && positive(o.time_s->value) && positive(p.step.predicted.time_s)) {

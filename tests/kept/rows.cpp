@@ -8,11 +8,12 @@
 #include "planner/ground/base/file.h"
 #include "planner/making/toolpath/freeform/drop_cutter.h"
 #include "planner/physics/engagement/engagement.h"
+#include "tests/kept/case_pieces.h"
 #include "tests/kept/wavy.h"
 
 // Each piece runs in a process of its own: what a process keeps for its next call makes no row faster. Plans
-// and checks are made by the command; the kernels of sections and of the drop-cutter, and JSON, by this
-// program (--piece).
+// and checks are made by the command; the kernels of sections and of the drop-cutter, JSON, and the case base
+// by this program (--piece).
 
 namespace capstan::kept {
 namespace {
@@ -74,6 +75,7 @@ void piece(const std::string& name, const std::string& file) {
   if (name == "sections") return sections();
   if (name == "drop-cutter") return drops();
   if (name == "json") return json_both_ways(file);
+  if (case_piece(name, file)) return;
   throw std::runtime_error("there is no piece of work " + name);
 }
 
@@ -99,6 +101,11 @@ std::vector<Row> rows(const std::string& capstan, const std::string& own, const 
   out.push_back({"check-bracket", command({"check", plan, program})});
   for (const char* name : {"sections", "drop-cutter", "json"})
     out.push_back({name, {own, "--piece", name, plan}});
+  const std::string base = scratch + "/cases.db";
+  (void)taken_by(std::vector<std::string>{own, "--piece", "cases-fill", base});
+  for (const char* name : {"cases-open", "cases-add", "cases-question", "cases-look-up"})
+    out.push_back({name, {own, "--piece", name, base}});
+  if (!smoke) out.push_back({"cases-import", {own, "--piece", "cases-import", base}});
   if (!smoke)
     out.push_back(
         {"plan-surface", command({"plan", examples + "/surface.stl", "--material", "EN AW-6061", "-o",

@@ -14,7 +14,8 @@ namespace capstan::kept {
                                     const std::string& examples, const std::string& scratch, bool smoke);
 
 /// Does the piece of work of this name, as `own --piece NAME FILE` asks; `file` is the plan of the piece
-/// "json". Throws std::runtime_error where there is no such piece or what it makes is wrong.
+/// "json", the base of those of cases (case_pieces.h). Throws std::runtime_error where there is no such piece
+/// or what it makes is wrong.
 void piece(const std::string& name, const std::string& file);
 
 }  // namespace capstan::kept

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "casebase/tune/card.h"
+#include "casebase/tune/regression.h"
 #include "planner/model/plan/resources/specific_force.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -202,9 +203,15 @@ Campaign run_campaign(std::uint64_t seed, Arm arm, int parts) {
       out.last = tune::advise(out.evidence, handbook, options);
       at = out.last.trial.at;
     }
+    const Said said = out.last.another_cut    ? Said::kAgainst
+                      : at == tune::Setting{} ? Said::kHandbook
+                                              : Said::kOwn;
+    out.doubted = out.doubted || out.last.lowered;
     const CutPart part = shop.cut(planned.job, planned.vc_m_min * std::exp(at.ln_vc),
                                   planned.fz_mm * std::exp(at.ln_fz), edge);
     out.parts.push_back({.at = at,
+                         .said = said,
+                         .stated = std::min(1.0, out.last.trial.probability),
                          .time_s = part.time_s,
                          .planner_excess = planner_excess(planned, at),
                          .over_force = part.truth.force_n > planned.job.force_n,
@@ -231,46 +238,71 @@ double Campaign::time_of_last(std::size_t count) const {
   return n > 0 ? sum / static_cast<double>(n) : 0.0;
 }
 
-double ArmSummary::mean_ratio() const {
+Tally& Tally::operator+=(const Tally& other) {
+  parts += other.parts;
+  over += other.over;
+  stated += other.stated;
+  return *this;
+}
+
+Tally ShopOutcome::all() const {
+  Tally out;
+  for (const Tally& t : by) out += t;
+  return out;
+}
+
+Tally ArmSummary::of(Said said) const {
+  Tally out;
+  for (const ShopOutcome& shop : shops) out += shop.of(said);
+  return out;
+}
+
+Tally ArmSummary::all() const {
+  Tally out;
+  for (const ShopOutcome& shop : shops) out += shop.all();
+  return out;
+}
+
+std::vector<Tally> ArmSummary::by_shop(Said said) const {
+  std::vector<Tally> out;
+  for (const ShopOutcome& shop : shops) {
+    if (shop.of(said).parts > 0) out.push_back(shop.of(said));
+  }
+  return out;
+}
+
+std::vector<double> ArmSummary::time_ratios(bool undoubted) const {
+  std::vector<double> out;
+  for (const ShopOutcome& shop : shops) {
+    if (!undoubted || !shop.doubted) out.push_back(shop.time_ratio);
+  }
+  return out;
+}
+
+double geometric_mean(const std::vector<double>& ratios) {
   double sum = 0.0;
-  for (const double r : time_ratio) sum += std::log(r);
-  return time_ratio.empty() ? 1.0 : std::exp(sum / static_cast<double>(time_ratio.size()));
+  for (const double r : ratios) sum += std::log(r);
+  return ratios.empty() ? 1.0 : std::exp(sum / static_cast<double>(ratios.size()));
 }
 
 Summary run_shops(std::uint64_t first_seed, int shops, int parts) {
-  Summary out{.arms = {}, .shops = shops};
+  Summary out;
   for (int i = 0; i < shops; ++i) {
-    std::array<Campaign, kArmNames.size()> runs;
-    for (std::size_t a = 0; a < runs.size(); ++a) {
-      runs[a] = run_campaign(first_seed + static_cast<std::uint64_t>(i), static_cast<Arm>(a), parts);
-    }
-    const auto over = [](const Campaign& c) {
-      return static_cast<int>(
-          std::count_if(c.parts.begin(), c.parts.end(), [](const CampaignPart& p) { return p.over(); }));
-    };
-    const bool sound = over(runs[0]) <= 0.05 * parts;
-    out.sound += sound ? 1 : 0;
-    Summary::Shop& shop = out.each.emplace_back();
-    shop.seed = first_seed + static_cast<std::uint64_t>(i);
-    for (std::size_t a = 0; a < runs.size(); ++a) {
+    out.seeds.push_back(first_seed + static_cast<std::uint64_t>(i));
+    Campaign handbook;
+    for (std::size_t a = 0; a < kArmNames.size(); ++a) {
+      Campaign run = run_campaign(out.seeds.back(), static_cast<Arm>(a), parts);
+      if (a == 0) handbook = run;
       ArmSummary& arm = out.arms[a];
-      for (const CampaignPart& p : runs[a].parts) {
-        if (!(p.at == tune::Setting{})) {
+      ShopOutcome& shop = arm.shops.emplace_back();
+      shop.time_ratio = run.time_of_last(10) / handbook.time_of_last(10);
+      shop.doubted = run.doubted;
+      for (std::size_t k = 0; k < run.parts.size(); ++k) {
+        const CampaignPart& p = run.parts[k];
+        shop.by[static_cast<std::size_t>(p.said)] += {1, p.over() ? 1 : 0, p.stated};
+        shop.ratio_by_part.push_back(p.time_s / handbook.parts[k].time_s);
+        if (!(p.at == tune::Setting{}))
           arm.worst_planner_excess = std::max(arm.worst_planner_excess, p.planner_excess);
-        }
-      }
-      const int bad = over(runs[a]);
-      shop.over[a] = bad;
-      shop.time_ratio[a] = runs[a].time_of_last(10) / runs[0].time_of_last(10);
-      (sound ? arm.parts : arm.unsound_parts) += parts;
-      (sound ? arm.over : arm.unsound_over) += bad;
-      if (!sound) continue;
-      arm.shops_over += bad > 0 ? 1 : 0;
-      arm.over_share.push_back(static_cast<double>(bad) / parts);
-      arm.time_ratio.push_back(shop.time_ratio[a]);
-      std::vector<double>& by_part = arm.ratio_by_part.emplace_back();
-      for (std::size_t k = 0; k < runs[a].parts.size(); ++k) {
-        by_part.push_back(runs[a].parts[k].time_s / runs[0].parts[k].time_s);
       }
     }
   }
@@ -349,6 +381,17 @@ double clopper_pearson_upper(int hits, int n, double confidence) {
     (at_most(middle) > 1.0 - confidence ? low : high) = middle;
   }
   return high;
+}
+
+double upper_by_shops(const std::vector<Tally>& shops) {
+  const auto n = static_cast<double>(shops.size());
+  if (n < 2.0) return 1.0;
+  Tally all;
+  for (const Tally& t : shops) all += t;
+  double square = 0.0;
+  for (const Tally& t : shops) square += std::pow(t.over - all.share() * t.parts, 2.0);
+  const double error = std::sqrt(square * n / (n - 1.0)) / all.parts;
+  return all.share() + tune::deviations_90(n - 1.0) * error;  // 90 % between both sides: 95 % below
 }
 
 }  // namespace capstan::testing

@@ -32,8 +32,18 @@ struct PlannedJob {
 /// `optimise` alone, whatever the tuner says.
 [[nodiscard]] double planner_excess(const PlannedJob& job, const casebase::tune::Setting& at);
 
+/// What the tuner had said of a part when it was cut: all that a shop can tell the parts apart by.
+enum class Said : unsigned char {
+  kOwn,       ///< a setting of the tuner's own
+  kHandbook,  ///< the handbook's values: nothing yet, or no evidence that they are worse than was thought
+  kAgainst,   ///< take another depth, width or tool; this part was cut all the same, as gently as was said
+};
+inline constexpr std::size_t kSaidCount = static_cast<std::size_t>(Said::kAgainst) + 1;
+
 struct CampaignPart {
   casebase::tune::Setting at;
+  Said said = Said::kHandbook;
+  double stated = 1.0;  ///< probability that it exceeds a limit, as the tuner said before the cut; at most 1
   double time_s = 0.0;
   double planner_excess = 0.0;
   bool over_force = false, over_power = false, over_size = false, over_finish = false, over_wear = false,
@@ -45,6 +55,7 @@ struct CampaignPart {
 struct Campaign {
   std::vector<CampaignPart> parts;
   casebase::tune::Advice last;
+  bool doubted = false;  ///< of any part the tuner said that the present values exceed a limit too often
   std::vector<casebase::tune::Evidence> evidence;
   /// Mean time of the last parts over that of the handbook's arm.
   [[nodiscard]] double time_of_last(std::size_t count) const;
@@ -53,30 +64,37 @@ struct Campaign {
 /// Some parts, eight a day, each cut at what the tuner advises after the ones before.
 [[nodiscard]] Campaign run_campaign(std::uint64_t seed, Arm arm, int parts);
 
-/// What an arm came to over many shops.
+/// Parts, and those of them that exceeded a hidden limit.
+struct Tally {
+  int parts = 0, over = 0;
+  double stated = 0.0;  ///< how many the tuner said would, of those that it said something of
+  [[nodiscard]] double share() const { return parts > 0 ? static_cast<double>(over) / parts : 0.0; }
+  Tally& operator+=(const Tally& other);
+};
+/// One shop under one arm.
+struct ShopOutcome {
+  double time_ratio = 1.0;  ///< mean of its last ten parts over the handbook's
+  bool doubted = false;     ///< the tuner once said that the present values exceed a limit too often
+  std::array<Tally, kSaidCount> by{};
+  std::vector<double> ratio_by_part = {};
+  [[nodiscard]] const Tally& of(Said said) const { return by[static_cast<std::size_t>(said)]; }
+  [[nodiscard]] Tally all() const;
+};
+/// What an arm came to over all shops: none is left out by what is hidden.
 struct ArmSummary {
-  std::vector<double> time_ratio;  ///< of each sound shop: mean of its last ten parts over the handbook's
-  std::vector<double> over_share;  ///< of each sound shop: parts that exceeded a hidden limit
-  std::vector<std::vector<double>> ratio_by_part;  ///< of each sound shop, part by part
-  int parts = 0, over = 0;                  ///< in sound shops: parts, and those that exceeded a hidden limit
-  int shops_over = 0;                       ///< sound shops with any such part
-  int unsound_parts = 0, unsound_over = 0;  ///< in the others
-  double worst_planner_excess = -1.0;       ///< of all settings but the handbook's own, in all shops
-  [[nodiscard]] double mean_ratio() const;  ///< geometric
+  std::vector<ShopOutcome> shops;
+  double worst_planner_excess = -1.0;  ///< of all settings but the handbook's own
+  [[nodiscard]] Tally of(Said said) const;
+  [[nodiscard]] Tally all() const;
+  [[nodiscard]] std::vector<Tally> by_shop(Said said) const;  ///< of shops with such parts
+  /// Of all shops, or of those alone whose values the tuner never doubted.
+  [[nodiscard]] std::vector<double> time_ratios(bool undoubted) const;
 };
-/// Sound is a shop in which the handbook's own values exceed a hidden limit in at most 5 of 100 parts.
 struct Summary {
-  /// One shop: of each arm the mean time of its last ten parts over the handbook's, and its parts over a
-  /// hidden limit.
-  struct Shop {
-    std::uint64_t seed = 0;
-    std::array<double, kArmNames.size()> time_ratio{};
-    std::array<int, kArmNames.size()> over{};
-  };
   std::array<ArmSummary, kArmNames.size()> arms;
-  std::vector<Shop> each = {};
-  int shops = 0, sound = 0;
+  std::vector<std::uint64_t> seeds = {};
 };
+[[nodiscard]] double geometric_mean(const std::vector<double>& ratios);  ///< 1 of none
 [[nodiscard]] Summary run_shops(std::uint64_t first_seed, int shops, int parts);
 
 /// Forces of further edges against the loads that planning holds its limits against at the usual margin: by
@@ -95,5 +113,10 @@ struct ForceForecasts {
 /// The upper bound of a probability at 95 % (one side) after `hits` of `n`.
 /// Source  Clopper and Pearson, Biometrika 26 (1934) 404.
 [[nodiscard]] double clopper_pearson_upper(int hits, int n, double confidence = 0.95);
+
+/// The upper bound at 95 % (one side) of the share of parts over a limit where shops are drawn, and not
+/// parts: those of one shop are not independent. A ratio estimator, its error linearised, by Student's t; 1
+/// of fewer than two shops. Source  Cochran, Sampling Techniques, 3rd edition 1977, section 2.11.
+[[nodiscard]] double upper_by_shops(const std::vector<Tally>& shops);
 
 }  // namespace capstan::testing

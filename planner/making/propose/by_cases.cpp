@@ -11,12 +11,11 @@
 #include "planner/making/propose/operation_nouns.h"
 #include "planner/making/step/cut/precedents.h"
 #include "planner/making/step/cut/preferences.h"
+#include "planner/making/step/cut/strategies.h"
 #include "tooling/selection/select.h"
 
 namespace capstan::propose {
 namespace {
-
-constexpr double kLikelierToFail = 0.5;
 
 enum class Known { kProven, kNothing, kFailed };
 
@@ -43,7 +42,7 @@ KnownChain judge(const Choice& choice, std::vector<model::ProposedStep> chain, m
     if (step.operation == model::TypeId::kWorkpieceProbing) continue;
     if (tools.back().ranked.empty()) return out;
     const auto e = step::experience_with(*choice.cases, plan, of, shape, tools.back().ranked.front());
-    if (e.bad >= casebase::kRepeats && e.success < kLikelierToFail) {
+    if (e.bad >= casebase::kRepeats && e.success < step::kLikelierToFail) {
       out.known = Known::kFailed;
       out.words = step.name + " " + trimmed(100.0 * e.success, 0) + " % likely to go well: " + e.words;
       return out;

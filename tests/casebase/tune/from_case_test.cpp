@@ -156,13 +156,33 @@ TEST(EvidenceOf, WearOfUnknownAgeCountsOnlyBeyondWhatIsAllowed) {
   EXPECT_FALSE(evidence_of(c, planned()).ln_load[static_cast<std::size_t>(Watched::kWear)]);
 }
 
-TEST(EvidenceOf, AnEdgeIsAsWornAsItWasBeforeTheCut) {
+// Its loads are the largest there; those that are asked about are of an edge that is changed after the cut.
+TEST(EvidenceOf, AnEdgeIsAsWornAsItIsAtTheEndOfTheCut) {
   Case c = cut(1);  // 66 s
   EXPECT_EQ(evidence_of(c, planned()).worn, 0.0);
   c.observed.wear_series_mm = {.samples = {{0.0, 0.0}, {66.0, 0.06}}};
-  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.0, 1e-12) << "its first part";
+  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.06 / kWornMm, 1e-12) << "its first part";
   c.observed.wear_series_mm.samples.push_back({132.0, 0.09});
-  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.06 / kWornMm, 1e-12);
+  EXPECT_NEAR(evidence_of(c, planned()).worn, 0.09 / kWornMm, 1e-12);
+}
+
+TEST(Advise, AnEdgeOfOnePartIsNoMoreWornAtItsChangeThanThatPartLeftIt) {
+  // Each part on an edge of its own, which is changed after it: what was seen is what is to be expected.
+  PlannedStep p = planned();
+  p.edge_min = 1.1;  // 66 s
+  std::vector<Evidence> evidence;
+  for (int part = 1; part <= 12; ++part) {
+    Case c = cut(part);
+    c.observed.wear_series_mm = {.samples = {{0.0, 0.0}, {66.0, 0.15}}};
+    c.from.tool_instance = "E" + std::to_string(part);
+    evidence.push_back(evidence_of(c, p));
+  }
+  const Advice a = advise(evidence, handbook_of(p), {});
+  for (const LimitView& l : a.handbook.limits) {
+    if (l.name == kWatchedNames[static_cast<std::size_t>(Watched::kForce)]) {
+      EXPECT_NEAR(l.load / load(evidence.front(), Watched::kForce), 1.0, 0.05);
+    }
+  }
 }
 
 TEST(EvidenceOf, NamesItsSourceInOneLine) {

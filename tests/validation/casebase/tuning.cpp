@@ -12,12 +12,18 @@
 namespace capstan::validation {
 namespace {
 
+using testing::Arm;
 using testing::ArmSummary;
+using testing::Said;
 namespace tune = casebase::tune;
 
 constexpr std::uint64_t kFirstSeed =
     2001;  // none of which the tuner's or the shop's constants were chosen by
 constexpr int kShops = 30, kParts = 40, kForceShops = 60;
+
+const ArmSummary& arm_of(const testing::Summary& shops, Arm arm) {
+  return shops.arms[static_cast<std::size_t>(arm)];
+}
 
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
@@ -40,31 +46,86 @@ Mean mean_of(const std::vector<double>& values) {
 /// The time that lines take over that of the process, shop by shop.
 Mean ln_lines_over_process(const testing::Summary& shops) {
   std::vector<double> ln;
-  const auto& lines = shops.arms[static_cast<std::size_t>(testing::Arm::kRegression)].time_ratio;
-  const auto& process = shops.arms[static_cast<std::size_t>(testing::Arm::kProcess)].time_ratio;
+  const auto lines = arm_of(shops, Arm::kRegression).time_ratios(false),
+             process = arm_of(shops, Arm::kProcess).time_ratios(false);
   for (std::size_t i = 0; i < lines.size(); ++i) ln.push_back(std::log(lines[i] / process[i]));
   return mean_of(ln);
 }
+
+std::string of(int hits, int n) { return std::to_string(hits) + " of " + std::to_string(n); }
+std::string of(const testing::Tally& t) { return t.parts > 0 ? of(t.over, t.parts) : std::string("-"); }
 
 /// A row a shop: the time of its last ten parts over the handbook's, and its parts over a hidden limit.
 Table shop_by_shop(const testing::Summary& shops) {
   Table out{{"seed", "handbook over a limit"}, {}};
   for (std::size_t a = 1; a < testing::kArmNames.size(); ++a) {
     out.head.push_back(std::string(testing::kArmNames[a]) + ": time");
-    out.head.emplace_back("over a limit");
+    out.head.emplace_back("own settings");
+    out.head.emplace_back("handbook's");
+    out.head.emplace_back("against advice");
   }
-  for (const testing::Summary::Shop& shop : shops.each) {
-    std::vector<std::string> row{std::to_string(shop.seed), std::to_string(shop.over[0])};
-    for (std::size_t a = 1; a < shop.over.size(); ++a) {
-      row.push_back(fixed(shop.time_ratio[a], 3));
-      row.push_back(std::to_string(shop.over[a]));
+  for (std::size_t i = 0; i < shops.seeds.size(); ++i) {
+    std::vector<std::string> row{std::to_string(shops.seeds[i]),
+                                 std::to_string(arm_of(shops, Arm::kHandbook).shops[i].all().over)};
+    for (std::size_t a = 1; a < testing::kArmNames.size(); ++a) {
+      const testing::ShopOutcome& shop = shops.arms[a].shops[i];
+      row.push_back(fixed(shop.time_ratio, 3));
+      for (const Said said : {Said::kOwn, Said::kHandbook, Said::kAgainst}) row.push_back(of(shop.of(said)));
     }
     out.rows.push_back(std::move(row));
   }
   return out;
 }
 
-std::string of(int hits, int n) { return std::to_string(hits) + " of " + std::to_string(n); }
+/// Times of the last ten parts over the handbook's, a row an arm.
+Table times(const testing::Summary& shops) {
+  Table out{{"speeds and feeds", "time over the handbook's, mean", "interval of 90 %",
+             "half of the shops between", "best", "worst", "largest load over a limit of the planner's",
+             "shops whose values it never doubted", "time of those"},
+            {}};
+  for (std::size_t a = 0; a < shops.arms.size(); ++a) {
+    const ArmSummary& arm = shops.arms[a];
+    const std::vector<double> ratios = arm.time_ratios(false), undoubted = arm.time_ratios(true);
+    std::vector<double> ln;
+    for (const double r : ratios) ln.push_back(std::log(r));
+    const Mean mean = mean_of(ln);
+    const bool tuned = a > 0;
+    out.rows.push_back({testing::kArmNames[a], fixed(testing::geometric_mean(ratios), 3),
+                        fixed(std::exp(mean.value - mean.half_90), 3) + " to " +
+                            fixed(std::exp(mean.value + mean.half_90), 3),
+                        fixed(quantile(ratios, 0.25), 3) + " and " + fixed(quantile(ratios, 0.75), 3),
+                        fixed(quantile(ratios, 0.0), 3), fixed(quantile(ratios, 1.0), 3),
+                        tuned ? fixed(1.0 + arm.worst_planner_excess, 4) : "-",
+                        tuned ? of(static_cast<int>(undoubted.size()), static_cast<int>(ratios.size())) : "-",
+                        tuned ? fixed(testing::geometric_mean(undoubted), 3) : "-"});
+  }
+  return out;
+}
+
+/// Parts over a hidden limit, told apart by what the tuner had said of them.
+Table parts_over(const testing::Summary& shops) {
+  Table out{{"speeds and feeds", "parts", "over a hidden limit", "as the tuner said before, mean",
+             "upper bound (95 %)", "the same, shops drawn", "shops with such a part"},
+            {}};
+  const auto row = [&](std::size_t a, Said said, const char* words) {
+    const std::vector<testing::Tally> by_shop = shops.arms[a].by_shop(said);
+    const testing::Tally all = shops.arms[a].of(said);
+    if (all.parts == 0) return;
+    const auto with = std::count_if(by_shop.begin(), by_shop.end(), [](const auto& t) { return t.over > 0; });
+    out.rows.push_back({testing::kArmNames[a], words, of(all),
+                        a > 0 ? fixed(100.0 * all.stated / all.parts, 1) + " %" : "-",
+                        fixed(100.0 * testing::clopper_pearson_upper(all.over, all.parts), 2) + " %",
+                        fixed(100.0 * std::min(1.0, testing::upper_by_shops(by_shop)), 2) + " %",
+                        of(static_cast<int>(with), static_cast<int>(by_shop.size()))});
+  };
+  row(0, Said::kHandbook, "all");
+  for (std::size_t a = 1; a < shops.arms.size(); ++a) {
+    row(a, Said::kOwn, "at settings of the tuner's own");
+    row(a, Said::kHandbook, "at the handbook's values, which it did not advise against");
+    row(a, Said::kAgainst, "cut against its advice to take another depth, width or tool");
+  }
+  return out;
+}
 
 /// Forces of further edges by the card and by the corrected card.
 std::string forces_text() {
@@ -98,53 +159,36 @@ Comparison tuning(Extent extent) {
     out.lines = lines_of(each);
     return out;
   }
-  Table arms{{"speeds and feeds", "time over the handbook's, mean", "half of the shops between", "best",
-              "worst", "parts over a hidden limit", "upper bound (95 %)", "the same, a shop counted as one",
-              "shops with such a part", "largest load over a limit of the planner's"},
-             {}};
-  for (std::size_t a = 0; a < shops.arms.size(); ++a) {
-    const ArmSummary& arm = shops.arms[a];
-    const bool tuned = a > 0;
-    arms.rows.push_back(
-        {testing::kArmNames[a], fixed(arm.mean_ratio(), 3),
-         fixed(quantile(arm.time_ratio, 0.25), 3) + " and " + fixed(quantile(arm.time_ratio, 0.75), 3),
-         fixed(quantile(arm.time_ratio, 0.0), 3), fixed(quantile(arm.time_ratio, 1.0), 3),
-         of(arm.over, arm.parts),
-         fixed(100.0 * testing::clopper_pearson_upper(arm.over, arm.parts), 2) + " %",
-         fixed(100.0 * (mean_of(arm.over_share).value + mean_of(arm.over_share).half_90), 2) + " %",
-         of(arm.shops_over, shops.sound), tuned ? fixed(1.0 + arm.worst_planner_excess, 4) : "-"});
-  }
-  Table unsound{{"speeds and feeds", "parts over a hidden limit"}, {}};
-  for (std::size_t a = 0; a < shops.arms.size(); ++a) {
-    unsound.rows.push_back(
-        {testing::kArmNames[a], of(shops.arms[a].unsound_over, shops.arms[a].unsound_parts)});
-  }
   const Mean between = ln_lines_over_process(shops);
-  out.text = std::to_string(shops.sound) + " of " + std::to_string(shops.shops) +
-             " shops in which the handbook's values keep the hidden limits in 95 of 100 parts, " +
-             std::to_string(kParts) + " parts in each, times of the last ten:\n\n" + markdown(arms) +
-             "\nShop by shop, lines take " + fixed(std::exp(between.value), 3) +
-             " of the process's time, with an interval of 90 % from " +
-             fixed(std::exp(between.value - between.half_90), 3) + " to " +
-             fixed(std::exp(between.value + between.half_90), 3) + ".\n" + "\nThe other " +
-             std::to_string(shops.shops - shops.sound) + ":\n\n" + markdown(unsound) +
-             "\nEach shop; a time is that of the last ten parts over the handbook's:\n\n" + markdown(each);
+  out.text =
+      std::to_string(kShops) + " shops, " + std::to_string(kParts) +
+      " parts in each, times of the last ten:\n\n" + markdown(times(shops)) + "\nShop by shop, lines take " +
+      fixed(std::exp(between.value), 3) + " of the process's time, with an interval of 90 % from " +
+      fixed(std::exp(between.value - between.half_90), 3) + " to " +
+      fixed(std::exp(between.value + between.half_90), 3) +
+      ".\n\nParts over a hidden limit, by what the tuner had said of them:\n\n" +
+      markdown(parts_over(shops)) +
+      "\nEach shop; a time is that of the last ten parts over the handbook's, the others are parts over a "
+      "hidden limit:\n\n" +
+      markdown(each);
   out.text += "\n" + forces_text();
   const bool lines = tune::TuneOptions{}.learner == tune::Learner::kRegression;
-  const ArmSummary& taken =
-      shops.arms[static_cast<std::size_t>(lines ? testing::Arm::kRegression : testing::Arm::kProcess)];
-  out.headline = "time " + percent(taken.mean_ratio() - 1.0) + " against the handbook's in " +
-                 std::to_string(shops.sound) + " simulated shops; " + of(taken.over, taken.parts) +
-                 " parts over a hidden limit (stated: 5 %), none over the planner's";
+  const ArmSummary& taken = arm_of(shops, lines ? Arm::kRegression : Arm::kProcess);
+  out.headline = "time " + percent(testing::geometric_mean(taken.time_ratios(false)) - 1.0) +
+                 " against the handbook's in " + std::to_string(kShops) + " simulated shops; " +
+                 of(taken.of(Said::kOwn)) +
+                 " parts at its own settings over a hidden limit (stated: 5 %), none "
+                 "over the planner's; " +
+                 of(taken.of(Said::kAgainst)) + " cut against its advice to take another depth or tool";
   Table data{
       {"part", "regression", "regression_low", "regression_high", "process", "process_low", "process_high"},
       {}};
   for (std::size_t k = 0; k < static_cast<std::size_t>(kParts); ++k) {
     std::vector<std::string> row = {std::to_string(k + 1)};
-    for (const testing::Arm arm : {testing::Arm::kRegression, testing::Arm::kProcess}) {
+    for (const Arm arm : {Arm::kRegression, Arm::kProcess}) {
       std::vector<double> ratios;
-      for (const auto& shop : shops.arms[static_cast<std::size_t>(arm)].ratio_by_part)
-        ratios.push_back(shop[k]);
+      for (const testing::ShopOutcome& shop : arm_of(shops, arm).shops)
+        ratios.push_back(shop.ratio_by_part[k]);
       for (const double q : {0.5, 0.25, 0.75}) row.push_back(fixed(quantile(ratios, q), 4));
     }
     data.rows.push_back(std::move(row));

@@ -421,7 +421,7 @@ class CommandLine {
         ->add_option("-o,--output", out_.outputs, "picture (SVG): what was observed over what was predicted")
         ->expected(1)
         ->take_all();
-    trace->add_option("-o,--output", out_.outputs, "a file by its ending: .jsonl, .csv or .db (a case base)")
+    trace->add_option("-o,--output", out_.outputs, "a file (.jsonl, .csv), a case base (.db, postgresql:...)")
         ->expected(1)
         ->take_all();
     for (CLI::App* sub : {trace, report}) {

@@ -162,6 +162,9 @@ int begun(Session& s) {
   if (const int code = in_shop(s); code != kDone) return code;
   std::vector<std::string> outputs = s.options.outputs;
   if (!s.options.tools.save_map.empty()) outputs.push_back(s.options.tools.save_map);
+  // A case base on a server is no file.
+  if (s.options.command == Command::kCasesTrace)
+    std::erase_if(outputs, [](const std::string& name) { return name.find("://") != std::string::npos; });
   if (auto ok = service::can_be_written(outputs, read_by(s.options), s.options.force); !ok)
     return s.end(ok.error(), kUsage);
   return dispatch(s);

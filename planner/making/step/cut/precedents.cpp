@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/step/cut/question.h"
+#include "planner/making/step/cut/strategies.h"
 #include "planner/making/step/record/results.h"
 #include "planner/model/plan/preset_feeds.h"
 
@@ -107,6 +109,28 @@ void take_proven(FromCases& out, const Near& near, const Values& table, double l
 }
 
 }  // namespace
+
+bool OfStrategy::failed() const { return bad >= casebase::kRepeats && success < kLikelierToFail; }
+
+std::vector<OfStrategy> strategies_near(const PlanSoFar& p, const StepDraft& step,
+                                        const model::FeatureShape& shape, const optimise::CutQuestion& q) {
+  std::vector<OfStrategy> out;
+  if (p.wishes.cases == nullptr) return out;
+  const auto near = near_of(p, step, shape, q, q.fz_start_mm);
+  if (!near) return out;
+  std::map<std::string, std::vector<Evidence>> of;
+  for (std::size_t i = 0; i < near->cases.size(); ++i) {
+    const casebase::Case& c = near->cases[i].found;
+    if (!c.bound.strategy.empty() && c.origin != casebase::Origin::kSimulated)
+      of[c.bound.strategy].push_back(near->told[i]);
+  }
+  const Values table{q.vc_start_m_min, q.fz_start_mm, q.ap_mm.value_or(0.0), q.ae_mm.value_or(0.0)};
+  for (auto& [strategy, told] : of) {
+    const Advice a = casebase::advise(std::move(told), table);
+    if (a.good + a.bad > 0) out.push_back({strategy, a.good, a.bad, a.success_asked});
+  }
+  return out;
+}
 
 std::optional<FromCases> start_from_cases(const PlanSoFar& p, const StepDraft& step,
                                           const model::FeatureShape& shape, optimise::CutQuestion& q) {
@@ -241,10 +265,14 @@ void weigh_by_cases(const casebase::CaseBase* cases, const model::Plan& plan, co
   if (!any) return;
   std::stable_sort(selection.ranked.begin(), selection.ranked.end(),
                    [](const model::Candidate& a, const model::Candidate& b) { return a.score < b.score; });
-  if (selection.ranked.front().cutter.id == first) return;
+  const std::string now = selection.ranked.front().cutter.id;
+  if (now == first) return;
   for (model::Rejected& r : failed) {
-    if (r.what == first) selection.rejected.push_back({first, std::string(kFirstFailed) + r.why});
+    if (r.what != first) continue;
+    selection.rejected.push_back({first, std::string(kFirstFailed) + r.why});
+    return;
   }
+  selection.rejected.push_back({first, "would be first by the table; by cases " + now + " takes less time"});
 }
 
 }  // namespace capstan::step

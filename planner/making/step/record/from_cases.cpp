@@ -8,6 +8,7 @@
 
 #include "casebase/casebase.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/step/cut/strategies.h"
 #include "planner/model/nouns/all.h"
 #include "planner/physics/motion/time.h"
 
@@ -103,6 +104,42 @@ void tell_behind(const model::Plan& plan, const StepDraft& step, CaseTally& told
   }
 }
 
+/// By which strategies near cuts were made, and what they came to. They order none: strategies are the
+/// rules'.
+void tell_strategies(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, const PathWithCut& made,
+                     Job& job) {
+  const auto as_case = casebase::case_of(plan, plan.steps.back());
+  if (!as_case || as_case->bound.strategy.empty()) return;
+  const std::string& taken = as_case->bound.strategy;
+  const std::vector<OfStrategy> near =
+      strategies_near(p, step, step.shapes.front(), without_cases(*made.cases, made.question));
+  if (near.empty()) return;
+  std::string text, well;
+  const OfStrategy* bad = nullptr;
+  for (const OfStrategy& s : near) {
+    const std::string came_to =
+        s.strategy + ": " + std::to_string(s.good) + " good, " + std::to_string(s.bad) + " failed";
+    text += (text.empty() ? "" : "; ") + came_to;
+    if (s.strategy == taken && s.failed()) bad = &s;
+    if (s.strategy != taken && s.good >= casebase::kRepeats && s.success >= casebase::kLeastSuccess)
+      well += (well.empty() ? "" : "; ") + came_to;
+  }
+  model::Decision* d = plan.ledger.find(step.operation, "its_machining_strategy");
+  if (d == nullptr) d = decision_of(plan, step);
+  if (d != nullptr)
+    d->rejected.push_back(
+        {"ordered by near cases", "cases order no strategy; cuts near by strategy: " + text});
+  if (bad == nullptr) return;
+  job.report(
+      {.code = "CASE-BAD-NEAR",
+       .severity = Severity::kWarning,
+       .message = step_text(plan, step) + "made by " + taken + ", by which " + std::to_string(bad->bad) +
+                  " of " + counted(static_cast<std::size_t>(bad->good + bad->bad), "near cut", "near cuts") +
+                  " failed" + (well.empty() ? "" : "; near it went well: " + well),
+       .file = plan.file_name,
+       .hint = "state another strategy of the operation, or look at the cases (capstan cases nearest)"});
+}
+
 constexpr const char* kWhatToDo =
     "look at them (capstan cases nearest); a case that is wrong can be judged anew or removed, and good "
     "repeats at these values lift this";
@@ -128,6 +165,7 @@ void tell_cases(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, co
   } else {
     ++told.none;
   }
+  if (made.cases) tell_strategies(plan, p, step, made, job);
   if (made.cases && made.cases->advice.lowered) {
     ++told.lowered;
     const casebase::Advice& a = made.cases->advice;

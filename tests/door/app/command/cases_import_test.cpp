@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "tests/door/app/command/command.h"
 #include "tests/support/corpus.h"
@@ -58,7 +59,30 @@ TEST_F(CasesImport, TracesPartStepAndMeasuredValueTogether) {
   EXPECT_EQ(run("cases list trace.db").out, run("cases list base.db").out);
   EXPECT_THAT(run("cases trace base.db sheet.csv --part 8").out, HasSubstr("no case of this plan"));
   EXPECT_THAT(run("cases trace base.db sheet.csv bad").out, Not(HasSubstr("DRILL ")));
-  EXPECT_EQ(run("cases trace base.db sheet.csv -o trace.txt").code, 2);
+}
+
+TEST_F(CasesImport, TraceWritesAllOutputsOrNone) {
+  ASSERT_EQ(import_all().code, 0);
+  const auto nothing_written = [&](const std::string& outputs, int code, const char* words) {
+    const Ran r = run("cases trace base.db sheet.csv -o a.jsonl " + outputs);
+    EXPECT_EQ(r.code, code) << r.err;
+    EXPECT_THAT(r.err, HasSubstr(words));
+    EXPECT_EQ(r.out, "");
+    for (const char* name : {"a.jsonl", "b.csv", "b.db", "c.db"})
+      EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << outputs << ": " << name;
+  };
+  nothing_written("-o b.db -o trace.txt", 2, "USAGE-OUTPUT");
+  nothing_written("-o b.db -o c.db", 2, "two case bases");
+  nothing_written("-o b.db -o none/b.csv", 2, "FILE-WRITE");
+  nothing_written("-o b.csv -o oracle://shop:secret@host/cases", 5, "CASE-URI");
+  EXPECT_THAT(run("cases trace base.db sheet.csv -o oracle://shop:secret@host/cases").err,
+              Not(HasSubstr("secret")));
+  // A case base that is none takes nothing; what was there stays.
+  put("b.db", "no base");
+  const Ran r = run("cases trace base.db sheet.csv -o a.jsonl -o b.db");
+  EXPECT_NE(r.code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.jsonl"));
+  EXPECT_EQ(slurp(folder_ / "b.db"), "no base");
 }
 
 TEST_F(CasesImport, ReportsByStepToolAndFeatureWithAPicture) {
@@ -68,7 +92,11 @@ TEST_F(CasesImport, ReportsByStepToolAndFeatureWithAPicture) {
   EXPECT_THAT(told.out, HasSubstr("by workingstep"));
   EXPECT_THAT(told.out, HasSubstr("carbide/endmill D4"));
   EXPECT_THAT(told.out, HasSubstr("one case proves nothing"));
-  EXPECT_THAT(slurp(folder_ / "report.svg"), StartsWith("<svg"));
+  const std::string picture = slurp(folder_ / "report.svg");
+  EXPECT_THAT(picture, StartsWith("<svg"));
+  for (const char* panel : {"lag mm by workingstep", "lag mm by tool", "lag mm by feature", "time s by tool"})
+    EXPECT_THAT(picture, HasSubstr(panel));
+  EXPECT_THAT(told.out, Not(HasSubstr("wear mm")));  // nobody measured it
   EXPECT_THAT(run("cases report base.db --json").out, HasSubstr("\"workingsteps\": ["));
 }
 

@@ -1,5 +1,6 @@
 #include "casebase/report/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -8,7 +9,7 @@
 #include "casebase/tune/edges.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
-#include "planner/ground/base/file.h"
+#include "planner/door/service/outputs.h"
 #include "planner/ground/base/number.h"
 
 // `capstan cases report`: tables of what was observed, and where prediction and observation part.
@@ -27,12 +28,17 @@ std::string spread_text(const report::Spread& s, int decimals) {
 }
 
 std::string tables_of(std::string_view by, const std::vector<report::Group>& groups) {
-  Rows rows = {
-      {"by " + std::string(by), "cases", "good", "bad", "time s", "lag mm", "load %", "size off mm"}};
-  for (const report::Group& g : groups) {
-    rows.push_back({g.name, std::to_string(g.cases.size()), std::to_string(g.good), std::to_string(g.bad),
-                    spread_text(g.time_s, 2), spread_text(g.lag_mm, 4), spread_text(g.load_percent, 1),
-                    spread_text(g.size_mm, 4)});
+  Rows rows = {{"by " + std::string(by), "cases", "good", "bad"}};
+  for (const report::Group& g : groups)
+    rows.push_back({g.name, std::to_string(g.cases.size()), std::to_string(g.good), std::to_string(g.bad)});
+  for (std::size_t i = 0; i < report::kColumns.size(); ++i) {
+    const report::Column& c = report::kColumns[i];
+    const bool measured = std::any_of(groups.begin(), groups.end(),
+                                      [&](const report::Group& g) { return g.figures[i].count > 0; });
+    if (!c.always && !measured) continue;
+    rows.front().push_back(std::string(c.name) + " " + std::string(c.unit));
+    for (std::size_t k = 0; k < groups.size(); ++k)
+      rows[k + 1].push_back(spread_text(groups[k].figures[i], c.decimals));
   }
   return table(rows, "") + "\n";
 }
@@ -114,9 +120,10 @@ std::string groups_json(const std::vector<report::Group>& groups) {
   for (const report::Group& g : groups) {
     out += std::string(&g == groups.data() ? "\n" : ",\n") + "{\"name\": " + json_text(g.name) +
            ", \"cases\": " + std::to_string(g.cases.size()) + ", \"good\": " + std::to_string(g.good) +
-           ", \"bad\": " + std::to_string(g.bad) + ", \"time_s\": " + json_number(g.time_s) +
-           ", \"lag_mm\": " + json_number(g.lag_mm) + ", \"load_percent\": " + json_number(g.load_percent) +
-           ", \"size_deviation_mm\": " + json_number(g.size_mm) + ", \"partings\": [";
+           ", \"bad\": " + std::to_string(g.bad);
+    for (std::size_t i = 0; i < report::kColumns.size(); ++i)
+      out += ", \"" + std::string(report::kColumns[i].key) + "\": " + json_number(g.figures[i]);
+    out += ", \"partings\": [";
     bool first = true;
     for (const report::Parting& p : report::partings_of(g.cases)) {
       out += std::string(std::exchange(first, false) ? "" : ", ") +
@@ -145,13 +152,13 @@ int run_cases_report(Session& s) {
   const auto tools = report::grouped(cases, report::By::kTool);
   const auto features = report::grouped(cases, report::By::kFeature);
   const auto edges = tune::edges_of(cases);
+  std::vector<service::Output> pictures;
   for (const std::string& file : s.options.outputs) {
-    const std::string title =
-        "What was observed over what was predicted: " + counted(cases.size(), "case", "cases") + " of " +
-        *s.options.inputs.cases;
-    if (auto drawn = write_file(file, report::picture_of(title, steps)); !drawn)
-      return s.end(drawn.error(), kImpossible);
+    const std::string title = "Observed: " + counted(cases.size(), "case", "cases") + " of " +
+                              casebase::name_of(*s.options.inputs.cases);
+    pictures.push_back({.path = file, .bytes = report::picture_of(title, steps, tools, features)});
   }
+  if (auto drawn = service::write_all(pictures, s.job); !drawn) return s.end(drawn.error(), kImpossible);
   s.summary = counted(cases.size(), "observed case", "observed cases") + " of " +
               counted(base->size(), "case", "cases");
   if (s.options.json) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -78,24 +79,77 @@ std::string json_lines(const std::vector<Traced>& rows) {
   return out;
 }
 
-Status write_to(const std::string& path, const std::vector<Traced>& rows, Job& job) {
+// Where the rows go.
+struct Destinations {
+  std::vector<std::string> files;
+  std::string base;  // a case base; empty: none
+};
+
+// By the endings alone, before any work. One case base: adding to a second may fail when the first has taken
+// the rows.
+Result<Destinations> destinations_of(const std::vector<std::string>& outputs) {
+  Destinations out;
+  for (const std::string& path : outputs) {
+    if (path.ends_with(".jsonl") || path.ends_with(".csv")) {
+      out.files.push_back(path);
+      continue;
+    }
+    // A URI may hold a password, so that it is not repeated.
+    if (!path.ends_with(".db") && path.find("://") == std::string::npos) {
+      return fail(Diagnostic{.code = "USAGE-OUTPUT",
+                             .message = "the ending of '" + path + "' is not known; nothing is written",
+                             .expected = ".jsonl (JSON lines), .csv, .db or postgresql://... (a case base)"});
+    }
+    if (!out.base.empty()) {
+      return fail(Diagnostic{.code = "USAGE-OUTPUT",
+                             .message = "two case bases are named: " + casebase::name_of(out.base) + " and " +
+                                        casebase::name_of(path) + "; nothing is written",
+                             .expected = "one, so that all outputs are written or none",
+                             .hint = "call it twice: a case that is there already is not added again"});
+    }
+    out.base = path;
+  }
+  return out;
+}
+
+// A file that was made for the rows goes if it does not take them.
+Status add_to_base(const std::string& uri, const std::vector<Case>& cases, Job& job) {
+  std::error_code ignored;
+  const bool is_new = uri.ends_with(".db") && !std::filesystem::exists(uri, ignored);
+  Status added;
+  {
+    auto base = casebase::CaseBase::open_or_create(uri, job);
+    if (!base) return tl::unexpected(base.error());
+    added = base->add(cases);
+  }
+  if (!added && is_new) std::filesystem::remove(uri, ignored);
+  return added;
+}
+
+// All outputs, or none: the files are on disk before the base takes the rows, and get their names after it.
+Status write_to(const Destinations& to, const std::vector<Traced>& rows, Job& job) {
   std::vector<Case> cases;
   for (const Traced& t : rows) cases.push_back(*t.c);
-  if (path.ends_with(".jsonl")) return write_file(path, json_lines(rows));
-  if (path.ends_with(".csv")) return write_file(path, casebase::to_csv(cases));
-  if (path.ends_with(".db")) {
-    auto base = casebase::CaseBase::open_or_create(path, job);
-    if (!base) return tl::unexpected(base.error());
-    return base->add(cases);
+  std::vector<StagedFile> files;
+  for (const std::string& path : to.files) {
+    auto staged = StagedFile::make(path, path.ends_with(".csv") ? casebase::to_csv(cases) : json_lines(rows));
+    if (!staged) return tl::unexpected(staged.error());
+    files.push_back(*std::move(staged));
   }
-  return fail(Diagnostic{.code = "USAGE-OUTPUT",
-                         .message = "the ending of '" + path + "' is not known",
-                         .expected = ".jsonl (JSON lines), .csv or .db (a case base)"});
+  if (!to.base.empty()) {
+    if (auto ok = add_to_base(to.base, cases, job); !ok) return ok;
+  }
+  for (StagedFile& f : files) {
+    if (auto ok = f.put(); !ok) return ok;
+  }
+  return {};
 }
 
 }  // namespace
 
 int run_cases_trace(Session& s) {
+  const auto to = destinations_of(s.options.outputs);
+  if (!to) return s.end(to.error(), kUsage);
   const auto planned = read_steps(s.options.files.front(), s.job);
   if (!planned) return s.end(planned.error(), kUnreadable);
   std::map<std::string, Lines> lines;
@@ -130,10 +184,7 @@ int run_cases_trace(Session& s) {
     };
     return key(a) < key(b);
   });
-  for (const std::string& path : s.options.outputs) {
-    if (auto written = write_to(path, rows, s.job); !written)
-      return s.end(written.error(), written.error().code == "USAGE-OUTPUT" ? kUsage : kImpossible);
-  }
+  if (auto written = write_to(*to, rows, s.job); !written) return s.end(written.error(), kImpossible);
   s.summary = counted(rows.size(), "executed workingstep", "executed workingsteps") + " of " +
               counted(planned->steps.size(), "planned step", "planned steps");
   return print(s.options.json ? json_lines(rows) : text_of(rows)) ? kDone : kImpossible;

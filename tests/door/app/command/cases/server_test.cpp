@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "tests/casebase/postgres.h"
@@ -90,6 +91,26 @@ TEST_F(CasesOnAServer, AreAddedAndJudgedByTheAddersRoleWhichMayNotAlterThem) {
         "DELETE FROM capstan.total", "CREATE TABLE capstan.more(x int)", "DROP TABLE capstan.head"})
     EXPECT_FALSE(may("adder", harm)) << harm;
   EXPECT_FALSE(may("planner", "INSERT INTO capstan.head VALUES(9, '')"));
+}
+
+TEST_F(CasesOnAServer, AreADestinationOfTraceWhichAddsThemOnceOrWritesNothing) {
+  put("sheet.csv",
+      "tool,workingstep,characteristics,operation,material_group,tool_class,machine_class,cutter_diameter_mm,"
+      "teeth,path_length_mm\n1,DRILL,,DRILLING,N/aluminium,carbide/twist_drill,mill,10,2,100\n");
+  put("log.csv", "time_s,tool,feed_mm_min,spindle_rpm\n0,1,600,3000\n10,1,600,3000\n12,1,0,3000\n");
+  ASSERT_EQ(run("cases import base.db csv log.csv --plan sheet.csv --part 7").code, 0);
+  const int before = std::stoi(rows());
+  const std::string trace = "cases trace base.db sheet.csv -o a.jsonl -o ";
+  const Ran refused = run(trace + "'" + uri_of("planner") + "'");  // who may not add
+  EXPECT_NE(refused.code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.jsonl"));
+  EXPECT_EQ(std::stoi(rows()), before);
+  for (int i = 0; i < 2; ++i) {
+    const Ran traced = run(trace + "'" + uri_of("adder") + "'");
+    EXPECT_EQ(traced.code, 0) << traced.err;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.jsonl"));
+    EXPECT_EQ(std::stoi(rows()), before + 1);
+  }
 }
 
 }  // namespace
