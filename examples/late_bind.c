@@ -1,7 +1,8 @@
 /* Binds what a plan leaves open with the tools that a machine has loaded, and prints the program.
  *
- *     late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS [next] > program.ngc
+ *     late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS [next] [TOOL_STATE] > program.ngc
  *
+ * TOOL_STATE is a file of what became of the tools since their table was written, e.g. "T3 broken".
  * With `next` workingstep by workingstep, each in its turn: a program of each. A control would cut one before
  * it asks for the next, and may change its tool table between two.
  */
@@ -49,12 +50,13 @@ static capstan_late_code bind_each(capstan_late* session, const char* plan, size
 }
 
 int main(int argc, char** argv) {
-  const int next = argc == 6 && strcmp(argv[5], "next") == 0;
-  if (argc != 5 && !next) {
-    fprintf(stderr, "usage: late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS [next]\n");
+  const int next = argc >= 6 && strcmp(argv[5], "next") == 0;
+  const char* tool_state = argc == 6 + next ? argv[5 + next] : NULL;
+  if (argc != 5 + next && tool_state == NULL) {
+    fprintf(stderr, "usage: late_bind PLAN MACHINE TOOL_TABLE DEADLINE_MS [next] [TOOL_STATE]\n");
     return CAPSTAN_LATE_USAGE;
   }
-  size_t size = 0;
+  size_t size = 0, size_of_states = 0;
   char* plan = read_all(argv[1], &size);
   if (plan == NULL) {
     fprintf(stderr, "%s cannot be read\n", argv[1]);
@@ -63,6 +65,13 @@ int main(int argc, char** argv) {
   capstan_late* session = capstan_late_open(argv[2], argv[3]);
   capstan_late_code code = capstan_late_status(session);
   const unsigned deadline_ms = (unsigned)strtoul(argv[4], NULL, 10);
+  if (code == CAPSTAN_LATE_OK && tool_state != NULL) {
+    /* A control that has the states in memory needs no file. */
+    char* states = read_all(tool_state, &size_of_states);
+    code = states == NULL ? CAPSTAN_LATE_UNREADABLE
+                          : capstan_late_tool_state(session, states, size_of_states);
+    free(states);
+  }
   if (code == CAPSTAN_LATE_OK)
     code = next ? bind_each(session, plan, size, deadline_ms)
                 : capstan_late_bind(session, plan, size, deadline_ms);

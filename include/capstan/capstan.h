@@ -82,6 +82,8 @@ struct PlanOptions {
                           ///< here is as it says
   std::string without = {};              ///< "sections": plans without the cross sections along their paths
   std::vector<std::string> tapped = {};  ///< of a CAD file: threads of its holes, "HOLE 3=M8:16"
+  /// Of `bind_...`: a file of what became of the loaded tools, "T3 broken", "T5 wear 0.02 life-left 12.5".
+  std::string tool_state = {};
 };
 
 /// A thing said about the input or the plan, as the command prints it.

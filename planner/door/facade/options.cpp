@@ -77,6 +77,7 @@ constexpr std::array kFields = {
     Field{"stop-at-deadline", [](const PlanOptions& o) { return flag(o.stop_at_deadline); }},
     Field{"measured", [](const PlanOptions& o) { return o.measured; }},
     Field{"spindle-power", [](const PlanOptions& o) { return unless_zero(o.spindle_power_kw); }},
+    Field{"tool-state", [](const PlanOptions& o) { return o.tool_state; }},
     Field{"axis-limits", [](const PlanOptions& o) { return o.axis_limits; }},
     Field{"work-offset", [](const PlanOptions& o) { return o.work_offset; }},
     Field{"feed-override",

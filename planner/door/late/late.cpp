@@ -6,8 +6,10 @@
 #include <set>
 #include <utility>
 
+#include "planner/door/late/answers.h"
 #include "planner/door/late/kept.h"
 #include "planner/door/late/record.h"
+#include "planner/door/late/tools/tool_life.h"
 #include "planner/door/late/unbound.h"
 #include "planner/door/pipeline/program_check.h"
 #include "planner/door/pipeline/trial.h"
@@ -18,7 +20,6 @@
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/corner_rest.h"
 #include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/decision/fresh_edits.h"
 
@@ -27,12 +28,12 @@
 // else a larger one comes to the same plan. Each answer passes the same four questions: is anything open, is
 // every cutter in the magazine, may it be decided here, does the check condemn it. Where an operation finds
 // no loaded cutter, and planning chose all operations, they are chosen once more from what is loaded: another
-// chain may do without.
+// chain may do without. Where the life of a tool is told and ends within an answer, other tools take the
+// steps that are left over, and it is bound once more.
 
 namespace capstan::late {
 namespace {
 
-constexpr double kSameRadiusMm = 1e-6;
 constexpr std::string_view kStoppedPlanning = "PIP-STOPPED";  ///< of pipeline::stopped_planning
 
 using TimePoint = std::chrono::steady_clock::time_point;
@@ -43,6 +44,18 @@ double machining_s(const model::Plan& plan) {
   for (const auto& s : plan.steps) t += s.cutting_s + s.rapid_s;
   return t;
 }
+
+/// How often an answer is bound once more for the lives of its tools. Default, unsourced.
+constexpr int kMostRelieved = 4;
+
+/// What all that one call binds has in common.
+struct Call {
+  const LatePolicy& policy;
+  TimePoint began;
+  const ToldTools& told;
+  /// Where an answer may be bound once more: the plan that the first began with, which all are held against.
+  std::optional<model::Plan>* brought = nullptr;
+};
 
 /// What one call binds: a plan, in a shop, for some of its steps or all.
 struct Case {
@@ -88,55 +101,6 @@ bool planning_chose_all(const model::Plan& plan) {
 
 std::string ms(Duration d) {
   return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(d).count()) + " ms";
-}
-
-/// No answer may use a cutter that is not in the table, however it came into the plan.
-Status only_loaded(const model::Plan& plan, const std::vector<model::Cutter>& magazine) {
-  for (const model::StepResult& step : plan.steps) {
-    const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
-    const model::Cutter* there = cutter == nullptr ? nullptr : given::loaded_like(magazine, *cutter);
-    const std::string unmeasured = cutter == nullptr ? "" : model::offset_fault(*cutter);
-    if (there != nullptr && there->pocket == cutter->pocket && unmeasured.empty()) continue;
-    std::string why = "is not in the tool table";
-    if (!unmeasured.empty())
-      why = "has no length that can be used: " + unmeasured;
-    else if (there != nullptr)
-      why = "is T" + std::to_string(there->pocket) + " in the tool table and T" +
-            std::to_string(cutter->pocket) + " in the plan";
-    return fail(
-        {.code = "LATE-TOOL",
-         .message = "the tool '" + step.cutter_id + "' of step '" + model::step_id(plan, step) + "' " + why,
-         .file = plan.file_name,
-         .path = model::step_id(plan, step),
-         .hint = "load it, or plan the step anew without its toolpath"});
-  }
-  return {};
-}
-
-Status nothing_open(const model::Plan& plan) {
-  if (plan.unplanned.empty()) return {};
-  return fail({.code = "LATE-OPEN",
-               .message = "planning leaves " + counted(plan.unplanned.size(), "thing", "things") +
-                          " open, first: " + plan.unplanned.front().reason,
-               .file = plan.file_name,
-               .hint = "load what is missing, or plan anew"});
-}
-
-/// Nobody at the machine agrees to rest material that was not agreed to when the part was planned.
-Status no_more_rest(const model::Plan& brought, const model::Plan& made) {
-  for (const model::CornerRest& rest : model::corner_rests(made)) {
-    const auto agreed = model::corner_rest_of(brought, rest.feature);
-    if (agreed && rest.radius_mm <= agreed->radius_mm + kSameRadiusMm) continue;
-    return fail(
-        {.code = "LATE-REST",
-         .message = "with the loaded tools the inside corners of '" + rest.feature +
-                    "' would keep a radius of " + trimmed(rest.radius_mm, 3) + " mm in place of " +
-                    trimmed(agreed ? agreed->radius_mm : rest.stated_mm, 3) + " mm",
-         .file = made.file_name,
-         .path = rest.feature,
-         .hint = "load a mill for these corners, or plan the part anew where the rest can be agreed to"});
-  }
-  return {};
 }
 
 /// Says that the deadline is past, if it is.
@@ -240,7 +204,7 @@ void improve(LateOutcome& out, const Case& c, pipeline::Reopen reopen, Job& tria
 
 /// What is told of an answer, and recorded in it.
 void finish(LateOutcome& out, const model::Plan& brought, const Case& c,
-            const std::vector<std::string>& reopened, Job& job) {
+            const std::vector<std::string>& reopened, const ToldTools& told, Job& job) {
   const SharedStopScope to_its_end(nullptr);  // it is checked: who stops the call now is given it
   out.reopened = reopened;
   const bool part = c.window.has_value();
@@ -253,7 +217,7 @@ void finish(LateOutcome& out, const model::Plan& brought, const Case& c,
     model::Plan whole = joined(c.plan, out.plan, *c.window);
     out.part = std::exchange(out.plan, std::move(whole));
   }
-  record(out.plan, brought, c.inputs, out.reopened, c.policy.time);
+  record(out.plan, brought, c.inputs, {out.reopened, told.rows, c.policy.time});
   tell_late(out, c.policy, c.began, job);
 }
 
@@ -309,15 +273,19 @@ void improve_in_time(LateOutcome& out, const Case& c, pipeline::Reopen reopen, c
 }
 
 /// `bind`; `why`: what was decided of the plan before.
-Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
-                              TimePoint began, std::vector<std::string> why, Job& job) {
+Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const Call& call,
+                              std::vector<std::string> why, Job& job) {
+  const LatePolicy& policy = call.policy;
+  const TimePoint began = call.began;
+  const bool once_more = call.brought != nullptr && call.brought->has_value();
   const std::vector<model::Cutter> magazine = inputs.library;
   // The improvement repeats most of the fallback.
   if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
   if (!inputs.proofs) inputs.proofs = std::make_shared<memo::Memo>();
   poll();
   const std::size_t bound = policy.next && policy.next->from ? *policy.next->from - 1 : plan.steps.size();
-  const auto ways = take_branches(plan, policy.measured, magazine, policy.may, bound);
+  const auto ways = once_more ? Result<std::vector<std::string>>(std::vector<std::string>{})
+                              : take_branches(plan, policy.measured, magazine, policy.may, bound);
   if (!ways) return tl::unexpected(ways.error());
   why.insert(why.end(), ways->begin(), ways->end());
   // Results of steps behind a way that was taken are of other places in the workplan.
@@ -348,10 +316,12 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
   const auto missing = [&](model::AnyRef op) { return given::missing_tool(plan, op, magazine).has_value(); };
   if (!window || std::any_of(operations.begin(), operations.end(), missing)) as_it_came = plan;
   poll();
-  auto reopened = given::match_loaded(plan, inputs.library, job, window ? &operations : nullptr);
+  auto reopened =
+      given::match_loaded(plan, inputs.library, job, window ? &operations : nullptr, call.told.out_of_use);
   if (!reopened) return tl::unexpected(reopened.error());
   poll();
-  const model::Plan& brought = as_it_came ? *as_it_came : plan;
+  if (call.brought != nullptr && !once_more) *call.brought = as_it_came ? *as_it_came : plan;
+  const model::Plan& brought = call.brought != nullptr ? **call.brought : as_it_came ? *as_it_came : plan;
   why.insert(why.end(), reopened->begin(), reopened->end());
   const Case c{plan,
                inputs,
@@ -359,7 +329,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
                window,
                [&](const model::Plan& made) -> Status {
                  if (auto ok = nothing_open(made); !ok) return ok;
-                 if (auto ok = only_loaded(made, magazine); !ok) return ok;
+                 if (auto ok = only_loaded(made, magazine, call.told.out_of_use); !ok) return ok;
                  if (auto ok = no_more_rest(brought, made); !ok) return ok;
                  return within_policy(brought, made, policy.may, window.has_value());
                },
@@ -381,7 +351,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
         [] { return std::optional<LateOutcome>(); });
   };
   if (auto holds = as_brought()) {
-    finish(*holds, brought, c, why, job);
+    finish(*holds, brought, c, why, call.told, job);
     return *std::move(holds);
   }
   // What the plan takes as it was brought may be what time there was.
@@ -401,7 +371,8 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
       // Nothing of it names a tool that is missing, so that this comes once.
       why.push_back(anew_for);
       inputs.library = magazine;
-      return bind_case(*std::move(chosen), inputs, policy, began, std::move(why), job);
+      if (call.brought != nullptr) call.brought->reset();
+      return bind_case(*std::move(chosen), inputs, call, std::move(why), job);
     }
     auto anew = fallen_back();
     if (anew) {
@@ -416,8 +387,63 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const L
   }
   if (!out) return out;
   improve_in_time(*out, c, reopen, spent, job);
-  finish(*out, brought, c, why, job);
+  finish(*out, brought, c, why, call.told, job);
   return out;
+}
+
+/// `bind`, as often as the lives of tools ask for it.
+Result<LateOutcome> bind_within_lives(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
+                                      TimePoint began, const ToldTools& told, Job& job) {
+  if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
+  if (!inputs.proofs) inputs.proofs = std::make_shared<memo::Memo>();
+  const std::vector<Diagnostic> said = job.diagnostics();
+  std::optional<model::Plan> brought;
+  LatePolicy now = policy;
+  const Call call{now, began, told, &brought};
+  std::vector<std::string> why;
+  std::string first;
+  const auto ended = [&](const Diagnostic& with) {
+    Diagnostic d = with;
+    d.code = "LATE-LIFE";
+    d.message = first + (with.message.empty() ? "" : ": " + with.message);
+    d.hint = "change its edge, or load another tool of the same kind, and tell its life";
+    return fail(std::move(d));
+  };
+  for (int more = 0;; ++more) {
+    auto out = bind_case(std::move(plan), inputs, call, std::move(why), job);
+    const auto of_tools = [](const std::string& c) {
+      return c == "LATE-OPEN" || c == "LATE-UNSAFE" || c == "LATE-TOOL";
+    };
+    if (!out && more > 0 && of_tools(out.error().code)) return ended(out.error());
+    if (!out) return out;
+    const std::size_t cut = out->first > 0 ? out->first - 1 : 0;
+    const std::size_t told_at = policy.tools_told_at > 0 ? policy.tools_told_at - 1 : cut;
+    auto relieved = relieve(*out, {told, minutes_of(out->plan, told_at, cut), inputs.library});
+    if (!relieved) return out;
+    first = relieved->first;
+    if (more == kMostRelieved) return ended({.code = {}, .message = {}, .file = out->plan.file_name});
+    (void)job.take_diagnostics();  // of an answer that is not given
+    for (const Diagnostic& d : said) job.report(d);
+    why = std::move(out->reopened);
+    why.insert(why.end(), relieved->why.begin(), relieved->why.end());
+    inputs.kept_off.insert(inputs.kept_off.end(), relieved->kept_off.begin(), relieved->kept_off.end());
+    plan = std::move(relieved->plan);
+    if (now.next) now.next->from = out->first;
+  }
+}
+
+/// `bind`, with what the control tells of its tools.
+Result<LateOutcome> bind_told(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
+                              TimePoint began, Job& job) {
+  const auto told = take_tool_states(policy.tools, plan, inputs.library, job);
+  if (!told) return tl::unexpected(told.error());
+  auto out = told->life_left_min.empty()
+                 ? bind_case(std::move(plan), std::move(inputs), {policy, began, *told}, {}, job)
+                 : bind_within_lives(std::move(plan), std::move(inputs), policy, began, *told, job);
+  if (out || out.error().code == "LATE-NONE") return out;
+  Diagnostic d = out.error();
+  d.message += told->words();
+  return fail(std::move(d));
 }
 
 }  // namespace
@@ -437,7 +463,7 @@ Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePo
   if (policy.stop_at_deadline && policy.deadline) job.set_deadline(began + *policy.deadline);
   const Diagnostic none = pipeline::stopped_planning(plan);
   return stoppable(
-      job, [&] { return bind_case(std::move(plan), std::move(inputs), policy, began, {}, job); },
+      job, [&] { return bind_told(std::move(plan), std::move(inputs), policy, began, job); },
       [&]() -> Result<LateOutcome> { return tl::unexpected(as_stopped(none, policy, began, job)); });
 }
 

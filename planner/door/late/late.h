@@ -8,6 +8,7 @@
 #include "planner/door/late/branches.h"
 #include "planner/door/late/changes.h"
 #include "planner/door/late/next.h"
+#include "planner/door/late/tools/tool_state.h"
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/pipeline/program_check.h"
 #include "planner/ground/base/job.h"
@@ -31,6 +32,11 @@ struct LatePolicy {
   std::optional<Next> next = std::nullopt;
   /// What was measured at the machine, for if and while statements.
   Measured measured = {};
+  /// What the control tells of its tools beside the tool table.
+  std::vector<ToolState> tools = {};
+  /// The workingstep, counted from 1, that was next when their lives were told: what the plan's steps from
+  /// there on cut before those that are bound now is used up. 0: it is now.
+  std::size_t tools_told_at = 0;
   /// At the deadline a fallback that is not checked to its end is given up (LATE-NONE), and the call ends.
   /// Else it is finished, and the outcome is late.
   bool stop_at_deadline = false;
@@ -74,6 +80,9 @@ struct LateOutcome {
 /// If and while statements whose conditions were measured, and alternatives of a selective, are decided first
 /// (branches.h).
 ///
+/// Tools      those that are broken or without life are not used, and wear is in what they measure
+///            (take_tool_states). Where the life of one ends within the plan, others take its steps
+///            (relieve).
 /// Decisions  what is decided here is held against `policy.may`; what the operator pinned keeps its value.
 /// Record  each binding is a row of provenance (`late binding`): time, machine, tools, what was re-opened.
 ///
@@ -85,6 +94,8 @@ struct LateOutcome {
 /// step;
 ///         LATE-UNSAFE when the fallback is condemned (retract and stop), LATE-OPEN when something stays open
 ///         (no loaded cutter fits), LATE-TOOL when a step uses a cutter that is not in the magazine,
+///         LATE-LIFE when a step takes more than the life that its tool has left, and no other does it,
+///         LATE-TOOL-STATE for states that cannot be,
 ///         LATE-POLICY for a decision that may not be taken here, LATE-PINNED where a pinned value would
 ///         change, PIP-... when nothing can be planned.
 [[nodiscard]] Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,

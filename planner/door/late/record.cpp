@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "planner/door/late/tools/tool_state.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/memo/remembered.h"
@@ -32,9 +33,9 @@ std::string tools_hash(const std::vector<model::Cutter>& library) {
 
 }  // namespace
 
-void record(model::Plan& plan, const model::Plan& brought, const pipeline::Inputs& inputs,
-            const std::vector<std::string>& reopened, const std::string& time) {
-  std::erase_if(plan.provenance, [](const auto& p) { return p.what.starts_with(kWhat); });
+void record(model::Plan& plan, const model::Plan& brought, const pipeline::Inputs& inputs, const Told& told) {
+  std::erase_if(plan.provenance, [](const auto& p) { return p.what.starts_with(kWhat) || is_tool_state(p); });
+  plan.provenance.insert(plan.provenance.end(), told.of_tools.begin(), told.of_tools.end());
   std::size_t n = 1;
   for (const model::Provenance& p : brought.provenance) {
     if (!p.what.starts_with(kWhat)) continue;
@@ -42,9 +43,9 @@ void record(model::Plan& plan, const model::Plan& brought, const pipeline::Input
     ++n;
   }
   std::string why;
-  for (const std::string& r : reopened) why += (why.empty() ? "; re-opened: " : "; ") + r;
+  for (const std::string& r : told.reopened) why += (why.empty() ? "; re-opened: " : "; ") + r;
   plan.provenance.push_back(
-      {std::string(kWhat) + std::to_string(n), time.empty() ? "no time was given" : time,
+      {std::string(kWhat) + std::to_string(n), told.time.empty() ? "no time was given" : told.time,
        "machine " + plan.machine.id + " " + hash_of(plan.machine) + ", tools " + tools_hash(inputs.library) +
            (why.empty() ? "; nothing was re-opened" : why)});
 }

@@ -12,10 +12,17 @@ namespace capstan::late {
 /// has: "late binding 2", when (as the caller says it; else "no time was given"), on which machine and with
 /// which tools, both with a hash, and what was re-opened. Every form of a plan keeps it.
 ///
+/// What was told of the tools (ToldTools::rows) stands before it, in place of what earlier bindings were
+/// told.
+///
 /// Hashes  64 bits in hex: of the machine's data, and of number, place, length and diameter of each loaded
 /// tool.
 ///         They tell one state from another, of one version of this program; they are no seal.
-void record(model::Plan& plan, const model::Plan& brought, const pipeline::Inputs& inputs,
-            const std::vector<std::string>& reopened, const std::string& time);
+struct Told {
+  const std::vector<std::string>& reopened;
+  const std::vector<model::Provenance>& of_tools;
+  const std::string& time;
+};
+void record(model::Plan& plan, const model::Plan& brought, const pipeline::Inputs& inputs, const Told& told);
 
 }  // namespace capstan::late

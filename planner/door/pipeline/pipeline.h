@@ -70,6 +70,9 @@ struct Inputs {
   /// and cuts are chosen; values are set into the plan that comes of it, and what depends on them is planned
   /// anew.
   std::vector<model::Edit> edits;
+  /// Tools that steps may not have here, for the state of the machine: as prohibitions of the operator while
+  /// open tools are chosen, and no edits of the plan.
+  std::vector<model::Edit> kept_off = {};
   given::ToolMaterialWish tool_materials;  ///< of tools whose file or list does not state it
   /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one
   /// only.

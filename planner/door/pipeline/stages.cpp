@@ -99,6 +99,8 @@ Drafted select_open_tools(model::Plan plan, Drafts drafts, const Required& requi
   std::vector<model::Cutter> loaded;
   const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const std::vector<model::Cutter>& library = asked.inputs.library;
+  std::vector<model::Edit> restrictions = asked.inputs.edits;
+  restrictions.insert(restrictions.end(), asked.inputs.kept_off.begin(), asked.inputs.kept_off.end());
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
   const given::Choice choice{library,
                              cutters,
@@ -108,7 +110,7 @@ Drafted select_open_tools(model::Plan plan, Drafts drafts, const Required& requi
                              asked.recorded.cutters,
                              asked.inputs.tool_materials,
                              asked.inputs.cases.get(),
-                             edits_of(asked.inputs)};
+                             restrictions.empty() ? nullptr : &restrictions};
   given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);
   drafts.used = propose::share_tools(
       plan, drafts.steps,

@@ -124,6 +124,7 @@ void bind_options(py::module_& m) {
   CAPSTAN_FIELD(features_only);
   CAPSTAN_FIELD(axis_limits);
   CAPSTAN_FIELD(work_offset);
+  CAPSTAN_FIELD(tool_state);
 #undef CAPSTAN_FIELD
   options.def_readwrite("from_", &PlanOptions::from);  // `from` is a word of the language
 }

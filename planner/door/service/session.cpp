@@ -26,6 +26,9 @@ constexpr std::array<std::string_view, 8> kOfOneCall = {
 /// Options that a bound program is held against before it is given.
 constexpr std::array<std::string_view, 2> kOfPlaces = {"axis-limits", "work-offset"};
 
+/// The option that tells what became of the loaded tools.
+constexpr std::string_view kTools = "tool-state";
+
 }  // namespace
 
 Code Session::end(Code code, const std::string& line) {
@@ -56,6 +59,10 @@ Code Session::set(std::string_view name, const std::string& text) {
     message_.clear();
     if (auto ok = service::set(request_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
     if (std::find(kOfPlaces.begin(), kOfPlaces.end(), name) != kOfPlaces.end()) drop_bound();
+    if (name == kTools) {
+      take_told();
+      return end(Code::kDone);
+    }
     if (std::find(kOfOneCall.begin(), kOfOneCall.end(), name) == kOfOneCall.end()) {
       if (shop_ && in_shop_ && !in_shop_->rules) shipped_rules_ = std::move(shop_->rules);
       shop_.reset();
@@ -66,6 +73,26 @@ Code Session::set(std::string_view name, const std::string& text) {
     }
     return end(Code::kDone);
   });
+}
+
+Code Session::tell_tools(const std::string& states) {
+  return guarded([&] {
+    message_.clear();
+    auto told = late::parse_tool_states(states, std::string(kTools));
+    if (!told) return end(Code::kUsage, to_text(told.error()));
+    request_.state.tools = *std::move(told);
+    take_told();
+    return end(Code::kDone);
+  });
+}
+
+void Session::take_told() {
+  request_.state.tools_told_at = 0;
+  if (in_shop_) {
+    in_shop_->state.tools = request_.state.tools;
+    in_shop_->given.insert(std::string(kTools));
+  }
+  drop_bound();
 }
 
 void Session::drop_bound() {
@@ -204,6 +231,7 @@ Code Session::bind_as(std::string plan, Request request) {
     asked.deadline = request.deadline;
     asked.next = request.next;
     asked.from = request.from;
+    asked.state.tools_told_at = request_.state.tools_told_at;
     std::size_t heard = 0;
     const auto at_hand = [&]() -> Outcome<const model::Plan*> {
       if (plan.empty()) {
@@ -228,6 +256,9 @@ Code Session::bind_as(std::string plan, Request request) {
     if (!bound) return end(bound.error().code, to_text(bound.error().what));
     bound_ = *std::move(bound);
     taken_since_ = false;
+    // Lives were told before the first of the steps that are bound since.
+    if (bound_->part && request_.state.tools_told_at == 0)
+      request_.state.tools_told_at = bound_->cut_before + 1;
     return end(bound_->late ? Code::kLate : Code::kDone);
   });
 }

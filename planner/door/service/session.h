@@ -30,6 +30,11 @@ class Session {
   /// reads the shop's settings (the option `shop`) anew. "axis-limits" and "work-offset" drop what is bound,
   /// for it was not held against them; `bind_next` goes on with it all the same.
   Code set(std::string_view name, const std::string& text);
+  /// Sets what became of the loaded tools (late::parse_tool_states), in place of what was told before; the option
+  /// "tool-state" does the same with a file. An empty text: nothing is told. What is bound is dropped, as above.
+  /// Where workingsteps are bound one after the other, lives count from the one that is bound next. On
+  /// kUsage nothing is changed.
+  Code tell_tools(const std::string& states);
   /// Opens the shop, so that the first `bind` need not.
   Code open();
   /// Reads a plan, so that the first `bind_next`, without one, need not.
@@ -81,6 +86,8 @@ class Session {
   Code opened(Job& job);
   /// Gives no output of what was bound any more; what `bind_next` goes on with is kept.
   void drop_bound();
+  /// What follows from tools that were told: nothing that was bound before is given.
+  void take_told();
   /// Whether `bind_next` goes on with what was bound last: after a late bind, whose steps nobody may have
   /// cut, and after another plan was taken it does not.
   [[nodiscard]] bool goes_on_from_bound() const;

@@ -66,6 +66,11 @@ capstan_late_code capstan_late_set(capstan_late* s, const char* option, const ch
   return code_of(s->session.set(option, value));
 }
 
+capstan_late_code capstan_late_tool_state(capstan_late* s, const char* states, size_t size) {
+  if (s == nullptr) return CAPSTAN_LATE_USAGE;
+  return code_of(s->session.tell_tools(states == nullptr ? std::string() : std::string(states, size)));
+}
+
 capstan_late_code capstan_late_prepare(capstan_late* s) {
   return s == nullptr ? CAPSTAN_LATE_USAGE : code_of(s->session.open());
 }

@@ -82,21 +82,28 @@ bool does_as_much(const Cutter& loaded, const Cutter& planned) {
          !more("shank_diameter_mm", loaded.shank_diameter_mm, planned.shank_diameter_mm);
 }
 
+/// Whether a tool is the planned one as it may measure after wear or a regrind: by all but its diameter,
+/// which is near.
+bool as_worn(const Cutter& c, const Cutter& planned) {
+  constexpr double kWorn = 0.05;        // of the diameter: what regrinding takes. Default, unsourced.
+  constexpr double kMeasuredMm = 0.05;  // larger by runout. Default, unsourced.
+  const double less = planned.cutting_diameter_mm - c.cutting_diameter_mm;
+  Cutter as_planned = c;
+  as_planned.cutting_diameter_mm = planned.cutting_diameter_mm;
+  return less <= kWorn * planned.cutting_diameter_mm && less >= -kMeasuredMm &&
+         same_tool(as_planned, planned);
+}
+
 /// The planned tool as it is loaded under its number, smaller by wear or a regrind, if one is: a mill whose
 /// path the measured diameter offsets. Holes have the size of their drill, so that another one is another
 /// tool.
 const Cutter* worn(const std::vector<Cutter>& library, const Cutter& planned) {
-  constexpr double kWorn = 0.05;        // of the diameter: what regrinding takes. Default, unsourced.
-  constexpr double kMeasuredMm = 0.05;  // larger by runout. Default, unsourced.
   if (planned.pocket <= 0 || !model::has(planned.cutter_class, model::CutterTrait::kEndMill)) return nullptr;
   for (const Cutter& c : library) {
-    if (!c.loaded || !c.table_line || c.pocket != planned.pocket) continue;
-    const double less = planned.cutting_diameter_mm - c.cutting_diameter_mm;
-    Cutter as_planned = c;
-    as_planned.cutting_diameter_mm = planned.cutting_diameter_mm;
-    const bool near = less <= kWorn * planned.cutting_diameter_mm && less >= -kMeasuredMm;
-    if (near && same_tool(as_planned, planned) && does_as_much(c, planned) && model::offset_fault(c).empty())
-      return &c;
+    const std::string* source = tooling::source_of(c, "cutting_diameter_mm");
+    const bool measured = c.table_line || (source != nullptr && *source == kLessWear);
+    if (!c.loaded || !measured || c.pocket != planned.pocket) continue;
+    if (as_worn(c, planned) && does_as_much(c, planned) && model::offset_fault(c).empty()) return &c;
   }
   return nullptr;
 }
@@ -116,6 +123,17 @@ void state_material(const Cutter& loaded, Cutter& c) {
   }
 }
 
+/// How a planned tool is missing: not there, or of another size by the wear that is told of it.
+std::string missing_as(const std::vector<Cutter>& library, const Cutter& planned) {
+  for (const Cutter& c : library) {
+    const std::string* source = tooling::source_of(c, "cutting_diameter_mm");
+    if (!c.loaded || c.pocket != planned.pocket || c.cutter_class != planned.cutter_class) continue;
+    if (source != nullptr && *source == kLessWear)
+      return "is worn to " + trimmed(c.cutting_diameter_mm, 3) + " mm as T" + std::to_string(c.pocket);
+  }
+  return "is not in the magazine";
+}
+
 }  // namespace
 
 const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& wanted) {
@@ -131,6 +149,29 @@ const Cutter* loaded_like(const std::vector<Cutter>& library, const Cutter& want
     if (found == nullptr || rank(c) < rank(*found)) found = &c;
   }
   return found;
+}
+
+std::vector<const Cutter*> sisters_of(const std::vector<Cutter>& library, const Cutter& wanted) {
+  std::vector<const Cutter*> out;
+  for (const Cutter& c : library) {
+    if (c.loaded && c.pocket > 0 && c.pocket != wanted.pocket && same_tool(c, wanted) &&
+        does_as_much(c, wanted) && model::offset_fault(c).empty())
+      out.push_back(&c);
+  }
+  std::sort(out.begin(), out.end(), [](const Cutter* a, const Cutter* b) { return a->pocket < b->pocket; });
+  return out;
+}
+
+std::optional<std::string> out_of_use(const std::vector<OutOfUse>& tools, const Cutter& planned) {
+  const OutOfUse* found = nullptr;
+  for (const OutOfUse& o : tools) {
+    const bool same_number = o.tool.pocket == planned.pocket;
+    // Wear that is told of it changes its size, and not which tool it is.
+    const bool is = same_tool(o.tool, planned) || (same_number && as_worn(o.tool, planned));
+    if (is && (found == nullptr || same_number)) found = &o;
+  }
+  if (found == nullptr) return std::nullopt;
+  return "is T" + std::to_string(found->tool.pocket) + ", which " + found->why;
 }
 
 const Cutter* stating_material(const std::vector<Cutter>& library, const Cutter& wanted) {
@@ -158,6 +199,17 @@ std::optional<std::string> missing_tool(const model::Plan& plan, AnyRef operatio
   return wanted->id;
 }
 
+void give_tool(model::Plan& plan, AnyRef operation, const Cutter& tool, model::Reason why,
+               std::vector<model::Rejected> instead_of) {
+  if (model::find_cutter(plan, tool.id) == nullptr) plan.cutters.push_back(tool);
+  const auto noun = tooling::tool_noun(plan.model, tool);
+  plan.model.get<model::MachiningOperation>(operation)->its_tool = noun;
+  const model::Decision* d = plan.ledger.find(operation, "its_tool");
+  std::vector<model::DecisionKey> needs = d == nullptr ? std::vector<model::DecisionKey>{} : d->depends_on;
+  plan.ledger.bind(operation, "its_tool", model::Binder::kToolSelection, std::move(why), std::move(needs),
+                   std::move(instead_of));
+}
+
 void take_length(const Cutter& loaded, Cutter& into) {
   if (loaded.table_line) return model::take_table_line(into, *loaded.table_line);
   if (!(loaded.functional_length_mm > 0.0)) return;
@@ -166,7 +218,7 @@ void take_length(const Cutter& loaded, Cutter& into) {
 }
 
 Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job,
-                                              const std::set<AnyRef>* of) {
+                                              const std::set<AnyRef>* of, const std::vector<OutOfUse>& gone) {
   const auto assumed = model::assumed_tool_materials(plan);
   std::vector<std::string> reopened;
   std::vector<Cutter> merged;
@@ -185,10 +237,11 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
     const bool has_worn = there == nullptr && (there = worn(library, *wanted)) != nullptr;
     if (there == nullptr || has_worn) {
       plan.ledger.reopen({r, "its_tool"});
-      const std::string what = there == nullptr
-                                   ? " is not in the magazine; re-opened"
-                                   : " measures " + trimmed(there->cutting_diameter_mm, 3) + " mm as T" +
-                                         std::to_string(there->pocket) + "; its path is made anew";
+      const std::string what =
+          there == nullptr
+              ? " " + out_of_use(gone, *wanted).value_or(missing_as(library, *wanted)) + "; re-opened"
+              : " measures " + trimmed(there->cutting_diameter_mm, 3) + " mm as T" +
+                    std::to_string(there->pocket) + "; its path is made anew";
       reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
                          std::string(model::to_text(wanted->cutter_class)) + " " +
                          trimmed(wanted->cutting_diameter_mm, 3) + " mm)" + what);

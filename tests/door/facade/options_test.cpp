@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 #include <set>
 
 #include "planner/door/service/options.h"
 #include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 
 namespace capstan::facade {
 namespace {
@@ -37,6 +39,8 @@ TEST(RequestOf, OptionsThatNobodySetIsTheRequestThatNobodySet) {
 }
 
 TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
+  const std::string states = capstan::testing::scratch_file("options.state");
+  std::ofstream(states) << "T3 broken\n";
   PlanOptions o;
   o.machine = "a machine";
   o.tools = "some tools";
@@ -69,6 +73,7 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   o.feed_override = 80;
   o.axis_limits = "X=0:350";
   o.work_offset = "X=1,Y=2,Z=3";
+  o.tool_state = states;
   o.threads = 3;
   const service::Request r = request(o);
   EXPECT_EQ(r.machine, "a machine");
@@ -105,6 +110,8 @@ TEST(RequestOf, EachFieldSetsWhatItsNameSays) {
   EXPECT_EQ(r.state.axis_limits[0].most_mm, 350.0);
   ASSERT_EQ(r.state.work_offsets.size(), 1U);
   EXPECT_EQ(r.state.work_offsets[0].at_mm, (geometry::Vec3{1.0, 2.0, 3.0}));
+  ASSERT_EQ(r.state.tools.size(), 1U);
+  EXPECT_TRUE(r.state.tools[0].broken);
   EXPECT_FALSE(r.allow_findings);
   EXPECT_EQ(r.threads, 3U);
   PlanOptions edited;

@@ -18,6 +18,12 @@ add_test(NAME LateInterface.TheExampleForCStopsWithoutTools
           ${CMAKE_SOURCE_DIR}/tests/door/late/one_tool.tbl 5000)
 set_tests_properties(LateInterface.TheExampleForCStopsWithoutTools PROPERTIES
   PASS_REGULAR_EXPRESSION "not bound: retract and stop \\(code 4\\)")
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/reamer_broken.state "T5 broken\n")
+add_test(NAME LateInterface.TheExampleForCStopsWhereTheReamerIsBroken
+  COMMAND late_bind ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
+          ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000 ${CMAKE_CURRENT_BINARY_DIR}/reamer_broken.state)
+set_tests_properties(LateInterface.TheExampleForCStopsWhereTheReamerIsBroken PROPERTIES
+  PASS_REGULAR_EXPRESSION "T5 .is broken.(.|\n)*not bound: retract and stop \\(code 4\\)")
 add_test(NAME LateInterface.TheExampleForCBindsEachWorkingstepInItsTurn
   COMMAND late_bind ${CMAKE_SOURCE_DIR}/examples/plate_bound.p21 generic_vmc
           ${CMAKE_SOURCE_DIR}/tests/door/late/magazine.tbl 600000 next)

@@ -27,6 +27,7 @@ class Door {
   };
   virtual Answer open(const std::string& machine, const std::string& tools) = 0;
   virtual Answer set(const std::string& option, const std::string& value) = 0;
+  virtual Answer tell_tools(const std::string& states) = 0;
   virtual Answer bind(const std::string& plan, unsigned deadline_ms) = 0;
   /// The next workingsteps of a plan; an empty one: that of the last bind.
   virtual Answer next(const std::string& plan, unsigned from, unsigned count, unsigned deadline_ms) = 0;
@@ -49,6 +50,11 @@ class ThroughC : public Door {
   }
   Answer set(const std::string& option, const std::string& value) override {
     if (capstan_late_set(session_, option.c_str(), value.c_str()) == CAPSTAN_LATE_OK)
+      capstan_late_prepare(session_);
+    return answer();
+  }
+  Answer tell_tools(const std::string& states) override {
+    if (capstan_late_tool_state(session_, states.data(), states.size()) == CAPSTAN_LATE_OK)
       capstan_late_prepare(session_);
     return answer();
   }
@@ -88,6 +94,9 @@ class ThroughHttp : public Door {
   Answer set(const std::string& option, const std::string& value) override {
     const nlohmann::json state = {{"options", {{option, value}}}};
     return answer(client_.ask("PUT", path_ + "/state", state.dump()));
+  }
+  Answer tell_tools(const std::string& states) override {
+    return answer(client_.ask("PUT", path_ + "/state", nlohmann::json{{"tool_state", states}}.dump()));
   }
   Answer bind(const std::string& plan, unsigned deadline_ms) override {
     return bound(plan, {{"deadline_ms", deadline_ms}});
@@ -192,6 +201,25 @@ TEST_P(Contract, StopsWithoutTheToolsThatAPlanNeeds) {
             CAPSTAN_LATE_OK);
   EXPECT_EQ(door->bind(plate(), 600'000).code, CAPSTAN_LATE_IMPOSSIBLE);
   EXPECT_EQ(door->output("linuxcnc"), "");
+}
+
+TEST_P(Contract, TakesWhatBecameOfTheToolsAndChangesNothingWhereItIsWrong) {
+  ASSERT_EQ(door->open("generic_vmc", magazine_file()).code, CAPSTAN_LATE_OK);
+  ASSERT_EQ(door->bind(plate(), 600'000).code, CAPSTAN_LATE_OK);
+  const std::string program = door->output("linuxcnc");
+  const auto wrong = door->tell_tools("T5 broken\nT8 wear nan\n");
+  EXPECT_EQ(wrong.code, CAPSTAN_LATE_USAGE);
+  EXPECT_NE(wrong.message.find("tool-state:2"), std::string::npos) << wrong.message;
+  EXPECT_EQ(door->output("linuxcnc"), program);
+  // The plate's hole is reamed by T5, which nothing replaces.
+  ASSERT_EQ(door->tell_tools("T5 broken\n").code, CAPSTAN_LATE_OK);
+  EXPECT_EQ(door->output("linuxcnc"), "");
+  const auto bound = door->bind(plate(), 600'000);
+  EXPECT_EQ(bound.code, CAPSTAN_LATE_IMPOSSIBLE);
+  EXPECT_NE(bound.message.find("T5 (is broken)"), std::string::npos) << bound.message;
+  ASSERT_EQ(door->tell_tools("").code, CAPSTAN_LATE_OK);
+  ASSERT_EQ(door->bind(plate(), 600'000).code, CAPSTAN_LATE_OK);
+  EXPECT_EQ(door->output("linuxcnc"), program);
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Contract, ::testing::Values(kC, kHttp),

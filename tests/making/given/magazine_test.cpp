@@ -147,5 +147,37 @@ TEST(StatingMaterial, IsTheLoadedToolOfThatSizeThatStatesWhatItIsMadeOf) {
   EXPECT_EQ(stating_material(two, wanted), nullptr);
 }
 
+TEST(LoadedTool, HasSistersThatEqualItUnderOtherNumbers) {
+  std::vector<Cutter> magazine;
+  for (const int number : {9, 1, 4, 6}) {
+    magazine.push_back(in_pocket_1(planned()));
+    magazine.back().pocket = number;
+  }
+  magazine[2].cutting_diameter_mm = 9.9;  // T4 is worn
+  magazine[3].loaded = false;             // T6 is on the shelf
+  Cutter wanted = planned();
+  wanted.pocket = 1;
+  const auto sisters = sisters_of(magazine, wanted);
+  ASSERT_EQ(sisters.size(), 1U);
+  EXPECT_EQ(sisters[0]->pocket, 9);
+  wanted.pocket = 3;
+  ASSERT_EQ(sisters_of(magazine, wanted).size(), 2U);
+  EXPECT_EQ(sisters_of(magazine, wanted)[0]->pocket, 1);
+}
+
+TEST(LoadedTool, ThatIsOutOfUseIsToldWithItsNumberAndWhy) {
+  Cutter broken = in_pocket_1(planned());
+  const std::vector<OutOfUse> gone = {{broken, "is broken"}};
+  EXPECT_EQ(out_of_use(gone, planned()), "is T1, which is broken");
+  Cutter other = planned();
+  other.cutting_diameter_mm = 6.0;
+  EXPECT_EQ(out_of_use(gone, other), std::nullopt);
+  other.pocket = 1;
+  EXPECT_EQ(out_of_use(gone, other), std::nullopt);
+  // Wear that was told changed its size.
+  other.cutting_diameter_mm = 10.1;
+  EXPECT_EQ(out_of_use(gone, other), "is T1, which is broken");
+}
+
 }  // namespace
 }  // namespace capstan::given

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "planner/door/late/tools/tool_state.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/ground/geometry/vec.h"
@@ -29,6 +31,8 @@ struct MachineState {
   std::optional<unsigned> feed_override;   ///< %, 1 to 100
   std::vector<AxisLimit> axis_limits;      ///< a program that leaves them is not given
   std::vector<WorkOffset> work_offsets;
+  std::vector<late::ToolState> tools;  ///< beside what the tool table says of them
+  std::size_t tools_told_at = 0;       ///< LatePolicy::tools_told_at
 };
 
 /// "X=0:350,Z=-200:-5". Fails  OPTION-VALUE where it is not that, a range is empty, or an axis comes twice.

@@ -4,10 +4,14 @@
 #include <string>
 
 #include "planner/door/service/state/machine_state.h"
+#include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::service {
 namespace {
+
+/// As much as a request of `capstan serve` may hold; a magazine's states are some thousand bytes.
+constexpr std::size_t kMostStateBytes = std::size_t{1} << 20;
 
 std::string set_power(Request& r, const std::string& text) {
   const auto kw = parse_double(text);
@@ -33,10 +37,27 @@ std::string set_offsets(Request& r, const std::string& text) {
   return {};
 }
 
+std::string set_tools(Request& r, const std::string& file) {
+  const auto text = read_file(file, kMostStateBytes);
+  if (!text) return "'" + file + "' cannot be read: " + text.error().message;
+  auto states = late::parse_tool_states(*text, file);
+  if (!states)
+    return file + ":" + std::to_string(states.error().line) + ": " + fault_of(states.error());
+  r.state.tools = *std::move(states);
+  r.state.tools_told_at = 0;
+  return {};
+}
+
 }  // namespace
 
 std::vector<Option> state_options() {
   return {
+      {.name = "tool-state",
+       .value = Value::kText,
+       .help = of_bind(
+           "a file of what became of the loaded tools, a tool a line: T3 broken, or T5 wear 0.02 length-wear "
+           "0.01 life-left 12.5 (mm, mm, minutes; in-table behind wear that the tool table has); needs --tools"),
+       .set = &set_tools},
       {.name = "spindle-power",
        .value = Value::kText,
        .help = of_bind(

@@ -20,14 +20,15 @@ namespace {
 constexpr std::string_view kText = "text/plain; charset=utf-8";
 
 /// Options of a session whose value may be a file.
-constexpr std::array<std::string_view, 9> kFileOptions = {
-    "machine", "tools", "material", "workholding", "rules", "cases", "cache", "shop", "edits"};
+constexpr std::array<std::string_view, 10> kFileOptions = {
+    "machine", "tools", "material", "workholding", "rules", "cases", "cache", "shop", "edits", "tool-state"};
 
 /// Another user's process must not have the server read or write files that are not its own.
 bool names_file(const std::string& option, const std::string& value) {
   if (std::find(kFileOptions.begin(), kFileOptions.end(), option) == kFileOptions.end()) return false;
   std::error_code ignored;
   return option == "rules" || option == "cases" || option == "cache" || option == "edits" ||
+         option == "tool-state" ||
          value.find('/') != std::string::npos || std::filesystem::exists(value, ignored);
 }
 
@@ -156,6 +157,7 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
   const auto read = read_json_request(request.body,
                                       {{Member::Kind::kTexts, "options"},
                                        {Member::Kind::kText, "tool_table"},
+                                       {Member::Kind::kText, "tool_state"},
                                        {Member::Kind::kTexts, "broadcast"}},
                                       limits_.json_bytes);
   if (!read) return refused(400, read.error());
@@ -170,6 +172,12 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
     if (caller.peer != own_peer_ && names_file(name, value))
       return refused(403, "SERVE-FILE", "option '" + name + "' names a file of the server's",
                      "send the tool table as `tool_table`; only the server's own user may name files");
+  }
+  if (const auto at = read->texts.find("tool_state"); at != read->texts.end()) {
+    if (const Code code = s.session.tell_tools(at->second); code != Code::kDone) {
+      keep_ending(s);
+      return of_call(code, s.session.message());
+    }
   }
   if (const auto at = read->texts.find("tool_table"); at != read->texts.end()) {
     const std::string file = s.folder + "/tool.tbl";
