@@ -87,7 +87,7 @@ struct CaseBase::Impl {
 
   /// Places become cases; those that are not what was stored are left out. Each case is read and verified
   /// once: the questions of a plan, one for each candidate of a step, find the same ones again and again.
-  std::vector<Neighbour> loaded(const std::vector<Found>& found) const {
+  Look loaded(const std::vector<Found>& found) const {
     const std::scoped_lock lock(reading);
     std::vector<std::uint32_t> missing;
     for (const Found& f : found) {
@@ -103,11 +103,16 @@ struct CaseBase::Impl {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (cases[i]) read.emplace(missing[i], *std::move(cases[i]));
     }
-    std::vector<Neighbour> out;
-    out.reserve(found.size());
+    Look out;
+    out.found.reserve(found.size());
     for (const Found& f : found) {
-      if (const auto c = read.find(f.entry); c != read.end())
-        out.push_back({c->second, std::sqrt(f.distance2)});
+      const double distance = std::sqrt(f.distance2);
+      if (const auto c = read.find(f.entry); c != read.end()) {
+        out.found.push_back({c->second, distance});
+      } else {
+        const Entry& e = log.entries()[f.entry];
+        out.lost.push_back({digits_of(e.id), distance, e.origin, e.verdict});
+      }
     }
     return out;
   }
@@ -221,15 +226,39 @@ std::vector<CaseBase::LaterVerdict> CaseBase::later_verdicts(std::string_view id
 
 Result<std::vector<Neighbour>> CaseBase::nearest(const Question& q, std::size_t k) const {
   if (const auto wrong = fault_of(q)) return fail("CASE-INVALID", "the question cannot be: " + *wrong);
+  return impl_->loaded(impl_->search.nearest(q, k)).found;
+}
+
+Result<CaseBase::Look> CaseBase::look(const Question& q, std::size_t k) const {
+  if (const auto wrong = fault_of(q)) return fail("CASE-INVALID", "the question cannot be: " + *wrong);
   return impl_->loaded(impl_->search.nearest(q, k));
 }
 
 Result<std::vector<Neighbour>> CaseBase::within(const Question& q, double distance) const {
   if (const auto wrong = fault_of(q)) return fail("CASE-INVALID", "the question cannot be: " + *wrong);
-  return impl_->loaded(impl_->search.within(q, distance * distance));
+  return impl_->loaded(impl_->search.within(q, distance * distance)).found;
 }
 
 std::size_t CaseBase::size() const { return impl_->log.live(); }
+
+bool CaseBase::whole() const { return impl_->log.whole(); }
+
+std::vector<CaseBase::Categories> CaseBase::categories() const {
+  std::vector<Categories> out;  // by `Entry::categories`, which are numbered as they come
+  for (const Entry& e : impl_->log.entries()) {
+    tick();
+    if (e.categories >= out.size()) out.resize(e.categories + 1);
+    Categories& c = out[e.categories];
+    if (c.material_group.empty()) {
+      const std::string& all = impl_->log.categories(e);
+      c.material_group = material_group_in(all);
+      c.tool_class = tool_class_in(all);
+      c.machine_class = machine_class_in(all);
+    }
+    if (!e.removed) ++c.cases;
+  }
+  return out;
+}
 
 std::vector<Case> CaseBase::cases() const {
   return impl_->live_where([](const Entry&) { return true; });

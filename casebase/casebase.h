@@ -97,11 +97,37 @@ class CaseBase {
   /// The k nearest cases of the question's categories, nearest first, equal distances by id. Whatever
   /// their verdict and origin: the caller sees both. Fails CASE-INVALID on a question that cannot be.
   [[nodiscard]] Result<std::vector<Neighbour>> nearest(const Question& q, std::size_t k) const;
+  /// A case near a question that is not what was stored, as its head has it.
+  struct Lost {
+    std::string id;
+    double distance = 0.0;
+    Origin origin = Origin::kEntered;
+    Verdict verdict = Verdict::kUnknown;
+  };
+  /// The same with what `nearest` leaves out, both in that order; k of them together.
+  struct Look {
+    std::vector<Neighbour> found;
+    std::vector<Lost> lost;
+  };
+  [[nodiscard]] Result<Look> look(const Question& q, std::size_t k) const;
   /// All cases of the question's categories within a distance, in the same order.
   [[nodiscard]] Result<std::vector<Neighbour>> within(const Question& q, double distance) const;
 
   /// How many cases there are, without those that are removed.
   [[nodiscard]] std::size_t size() const;
+  /// How many of them there are of each combination of categories; those of several operations apart. None
+  /// where all cases of one were removed.
+  struct Categories {
+    std::string material_group, tool_class, machine_class;
+    std::size_t cases = 0;
+  };
+  [[nodiscard]] std::vector<Categories> categories() const;
+  /// Whether all rows are there that the store's totals speak of, with the heads that were stored, and the
+  /// metric. While they are not, any of them may have spoken against what the others say: what went well
+  /// then raises no value and lowers no force (recall/advice.h, tune/card.h); what failed still binds. Of
+  /// bodies it says nothing: `look` and the count of `state_of_measured` do, for the cases that are asked
+  /// for.
+  [[nodiscard]] bool whole() const;
   /// All of them by id, read and verified now; one that is not what was stored is left out, and `take_faults`
   /// reports it.
   [[nodiscard]] std::vector<Case> cases() const;

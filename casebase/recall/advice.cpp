@@ -117,7 +117,7 @@ double against(const Weighted& w, const Values& x) {
 double success(const std::vector<Weighted>& near, const Values& x) {
   double good = kPrior * kTrustInTable, all = kPrior;
   for (const Weighted& w : near) {
-    if (w.of->verdict == Verdict::kGood) {
+    if (w.of->verdict == Verdict::kGood && w.of->raises) {
       const double s = trust_good(w.of->origin) * w.weight * fade(harder(x, w.of->cut));
       good += s;
       all += s;
@@ -263,6 +263,8 @@ Advice advise(std::vector<Evidence> near, const Values& asked, double least_fz_m
   }
   std::set<const Evidence*> doubted;
   for (Evidence& e : near) {
+    out.careful = out.careful || !e.raises;
+    if (e.lost) e.cut = asked;
     if (e.verdict != Verdict::kGood || !beyond_belief(e.cut, asked)) continue;
     e.verdict = Verdict::kUnknown;
     if (!e.told.empty()) e.told += "/doubted";
@@ -284,7 +286,8 @@ Advice advise(std::vector<Evidence> near, const Values& asked, double least_fz_m
     out.leads = true;
     out.origin = group.front().of->origin;
     for (const auto v : kAll) out.centre.*v = middle_of(group, v);
-    const bool repeated = out.origin != Origin::kSimulated && cuts(group, Verdict::kGood) >= kRepeats;
+    const bool repeated =
+        !out.careful && out.origin != Origin::kSimulated && cuts(group, Verdict::kGood) >= kRepeats;
     const double reach = repeated ? kCaseReach : 1.0;
     for (const auto v : {&Values::vc_m_min, &Values::fz_mm}) {
       const double most = asked.*v > 0.0 ? reach * (asked.*v) : out.centre.*v;
@@ -314,6 +317,7 @@ Advice advise(std::vector<Evidence> near, const Values& asked, double least_fz_m
   if (out.doubted > 0)
     out.why += fmt::format("; {} said to be good not believed: more than {} times the table's values",
                            out.doubted == 1 ? "one" : std::to_string(out.doubted), trimmed(kBelieved, 1));
+  if (out.careful) out.why += "; cases of the base are lost, so that those that went well raise nothing";
   if (!out.leads) out.why += "; none that went well";
   return out;
 }

@@ -35,6 +35,7 @@ struct Advice {
   Values centre;                     ///< of good cuts, before it is held back or lowered
   int good = 0, bad = 0, unjudged = 0;  ///< near cuts, each counted once
   int cut_good = 0;                     ///< of the good ones those that were not simulated
+  bool careful = false;  ///< cases are lost: what went well raises nothing (`Evidence::raises`)
   int doubted = 0;       ///< of the unjudged ones those reported as good, but cut too hard to believe; cuts
   double nearest = 0.0;  ///< distance of the nearest
   double success_asked = kTrustInTable;  ///< probability that the asked values (else the centre) go well
@@ -70,7 +71,9 @@ inline constexpr double kLeastSuccess = 0.75;
 /// question gives no values: a computation that went well proves no cut. Whether values go well is the mean
 /// of a beta distribution: prior, good cuts that were as hard or harder, bad ones that were as hard or less.
 /// Values beyond what is likely enough are lowered, until it is. A good cut more than kBelieved times as hard
-/// as the asked values counts as one without a verdict.
+/// as the asked values counts as one without a verdict. One that may not raise (`Evidence::raises`) starts no
+/// cut above the asked values and adds nothing to what is likely to go well; a failure that is lost counts as
+/// one by the asked values.
 ///
 /// Determinism  the same for any order of the cases. Neither their time nor their number in the base counts.
 ///

@@ -31,6 +31,10 @@ struct Evidence {
   Blame blame;  ///< of a bad one
   double distance = 0.0;
   Values cut;
+  /// Whether a success of it may raise values, or lift what failures lower: not while cases are lost that may
+  /// have spoken against it.
+  bool raises = true;
+  bool lost = false;  ///< a failure of which its head alone is left: nothing of `cut` is known
 };
 
 /// A case as evidence for a question at that distance. Its feed is taken as it is for a cutter that is at

@@ -11,21 +11,38 @@ constexpr std::size_t kMostLookedAt = 1U << 14U;
 
 }  // namespace
 
-Result<std::vector<Neighbour>> cases_near(const CaseBase& base, const Question& question) {
-  std::vector<Neighbour> out;
+Result<NearCases> cases_near(const CaseBase& base, const Question& question) {
+  NearCases out;
+  out.whole = base.whole();
   for (std::size_t k = kNearAsked; k <= kMostLookedAt; k *= 4) {
-    auto near = base.nearest(question, k);
+    auto near = base.look(question, k);
     if (!near) return tl::unexpected(near.error());
-    bool all = near->size() < k;
-    out.clear();
-    for (Neighbour& n : *near) {
-      if (n.distance > kPrecedentDistance) {
-        all = true;
-        break;
-      }
-      out.push_back(std::move(n));
-    }
-    if (all || cuts_told(evidence_of(out, question)) >= kNearAsked) break;
+    const bool all = near->found.size() + near->lost.size() < k;
+    const auto beyond = [](const auto& n) { return n.distance > kPrecedentDistance; };
+    const std::size_t left = std::erase_if(near->found, beyond) + std::erase_if(near->lost, beyond);
+    out.found = std::move(near->found);
+    out.lost = std::move(near->lost);
+    if (all || left > 0 || cuts_told(evidence_of(out.found, question)) >= kNearAsked) break;
+  }
+  return out;
+}
+
+std::vector<Evidence> evidence_of(const NearCases& near, const Question& question) {
+  std::vector<Evidence> out = evidence_of(near.found, question);
+  if (near.whole && near.lost.empty()) return out;
+  for (Evidence& e : out) e.raises = false;
+  for (const CaseBase::Lost& l : near.lost) {
+    if (l.verdict != Verdict::kBad) continue;
+    Evidence e;
+    e.id = l.id;
+    e.run = "lost " + l.id;
+    e.origin = l.origin;
+    e.verdict = l.verdict;
+    e.blame = {.speed = true, .feed = true, .depth = false};
+    e.distance = l.distance;
+    e.raises = false;
+    e.lost = true;
+    out.push_back(std::move(e));
   }
   return out;
 }
@@ -39,9 +56,7 @@ std::vector<Evidence> evidence_of(const std::vector<Neighbour>& near, const Ques
 }
 
 Result<std::vector<Evidence>> evidence_near(const CaseBase& base, const Question& question) {
-  return cases_near(base, question).map([&](const std::vector<Neighbour>& near) {
-    return evidence_of(near, question);
-  });
+  return cases_near(base, question).map([&](const NearCases& near) { return evidence_of(near, question); });
 }
 
 }  // namespace capstan::casebase

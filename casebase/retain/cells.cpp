@@ -11,7 +11,8 @@
 namespace capstan::casebase::retain {
 namespace {
 
-constexpr double kWholeMax = 1e9;  // tools and lines of programs: more is a damaged log
+constexpr double kTimeMaxS = 1e11;  // of a clock, since 1970: more is a damaged log. Default, unsourced
+constexpr double kWholeMax = 1e9;   // tools and lines of programs: more is a damaged log
 
 bool digits(std::string_view text, std::size_t at, std::size_t n, int& out) {
   if (at + n > text.size()) return false;
@@ -110,7 +111,11 @@ std::optional<std::string> put(Reading& r, const Column& column, std::string_vie
       break;
   }
   const std::optional<double> number = parse_double(text);
-  if (!number) return no_number(std::string(text.substr(0, 40)));
+  if (!number) {
+    std::string why = no_number(std::string(text.substr(0, 40)));
+    if (text.find(',') != std::string_view::npos) why += "; decimals are written with a point";
+    return why;
+  }
   if (column.item == Item::kTool || column.item == Item::kLine) {
     if (*number != std::floor(*number) || *number < 0.0 || *number > kWholeMax) {
       return fmt::format("{} is no number of a {}", shortest(*number),
@@ -125,6 +130,7 @@ std::optional<std::string> put(Reading& r, const Column& column, std::string_vie
   }
   if (column.item == Item::kTime) {
     r.t_s = *number * column.factor;
+    if (!(r.t_s >= 0.0 && r.t_s <= kTimeMaxS)) return shortest(*number) + " is no time (0 to 1e11 s)";
     return std::nullopt;
   }
   const double value = *number * column.factor;

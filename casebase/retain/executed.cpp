@@ -27,7 +27,7 @@ void Splitter::open(const Reading& r) {
   o.step.tool = tool_;
   o.step.tool_instance = tool_instance_;
   o.step.begin_s = o.step.end_s = r.t_s;
-  o.step.first_log_line = r.line;
+  o.step.first_log_line = o.step.last_log_line = r.line;
   o.step.tool_changed = std::exchange(tool_changed_, false);
   o.rising.resize(options_.triggers.size());
   open_ = std::move(o);
@@ -51,7 +51,7 @@ void Splitter::close() {
     if (e && e->lasted_s >= options_.triggers[i].for_s && s.events.size() < kMaxEvents)
       s.events.push_back(*e);
   }
-  if (s.active_s > 0.0) done_.push_back(std::move(s));
+  if (s.active_s > 0.0 || s.cut_off) done_.push_back(std::move(s));
   open_.reset();
 }
 
@@ -96,6 +96,7 @@ void Splitter::pass(double seconds, double way_mm, const Reading& next) {
   s.active_s += seconds;
   s.end_s = next.t_s;
   s.last_log_line = next.line;
+  moving_ = moving;
   if (!moving) {
     open_->stop_s += seconds;
     return;
@@ -155,6 +156,7 @@ void Splitter::take(const Reading& r) {
 
   const bool was_running = running_;
   if (r.running) running_ = *r.running;
+  running_said_ = running_said_ || r.running;
   if (r.program) program_ = *r.program;
   if (r.workingstep) said_workingstep_ = *r.workingstep;
   if (r.program_line) line_ = *r.program_line;
@@ -199,7 +201,12 @@ void Splitter::take(const Reading& r) {
   watch(r);
 }
 
+// Where a feed is known the last reading says whether the machine still moves; else the last way does.
 std::vector<Executed> Splitter::end() {
+  if (open_) {
+    const bool by_feed = (known_ >> index_of(Item::kFeed) & 1U) != 0;
+    open_->step.cut_off = running_said_ || (by_feed ? now_[index_of(Item::kFeed)] > 0.0 : moving_);
+  }
   close();
   return std::move(done_);
 }

@@ -62,8 +62,9 @@ struct Executed {
   std::uint64_t readings = 0, first_log_line = 0, last_log_line = 0;
   long first_line = 0, last_line = 0;  ///< of the program; 0: not said
   bool tool_changed = false;           ///< the tool was changed for it: false, it was left from before
-  std::vector<Event> events;           ///< at most kMaxEvents, the first ones
-  std::vector<Kept> load;              ///< spindle load, thinned
+  bool cut_off = false;  ///< the log ends while the program runs, or where nothing says that: while it moves
+  std::vector<Event> events;  ///< at most kMaxEvents, the first ones
+  std::vector<Kept> load;     ///< spindle load, thinned
 
   [[nodiscard]] const Statistic& of(Item i) const { return number[index_of(i)]; }
 };
@@ -84,7 +85,7 @@ class Splitter {
  public:
   explicit Splitter(SplitOptions options);
   void take(const Reading& r);
-  /// What was executed, in order. Steps that took no time are left out.
+  /// What was executed, in order. Steps that took no time are left out, but for one that the log ends within.
   [[nodiscard]] std::vector<Executed> end();
 
  private:
@@ -109,7 +110,7 @@ class Splitter {
   std::array<double, kNumbers> now_ = {};
   std::uint16_t known_ = 0;
   double last_s_ = 0.0;
-  bool running_ = false, tool_changed_ = false, tool_said_ = false;
+  bool running_ = false, running_said_ = false, moving_ = false, tool_changed_ = false, tool_said_ = false;
   int run_ = 0, tool_ = 0;
   long line_ = 0;
   std::string workingstep_, said_workingstep_, program_, tool_instance_;

@@ -49,12 +49,12 @@ Result<Log> Log::open(std::unique_ptr<Store> store, Job& job) {
   if (!totals) {
     d.message = "its totals are gone: nobody can tell whether rows are missing";
   } else if (totals->rows != log.totals_.rows) {
-    d.message = fmt::format("it should hold {} rows, and {} of them are there", totals->rows,
-                            log.totals_.rows - static_cast<std::int64_t>(log.refused_));
+    d.message = fmt::format("it should hold {} rows, and {} of them are there", totals->rows, log.taken_);
   } else if (totals->chain != log.totals_.chain) {
     d.message = "its rows are not those that its totals speak of";
   }
-  log.shared_->damaged = log.refused_ != 0 || !d.message.empty();
+  log.heads_damaged_ = log.heads_damaged_ || !d.message.empty();
+  log.shared_->damaged = log.heads_damaged_;
   if (!d.message.empty()) job.report(std::move(d));
   return log;
 }
@@ -62,18 +62,25 @@ Result<Log> Log::open(std::unique_ptr<Store> store, Job& job) {
 /// Takes a row; one that is not what was stored is reported to `job`, or is a fault where there is no job.
 Status Log::take(std::int64_t number, std::string_view bytes, Job* job) {
   std::optional<std::string> wrong;
-  if (number != totals_.rows + 1) {
+  const auto head = head_of(bytes, number);
+  const bool in_order = number == totals_.rows + 1;
+  if (!head) {
+    wrong = "its hash does not fit what it holds: it was altered";
+  } else if (!in_order && (job == nullptr || number <= totals_.rows)) {
     wrong = "it is not in order, or rows before it are gone";
+  } else if (!in_order) {
+    // Rows before it are gone, as the totals say. This one was sealed with its number, and holds.
+    heads_damaged_ = true;
     totals_.rows = number - 1;
   }
   totals_.count(bytes);
-  if (const auto head = head_of(bytes, number); !head) {
-    wrong = "its hash does not fit what it holds: it was altered";
-  } else if (!wrong) {
-    wrong = take_in(number, *head);
+  if (!wrong) wrong = take_in(number, *head);
+  if (!wrong) {
+    ++taken_;
+    return {};
   }
-  if (!wrong) return {};
   ++refused_;
+  heads_damaged_ = true;
   Diagnostic d{
       .code = "CASE-ROW", .message = fmt::format("row {} is left out: {}", number, *wrong), .file = name()};
   if (job == nullptr) {
@@ -128,6 +135,11 @@ std::optional<std::uint32_t> Log::category(std::string_view categories) const {
   const auto found = category_numbers_.find(categories);
   if (found == category_numbers_.end()) return std::nullopt;
   return found->second;
+}
+
+bool Log::whole() const {
+  const std::lock_guard lock(shared_->mutex);
+  return !heads_damaged_ && !shared_->lost_metric;
 }
 
 std::optional<std::uint32_t> Log::find(const Id& id) const {
@@ -281,7 +293,7 @@ Metric Log::metric() const {
     if (sum_of(body) == metric_->second) found = metric_of(body);
   });
   if (read && found) return *found;
-  shared_->damaged = true;
+  shared_->damaged = shared_->lost_metric = true;
   shared_->faults.push_back(
       read ? Diagnostic{.code = "CASE-ROW",
                         .severity = Severity::kWarning,
@@ -328,6 +340,7 @@ std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted
     out[i] = verified(entries_[wanted[i]], body, why[i]);
   });
   if (!read) {
+    shared_->damaged = true;
     shared_->faults.push_back(read.error());
     return out;
   }
@@ -340,7 +353,8 @@ std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted
          .severity = Severity::kWarning,
          .message =
              fmt::format("case {} is left out: {}", digits_of(entries_[wanted[i]].id).substr(0, 12), why[i]),
-         .file = name()});
+         .file = name(),
+         .hint = "restore the base from a copy; where it is near, what went well raises nothing"});
   }
   return out;
 }

@@ -65,6 +65,8 @@ class Log {
   [[nodiscard]] std::size_t live() const { return entries_.size() - removed_; }
   [[nodiscard]] std::string name() const { return store_->name(); }
   [[nodiscard]] std::optional<std::uint32_t> find(const Id& id) const;
+  /// Whether all rows that the totals speak of are there, with the heads and the metric that were stored.
+  [[nodiscard]] bool whole() const;
   /// The metric that was stored last. The fixed scales where there is none, or where it is not what was
   /// stored, which is kept for `take_faults`.
   [[nodiscard]] Metric metric() const;
@@ -95,7 +97,8 @@ class Log {
     std::mutex mutex;  // of the store, and of what follows
     std::vector<Diagnostic> faults;
     std::set<std::uint32_t> told;  // entries that `faults` speaks of
-    bool damaged = false;
+    bool damaged = false;          // a row, or its body
+    bool lost_metric = false;
   };
   explicit Log(std::unique_ptr<Store> store)
       : store_(std::move(store)), shared_(std::make_unique<Shared>()) {}
@@ -119,6 +122,8 @@ class Log {
   std::vector<Note> notes_;
   std::optional<std::pair<std::int64_t, Sum>> metric_;  // its row and body
   std::size_t removed_ = 0, refused_ = 0;
+  std::int64_t taken_ = 0;      // rows
+  bool heads_damaged_ = false;  // or gone
   Totals totals_;
   IdTable by_id_;  // the entries
   std::unique_ptr<Shared> shared_;

@@ -233,7 +233,7 @@ Result<std::string> SqliteStore::read(std::int64_t after, const TakeHead& take) 
       if (row.number <= after) continue;
       if (Status taken = take(row.number, row.head); !taken) return fail(taken.error());
     }
-    return bytes_of(old_->totals);
+    return old_->damaged ? std::string() : bytes_of(old_->totals);
   }
   if (Status s = run("BEGIN", "read it"); !s) return fail(s.error());
   const Result<std::int64_t> of = check_version();

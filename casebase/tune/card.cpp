@@ -133,9 +133,12 @@ double bounded(double ln_seen, double sign, double std_dev, std::size_t edges, d
 /// unsafe way, as of forces; -1 where one below it is, as of lives. Against a case that the others do not
 /// explain, or that was cut short, nothing is lowered or narrowed; what the others raise holds, with the
 /// card's spread at least.
-void judge(CardCorrection& c, double sign, double spread_believed) {
+void judge(CardCorrection& c, double sign, double spread_believed, Given given) {
   const double ln_unsafe = sign * std::log(c.seen);  // above 0: more force, or less life, than the card
-  if (c.edges < kLeastEdges) {
+  const bool lost = given == Given::kSome;
+  if (lost && ln_unsafe <= 0.0) {
+    c.why_not = "nothing is lowered or narrowed while cases of the base are lost";
+  } else if (!lost && c.edges < kLeastEdges) {
     c.why_not =
         fmt::format("measured on {}, and {} are needed", counted(c.edges, "edge", "edges"), kLeastEdges);
   } else if (!c.beyond.empty() && ln_unsafe <= 0.0) {
@@ -146,7 +149,7 @@ void judge(CardCorrection& c, double sign, double spread_believed) {
     c.why_not = fmt::format("further from the card than {} standard deviations of its spread",
                             trimmed(kBelievedDeviations, 1));
   }
-  if (!c.beyond.empty() || !c.cut_short.empty()) c.spread = std::max(c.spread, c.spread_before);
+  if (lost || !c.beyond.empty() || !c.cut_short.empty()) c.spread = std::max(c.spread, c.spread_before);
 }
 
 std::vector<std::string> at_places(const std::vector<std::string>& ids,
@@ -168,7 +171,7 @@ std::string within() {
 }
 
 std::optional<CardCorrection> force_of(const Observations& seen, const model::WorkMaterial& card,
-                                       model::Substrate substrate, double spread) {
+                                       model::Substrate substrate, double spread, Given given) {
   const model::MechanisticSet* set = model::measured_set(card, substrate);
   const auto law = [&](double chip_mm) {
     return set != nullptr ? set->ktc_n_mm2 + set->kte_n_mm / chip_mm
@@ -205,7 +208,7 @@ std::optional<CardCorrection> force_of(const Observations& seen, const model::Wo
     if (far.kc_n_mm2 > most * law(far.chip_mm)) out.beyond.push_back(seen.far_forces_of[i]);
   }
   std::sort(out.beyond.begin(), out.beyond.end());
-  judge(out, 1.0, spread);
+  judge(out, 1.0, spread, given);
   return out;
 }
 
@@ -234,7 +237,7 @@ LeastLife least_life(const LifeCorrection& fit, const model::ToolLifeLaw& card,
 }
 
 std::optional<CardCorrection> life_of(const Observations& seen, const model::WorkMaterial& card,
-                                      model::Substrate substrate) {
+                                      model::Substrate substrate, Given given) {
   const auto law = std::find_if(card.life.begin(), card.life.end(), [&](const model::ToolLifeLaw& l) {
     return l.substrate == model::to_text(substrate) && l.life_min > 0.0;
   });
@@ -263,7 +266,7 @@ std::optional<CardCorrection> life_of(const Observations& seen, const model::Wor
   out.spread = std::exp(least.ln_spread);
   out.ids = sorted(seen.lives_of);
   out.beyond = at_places(seen.lives_of, fit->beyond);
-  judge(out, -1.0, out.spread_before);
+  judge(out, -1.0, out.spread_before, given);
   out.law.scatter = std::log(out.spread);
   return out;
 }
@@ -314,13 +317,14 @@ std::string CardCorrection::named() const {
 }
 
 std::vector<CardCorrection> card_corrections(std::span<const Case> cases, const model::WorkMaterial& card,
-                                             const SpreadOf& spread_of) {
+                                             const SpreadOf& spread_of, Given given) {
   Collector all(card);
   for (const Case& c : cases) all.hear(c);
   std::vector<CardCorrection> out;
   for (const auto& [substrate, seen] : all.of()) {
-    if (auto force = force_of(seen, card, substrate, spread_of(substrate))) out.push_back(*std::move(force));
-    if (auto life = life_of(seen, card, substrate)) out.push_back(*std::move(life));
+    if (auto force = force_of(seen, card, substrate, spread_of(substrate), given))
+      out.push_back(*std::move(force));
+    if (auto life = life_of(seen, card, substrate, given)) out.push_back(*std::move(life));
   }
   return out;
 }

@@ -43,6 +43,10 @@
 /// is not heard is still held against the others: at less feed than planned it is at most that of the planned
 /// feed, and above it runout hides a part of it; where even so it lies `kBelievedDeviations` of the spread
 /// above what they say, it is beyond.
+///
+/// While cases are lost (`Given::kSome`) any of them may have spoken against what the others say: nothing is
+/// lowered or narrowed, and what raises a force or shortens a life is taken of fewer edges than kLeastEdges,
+/// too, for others that said so may be among the lost.
 namespace capstan::casebase::tune {
 
 /// Named edges that were measured before planning takes what they say: fewer do not show how far edges
@@ -62,6 +66,9 @@ inline constexpr double kLeastFeedShare = 0.5, kMostFeedShare = 1.1;
 /// Version of what `card_corrections` makes of the same cases: raised with every change of that, so that what
 /// an earlier version put into a plan's card is not taken for today's.
 inline constexpr int kCardRules = 2;
+
+/// Whether the cases that are given are all that were stored.
+enum class Given : unsigned char { kAll, kSome };
 
 enum class CardModel : unsigned char { kForce, kLife };
 
@@ -111,6 +118,7 @@ using SpreadOf = std::function<double(model::Substrate)>;
 /// counted. Equal figures count once. `card`: without the correction of any case.
 [[nodiscard]] std::vector<CardCorrection> card_corrections(std::span<const Case> cases,
                                                            const model::WorkMaterial& card,
-                                                           const SpreadOf& spread_of);
+                                                           const SpreadOf& spread_of,
+                                                           Given given = Given::kAll);
 
 }  // namespace capstan::casebase::tune

@@ -38,6 +38,7 @@ std::optional<ProvenStart> proven_start(std::span<const Neighbour> near,
     if (e.origin == Origin::kSimulated || !(e.cut.vc_m_min > 0.0) || !(e.cut.fz_mm > 0.0)) continue;
     if (!e.told.empty() && !observed.insert(e.told).second) continue;
     const bool bad = e.verdict == Verdict::kBad;
+    if (!bad && !e.raises) continue;
     if (!bad && !(as_much(e.cut.ap_mm, asked.ap_mm) && as_much(e.cut.ae_mm, asked.ae_mm))) continue;
     // A cut of no named edge is no repeat on another one, and two edges of one tool share its spindle and its
     // day.

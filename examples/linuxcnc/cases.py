@@ -34,8 +34,8 @@ def times(samples):
         number, x, y, z, velocity = int(word[0]), *map(float, word[1:5])
         rpm, tool = float(word[6]), int(float(word[7]))
         if rpm == 0.0 and z >= RETRACTED_MM - 1e-6:
-            if turned:
-                yield now
+            if turned:  # the machine stands: the workingstep is over
+                yield now + [(number * PERIOD_S, tool, x, y, z, 0.0, rpm)]
             now, turned = [], False
             continue
         turned = turned or rpm != 0.0

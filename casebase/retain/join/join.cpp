@@ -48,6 +48,20 @@ std::set<int> other_runs(const std::map<int, const Step*>& by_tool, const std::v
   return out;
 }
 
+// Names, by run, that a log has in two stays or more while the plan has several steps of that name (the
+// second is "name~2") and the log names none of the others: nobody can tell which stay was at which.
+std::set<std::pair<int, std::string>> names_of_several(const std::map<std::string, const Step*>& by_id,
+                                                       const std::vector<Executed>& executed) {
+  std::map<std::pair<int, std::string>, int> stays;
+  for (const Executed& e : executed) ++stays[{e.run, e.workingstep}];
+  std::set<std::pair<int, std::string>> out;
+  for (const auto& [at, n] : stays) {
+    const std::string second = at.second + "~2";
+    if (n > 1 && by_id.contains(second) && !stays.contains({at.first, second})) out.insert(at);
+  }
+  return out;
+}
+
 // All stays of one run at one step as one.
 void join(Executed& into, const Executed& e) {
   for (const Kept& k : e.load) {
@@ -56,6 +70,7 @@ void join(Executed& into, const Executed& e) {
   into.active_s += e.active_s;
   into.moving_s += e.moving_s;
   into.gap_s += e.gap_s;
+  into.cut_off = into.cut_off || e.cut_off;
   into.end_s = e.end_s;
   into.last_log_line = e.last_log_line;
   if (into.first_line == 0) into.first_line = e.first_line;
@@ -71,6 +86,17 @@ void join(Executed& into, const Executed& e) {
     }
   }
   into.events.insert(into.events.end(), e.events.begin(), e.events.end());
+}
+
+// Whether the log ends within the step: what is shown of it is no whole step, however much that is. A log
+// that shows the last line of the step in the program shows all of it.
+bool ends_within(const Executed& e, const ProgramMarks* marks) {
+  if (!e.cut_off) return false;
+  if (marks == nullptr || e.last_line == 0) return true;
+  for (std::size_t i = 0; i < marks->marks.size(); ++i) {
+    if (marks->marks[i].id == e.workingstep) return e.last_line < marks->last_line(i);
+  }
+  return true;
 }
 
 // Why a step's log does not show all of it.
@@ -156,6 +182,11 @@ Status match(ProgramMarks& marks, const model::Plan& plan, const std::string& fi
   };
   if (marks.marks.empty()) return wrong(0, "there is no marker of a workingstep in the program");
   const std::vector<std::string> ids = model::step_ids(plan);
+  const auto tool_of = [&](std::size_t place) {
+    const model::Cutter* cutter =
+        place < plan.steps.size() ? model::find_cutter(plan, plan.steps[place].cutter_id) : nullptr;
+    return cutter == nullptr ? 0 : cutter->pocket;
+  };
   for (ProgramMark& m : marks.marks) {
     if (m.n < 1 || static_cast<std::size_t>(m.n) > ids.size()) {
       return wrong(m.line, fmt::format("the plan has no step {}", m.n));
@@ -164,6 +195,11 @@ Status match(ProgramMarks& marks, const model::Plan& plan, const std::string& fi
     if (m.id != id && m.id != "fnv1a:" + hex64(fnv1a(id))) {
       return wrong(m.line, "step " + std::to_string(m.n) + " is '" + m.id.substr(0, 40) + "', in the plan '" +
                                id.substr(0, 40) + "'");
+    }
+    const int tool = tool_of(static_cast<std::size_t>(m.n - 1));
+    if (m.tool > 0 && tool > 0 && m.tool != tool) {
+      return wrong(m.line, fmt::format("step {} '{}' is cut with T{}, in the plan with T{}", m.n,
+                                       id.substr(0, 40), m.tool, tool));
     }
     m.id = id;
   }
@@ -178,6 +214,7 @@ std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Execut
   for (const Step& s : steps) {
     if (s.is_for(from.part)) by_id[s.id] = &s;
   }
+  const auto several = names_of_several(by_id, executed);
   // By run and place among the steps: their order is the order of the cases.
   std::map<std::pair<int, const Step*>, Executed> whole;
   for (const Executed& e : executed) {
@@ -186,6 +223,10 @@ std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Execut
     if (!e.workingstep.empty()) {
       const auto at = by_id.find(e.workingstep);
       if (at != by_id.end()) step = at->second;
+      if (several.contains({e.run, e.workingstep})) {
+        step = nullptr;
+        why = " is a name of several steps, which the log does not tell apart (name, name~2)";
+      }
     } else if (const auto at = by_tool.find(e.tool); at != by_tool.end()) {
       step = at->second;
       if (others.contains(e.run)) {
@@ -207,6 +248,14 @@ std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Execut
   }
   std::vector<Case> out;
   for (const auto& [key, e] : whole) {
+    if (ends_within(e, marks)) {
+      Diagnostic d =
+          left_out(from, e.last_log_line, "the log ends within it: it makes no case", e.workingstep);
+      d.severity = Severity::kWarning;
+      d.hint = "import a log that goes on until the program ends or the machine stands still";
+      job.report(std::move(d));
+      continue;
+    }
     if (const auto why = in_part(e, marks)) {
       job.report(left_out(from, e.first_log_line, *why + ": it makes no case", e.workingstep));
       continue;

@@ -26,7 +26,7 @@ struct LogFrom {
 inline constexpr int kSummedUp = 0;
 
 /// Gives the markers of a program the ids that the plan has. Fails LOG-PROGRAM when the program has no
-/// markers, or those of another plan.
+/// markers, or those of another plan: other ids or tools.
 [[nodiscard]] Status match(ProgramMarks& marks, const model::Plan& plan, const std::string& file);
 
 /// A case of each step that the log shows whole, with its observed figures: executed time (moving: waits for
@@ -37,10 +37,10 @@ inline constexpr int kSummedUp = 0;
 /// Where a step states no speed or feed, those that held longest are its own. Where it has a length of path
 /// and predicts no time, the length over that feed is what was predicted.
 ///
-/// Told as notes (LOG-STEP) and left out: what belongs to no step, or to one of several; steps that are shown
-/// in part only (the log begins or ends within, or has gaps of more than 2 % of the time: default,
-/// unsourced); a run without a named step that shows fewer than half of the tools: it is one of another
-/// program, or was broken off.
+/// Told as notes (LOG-STEP), as a warning where the log ends within a step (`Executed::cut_off`), and left
+/// out: what belongs to no step, or to one of several; steps that are shown in part only (the log begins or
+/// ends within, or has gaps of more than 2 % of the time: default, unsourced); a run without a named step
+/// that shows fewer than half of the tools: it is one of another program, or was broken off.
 [[nodiscard]] std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Executed>& executed,
                                          const ProgramMarks* marks, const LogFrom& from, Job& job);
 

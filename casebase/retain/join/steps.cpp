@@ -61,6 +61,17 @@ tl::unexpected<Diagnostic> wrong(const std::string& file, std::uint64_t line, st
                                  "tool, characteristics, parts"});
 }
 
+// Whether there is a part that both are for.
+bool meet(const Step& a, const Step& b) {
+  if (a.parts.empty() || b.parts.empty()) return true;
+  for (const PartRange& x : a.parts) {
+    for (const PartRange& y : b.parts) {
+      if (x.first <= y.last && y.first <= x.last) return true;
+    }
+  }
+  return false;
+}
+
 std::size_t place_of(const std::vector<std::string>& head, std::string_view name) {
   return static_cast<std::size_t>(std::find(head.begin(), head.end(), name) - head.begin());
 }
@@ -176,6 +187,11 @@ Result<std::vector<Step>> read_sheet(std::string_view text, const std::string& f
       if (!range) return wrong(file, row.line, "'" + word.substr(0, 40) + "' is no part", "\"1-9 20\"");
       step.parts.push_back(*range);
     }
+    const auto same =
+        std::find_if(out.begin(), out.end(), [&](const Step& s) { return s.id == step.id && meet(s, step); });
+    if (same != out.end())
+      return wrong(file, row.line, "two steps of one part are called '" + step.id.substr(0, 40) + "'",
+                   "a name of its own, or other parts");
     out.push_back(std::move(step));
   }
   return out;

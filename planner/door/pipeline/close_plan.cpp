@@ -11,6 +11,7 @@
 #include "planner/making/piece/corner_rests.h"
 #include "planner/making/piece/raw_piece_limits.h"
 #include "planner/making/step/record/expected_by_cases.h"
+#include "planner/making/step/record/other_classes.h"
 #include "planner/making/step/record/worn_edges.h"
 #include "planner/model/plan/decision/reopen_all.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -148,6 +149,7 @@ Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Req
     const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
     share_among_sisters(plan, asked.inputs.library, job);
     step::tell_edges(plan, asked.inputs.cases.get(), job);
+    step::tell_other_classes(plan, asked.inputs.cases.get(), job);
     given::state_machine_needs(plan);
     plan.provenance = piece::settled_corner_rests(piece, drafts.steps, job);
     piece::tell_corners(piece, drafts.steps, job);

@@ -358,6 +358,16 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   if (o.cases) {
     auto base = casebase::CaseBase::open(*o.cases, job);
     if (!base) return tl::unexpected(base.error());
+    if (!base->whole()) {
+      job.report({.code = "CASE-LOST",
+                  .severity = Severity::kWarning,
+                  .message =
+                      "cases of it were altered or are gone: what went well raises no value, lowers no "
+                      "force and makes no life longer; what failed still binds, and edges may be worn "
+                      "more than is told",
+                  .file = casebase::name_of(*o.cases),
+                  .hint = "restore it from a copy, or plan without it"});
+    }
     in.cases = std::make_shared<const casebase::CaseBase>(*std::move(base));
   }
   if (o.cache) {

@@ -215,6 +215,23 @@ TEST(Advice, LowersWhatTheFailureIsLaidOn) {
   EXPECT_LT(thinner.start.ap_mm, 8.0);
 }
 
+TEST(AdvicePropertyOfLost, WhereCasesAreLostNoValueIsHigher) {
+  std::mt19937 random(4);
+  for (int i = 0; i < 500; ++i) {
+    std::vector<Evidence> near;
+    for (auto n = random() % 12; n > 0; --n) {
+      const Verdict verdict = random() % 2 == 0 ? Verdict::kGood : Verdict::kBad;
+      near.push_back(cut(verdict, 0.5 + 0.1 * static_cast<double>(random() % 10)));
+    }
+    const Values all = advise(near, kTable).start;
+    for (Evidence& e : near) e.raises = false;
+    const Values left = advise(near, kTable).start;
+    EXPECT_LE(left.vc_m_min, all.vc_m_min) << i;
+    EXPECT_LE(left.fz_mm, all.fz_mm) << i;
+    EXPECT_LE(left.vc_m_min, kTable.vc_m_min) << i;
+  }
+}
+
 TEST(AdvicePropertyOfSuccess, FallsWhereAnyValueRises) {
   std::mt19937 random(static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()) + 1U);
   std::uniform_real_distribution<double> share(0.3, 2.0), away(0.0, 0.5);

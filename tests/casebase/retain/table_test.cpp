@@ -109,6 +109,23 @@ TEST(Splitter, KeepsAnEventWhereALimitIsExceededForLongEnough) {
   EXPECT_EQ(split_table(kLog, options).steps[0].events.size(), 1U);
 }
 
+TEST(Splitter, KnowsAStepThatTheLogEndsWithin) {
+  const auto cut_off = [](const std::string& rows, const std::string& head) {
+    const Split s = split_table(head + rows);
+    return s.steps.empty() ? std::optional<bool>() : s.steps.back().cut_off;
+  };
+  const std::string fed = "time_s,tool,feed_mm_min\n", placed = "time_s,tool,x,y,z\n",
+                    run = "time_s,tool,feed_mm_min,running\n";
+  EXPECT_EQ(cut_off("0,1,100\n1,1,100\n", fed), true);
+  EXPECT_EQ(cut_off("0,1,100\n1,1,0\n", fed), false);
+  EXPECT_EQ(cut_off("0,1,100\n1,2,100\n", fed), true);  // of the second tool there is one reading
+  EXPECT_EQ(cut_off("0,1,0,0,0\n1,1,5,0,0\n", placed), true);
+  EXPECT_EQ(cut_off("0,1,0,0,0\n1,1,5,0,0\n2,1,5,0,0\n", placed), false);
+  // Where the log says whether the program runs, it stands still within a step, too.
+  EXPECT_EQ(cut_off("0,1,100,1\n1,1,0,1\n", run), true);
+  EXPECT_EQ(cut_off("0,1,100,1\n1,1,0,0\n", run), false);
+}
+
 TEST(Splitter, CountsTimeWithoutReadingsWhileMovingAsAGap) {
   const Split s = split_table("time_s,tool,feed_mm_min\n0,1,100\n1,1,100\n61,1,100\n62,1,0\n500,1,0\n");
   EXPECT_DOUBLE_EQ(s.steps.at(0).gap_s, 60.0);

@@ -253,6 +253,8 @@ TEST(CaseStore, NoticesThatRowsAreGone) {
     auto base = CaseBase::open(folder.file(), job);
     ASSERT_TRUE(base.has_value());
     EXPECT_NE(job.count(Severity::kWarning), 0u);
+    EXPECT_FALSE(base->whole());
+    EXPECT_EQ(base->cases().size(), 1u);  // the one behind a gap was sealed with its number
     EXPECT_EQ(base->add(sample(30.0)).error().code, "CASE-DAMAGED");
   }
 }

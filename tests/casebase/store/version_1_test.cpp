@@ -76,6 +76,7 @@ TEST(CaseStoreVersion1, LeavesOutAnAlteredRowAndIsNotTurnedIntoVersion3) {
     auto base = CaseBase::open(path, job).value();
     EXPECT_EQ(base.size(), 1u) << change;
     EXPECT_NE(job.count(Severity::kWarning), 0u);
+    EXPECT_FALSE(base.whole());
     EXPECT_EQ(base.add(sample(30.0)).error().code, "CASE-DAMAGED");
   }
 }

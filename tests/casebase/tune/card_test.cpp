@@ -114,6 +114,25 @@ TEST(CardCorrections, OfTwoEdgesAreToldAndNotTaken) {
   EXPECT_EQ(found.front().why_not, "measured on 2 edges, and 3 are needed");
 }
 
+TEST(CardCorrections, WhileCasesAreLostNothingIsLoweredOrNarrowedAndAnyEdgeRaises) {
+  const auto left = [](int count, double factor) {
+    return card_corrections(
+        cuts(count, factor), card(), [](model::Substrate) { return kSpread; }, Given::kSome);
+  };
+  const auto lower = left(18, 0.8);
+  ASSERT_EQ(lower.size(), 1U);
+  EXPECT_FALSE(lower.front().taken());
+  EXPECT_NE(lower.front().why_not.find("lost"), std::string::npos);
+  // Six cuts are of two edges: too few where all is there.
+  EXPECT_FALSE(corrections(cuts(6, 1.6)).front().taken());
+  const auto higher = left(6, 1.6);
+  ASSERT_EQ(higher.size(), 1U);
+  EXPECT_TRUE(higher.front().taken());
+  EXPECT_GT(higher.front().factor, 1.3);
+  EXPECT_GE(left(18, 1.6).front().spread, kSpread);
+  EXPECT_LT(corrections(cuts(18, 1.6)).front().spread, kSpread);
+}
+
 TEST(CardCorrections, AForceTenTimesTooLowIsNotBelievedAndOneTooHighIs) {
   EXPECT_FALSE(corrections(cuts(30, 0.1)).front().taken());
   const auto high = corrections(cuts(30, 10.0));

@@ -95,9 +95,12 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
                              const std::string& machine_id) {
   CorrectedCard out{.of = model::without_cases(card), .card = {}, .rows = {}, .told = {}};
   out.card = out.of;
-  const auto heard = cases.measured_in(casebase::material_group_of(out.of), machine_id, kMostHeard);
+  const std::string group = casebase::material_group_of(out.of);
+  const auto heard = cases.measured_in(group, machine_id, kMostHeard);
+  const bool all = cases.whole() && heard.size() == cases.state_of_measured(group, machine_id, {}).cases;
   const auto spread_of = [&](model::Substrate s) { return mechanics::force_margin(out.of, s).spread; };
-  for (const tune::CardCorrection& c : tune::card_corrections(heard, out.of, spread_of)) {
+  for (const tune::CardCorrection& c :
+       tune::card_corrections(heard, out.of, spread_of, all ? tune::Given::kAll : tune::Given::kSome)) {
     const std::string far = c.far_words();
     if (!far.empty())
       out.told.push_back({.code = "CASE-FEED",
@@ -112,12 +115,13 @@ CorrectedCard corrected_card(const casebase::CaseBase& cases, const model::WorkM
            .severity = c.beyond.empty() && c.cut_short.empty() ? Severity::kNote : Severity::kWarning,
            .message = c.words() + "; by cases " + c.named()});
     } else {
-      const bool few = c.edges < tune::kLeastEdges && c.beyond.empty();
+      const bool few = all && c.edges < tune::kLeastEdges && c.beyond.empty();
       out.told.push_back({.code = "CASE-MODEL",
                           .severity = few ? Severity::kNote : Severity::kWarning,
                           .message = c.words() + "; not taken: " + c.why_not});
     }
   }
+  if (!all) return out;  // what the base says of itself is not all that it was given
   if (std::string state = state_of_card(cases, out.card, machine_id, heard.size()); !state.empty())
     out.rows.push_back({std::string(kCardByCases), std::move(state),
                         counted(heard.size(), "measured case", "measured cases")});

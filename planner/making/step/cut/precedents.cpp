@@ -58,7 +58,7 @@ void to_table_terms(std::vector<Evidence>& near, const optimise::CutQuestion& q,
 struct Near {
   casebase::Question question;
   std::vector<casebase::Neighbour> cases;
-  std::vector<Evidence> told;
+  std::vector<Evidence> told;  ///< of those, and behind them of what is lost
 };
 
 Result<Near> near_of(const PlanSoFar& p, const StepDraft& step, const model::FeatureShape& shape,
@@ -68,8 +68,8 @@ Result<Near> near_of(const PlanSoFar& p, const StepDraft& step, const model::Fea
       casebase::question_of(p.plan, of_step(p.plan.model, step), step.cutter, casebase::sizes_of(shape));
   auto cases = casebase::cases_near(*p.wishes.cases, out.question);
   if (!cases) return tl::unexpected(cases.error());
-  out.cases = *std::move(cases);
-  out.told = casebase::evidence_of(out.cases, out.question);
+  out.told = casebase::evidence_of(*cases, out.question);
+  out.cases = std::move(cases->found);
   to_table_terms(out.told, q, table_fz_mm);
   return out;
 }
@@ -232,7 +232,7 @@ Experience experience_with(const casebase::CaseBase& cases, const model::Plan& p
   to_table_terms(near, q, candidate.fz_mm);
   if (near.empty() || !(candidate.vc_m_min > 0.0) || !(candidate.fz_mm > 0.0)) return out;
   const Advice advice = casebase::advise(std::move(near), {candidate.vc_m_min, candidate.fz_mm, 0.0, 0.0});
-  out.good = advice.good;
+  out.good = advice.careful ? 0 : advice.good;
   out.bad = advice.bad;
   out.success = advice.success_asked;
   if (out.good + out.bad == 0) return out;

@@ -157,6 +157,104 @@ TEST(Import, RunOfAnotherProgramWithAToolThatIsLeftMakesNoCase) {
   EXPECT_EQ(cases->back().from.time_utc, "2017-02-01T10:00:12Z");
 }
 
+TEST(Import, NameOfTwoStepsThatTheLogDoesNotTellApartMakesNoCase) {
+  std::vector<Step> steps = two_steps();
+  steps.push_back(steps.front());
+  steps.back().id = steps.back().planned.from.workingstep = "DRILL~2";
+  const auto cases = [&](const std::string& second) {
+    Job job;
+    std::istringstream in(
+        "time_s,workingstep,feed_mm_min,spindle_rpm\n0,DRILL,600,3000\n10,BORE,300,3000\n20," + second +
+        ",600,3000\n29,,0,0\n");
+    const auto out = import_log(in, LogFormat::kCsv, steps, {.part = "1", .file = "log"}, {}, job);
+    EXPECT_TRUE(out) << to_text(out.error());
+    return out ? out->size() : 0;
+  };
+  EXPECT_EQ(cases("DRILL~2"), 3U);
+  EXPECT_EQ(cases("DRILL"), 1U);
+}
+
+// A complete log in each format; `cut` rows of it are left at its beginning.
+struct Log {
+  LogFormat format;
+  std::string head;
+  std::vector<std::string> rows;
+};
+const Log kWholeLogs[] = {
+    {LogFormat::kCsv,
+     "time_s,tool,feed_mm_min,spindle_rpm\n",
+     {"0,1,600,3000\n", "8,1,600,3000\n", "10,2,300,3000\n", "18,2,300,3000\n", "25,2,300,3000\n",
+      "32,2,0,3000\n"}},
+    {LogFormat::kTrace,
+     "2017-02-01T10:00:00Z|execution|ACTIVE|tool|1|spindle_speed|3000|feed_rate|10\n",
+     {"2017-02-01T10:00:08Z|feed_rate|11\n", "2017-02-01T10:00:10Z|tool|2\n",
+      "2017-02-01T10:00:18Z|feed_rate|5\n", "2017-02-01T10:00:25Z|feed_rate|0\n",
+      "2017-02-01T10:00:26Z|feed_rate|6\n", "2017-02-01T10:00:32Z|execution|STOPPED\n"}},
+    {LogFormat::kLinuxcnc,
+     "",
+     {"0 0 0 0 10 1 3000\n", "8000 50 0 0 10 1 3000\n", "10000 60 0 0 5 2 3000\n", "18000 70 0 0 5 2 3000\n",
+      "25000 80 0 0 5 2 3000\n", "32000 80 0 0 0 2 3000\n"}}};
+
+Result<std::vector<Case>> import_rows(const Log& log, std::size_t rows, Job& job) {
+  std::string text = log.head;
+  for (std::size_t i = 0; i < rows; ++i) text += log.rows[i];
+  ImportOptions options;
+  if (log.format == LogFormat::kLinuxcnc)
+    options.columns = {"x", "y", "z", "feed_mm_s", "tool", "spindle_rpm"};
+  return import(text, log.format, options, job);
+}
+
+TEST(Import, StepThatTheLogEndsWithinMakesNoCaseAndTheStepsBeforeItDo) {
+  for (const Log& log : kWholeLogs) {
+    const std::size_t all = log.rows.size(), second = log.format == LogFormat::kTrace ? 2 : 3;
+    Job whole;
+    const auto both = import_rows(log, all, whole);
+    ASSERT_TRUE(both) << to_text(both.error());
+    ASSERT_EQ(both->size(), 2U) << log.head;
+    EXPECT_EQ(whole.count(Severity::kWarning), 0U) << log.head;
+    for (std::size_t rows = second; rows < all; ++rows) {
+      Job job;
+      const auto cases = import_rows(log, rows, job);
+      ASSERT_TRUE(cases) << log.head << rows;
+      ASSERT_EQ(cases->size(), 1U) << log.head << rows;
+      EXPECT_EQ(cases->front().from.workingstep, "DRILL");
+      EXPECT_EQ(*cases, std::vector<Case>{both->front()}) << log.head << rows;
+      ASSERT_EQ(job.count(Severity::kWarning), 1U) << log.head << rows;
+      for (const Diagnostic& d : job.diagnostics()) {
+        if (d.severity != Severity::kWarning) continue;
+        EXPECT_EQ(d.code, "LOG-STEP");
+        EXPECT_EQ(d.path, "BORE");
+        EXPECT_EQ(d.line, rows + (log.head.empty() ? 0 : 1)) << log.head;
+        EXPECT_NE(d.message.find("the log ends within it"), std::string::npos);
+      }
+    }
+  }
+}
+
+TEST(Import, LogThatEndsWithinItsFirstStepIsRefused) {
+  for (const Log& log : kWholeLogs) {
+    Job job;
+    const auto none = import_rows(log, log.format == LogFormat::kTrace ? 1 : 2, job);
+    ASSERT_FALSE(none) << log.head;
+    EXPECT_EQ(none.error().code, "LOG-JOIN");
+    EXPECT_EQ(job.count(Severity::kWarning), 1U);
+  }
+}
+
+TEST(Import, StepThatIsShownToItsLastLineIsWholeThoughTheMachineMovesThen) {
+  const ProgramMarks marks = program_marks(
+      "(CAPSTAN STEP id=\"DRILL\" n=1 tool=1 setup=1)\nG1 X1\nG1 X2\n"
+      "(CAPSTAN STEP id=\"BORE\" n=2 tool=2 setup=1)\nG1 X3\nG1 X4\n");
+  const std::string head = "time_s,line,feed_mm_min,spindle_rpm\n0,2,600,3000\n8,3,600,3000\n10,5,300,3000\n";
+  for (const auto& [more, steps] :
+       {std::pair("18,6,300,3000\n25,6,300,3000\n", 2U), std::pair("18,5,300,3000\n25,5,300,3000\n", 1U)}) {
+    Job job;
+    const auto cases = import(head + more, LogFormat::kCsv, {.marks = &marks}, job);
+    ASSERT_TRUE(cases) << to_text(cases.error());
+    EXPECT_EQ(cases->size(), steps);
+  }
+}
+
 TEST(Import, LogThatShowsNoStepIsRefused) {
   Job job;
   const auto none =

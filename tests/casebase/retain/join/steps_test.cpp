@@ -27,6 +27,13 @@ TEST(Sheet, StepIsForThePartsThatItNames) {
   for (const char* part : {"0", "4", "8", "", "x"}) EXPECT_FALSE(steps->front().is_for(part)) << part;
 }
 
+TEST(Sheet, OneNameMayStandForStepsOfDifferentParts) {
+  const auto steps =
+      read_sheet(kHead + kRow + "6,4-6,BORE,DRILLING,N/aluminium,carbide/endmill,mill,4,2\n", "sheet.csv");
+  ASSERT_TRUE(steps) << to_text(steps.error());
+  EXPECT_EQ(steps->size(), 2U);
+}
+
 TEST(Sheet, FaultNamesFileAndLine) {
   const std::pair<std::string, std::uint64_t> wrong[] = {
       {"", 1U},
@@ -37,6 +44,8 @@ TEST(Sheet, FaultNamesFileAndLine) {
       {kHead + kRow + "5,3-1,BORE,DRILLING,N/aluminium,carbide/endmill,mill,4,2\n", 3U},
       {kHead + kRow + "5,,,DRILLING,N/aluminium,carbide/endmill,mill,4,2\n", 3U},
       {kHead + kRow + "5,,BORE,no keyword,N/aluminium,carbide/endmill,mill,4,2\n", 3U},
+      {kHead + kRow + "6,3-4,BORE,DRILLING,N/aluminium,carbide/endmill,mill,4,2\n", 3U},
+      {kHead + kRow + "6,,BORE,DRILLING,N/aluminium,carbide/endmill,mill,4,2\n", 3U},
       {"colour," + kHead + "red," + kRow, 1U}};
   for (const auto& [text, line] : wrong) {
     const auto steps = read_sheet(text, "sheet.csv");

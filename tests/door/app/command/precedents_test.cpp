@@ -155,14 +155,32 @@ TEST_F(Precedents, PoisonThatIsRepeatedStaysBelowTheBoundAndTheCheck) {
 
 TEST_F(Precedents, ARowThatWasAlteredIsNamedByPlanning) {
   add("shop.db", cut(3, Verdict::kBad));
+  const std::string whole = program("shop.db");
+  ASSERT_NE(whole, plain());
   casebase::tamper((folder_ / "shop.db").string(), "UPDATE capstan_body SET body = x'00'");
-  EXPECT_EQ(program("shop.db"), plain());
+  // Their heads say that they failed, and they were cut by the table's values.
+  EXPECT_EQ(program("shop.db"), whole);
+  EXPECT_THAT(explained(), HasSubstr("cases of the base are lost"));
   EXPECT_THAT(last_.err, HasSubstr("it was altered [CASE-ROW]"));
   std::size_t told = 0;
   for (std::size_t at = last_.err.find("is left out"); at != std::string::npos;
        at = last_.err.find("is left out", at + 1))
     ++told;
   EXPECT_EQ(told, 3 * planned_.size());  // each once
+}
+
+TEST_F(Precedents, NothingIsRaisedWhileARowIsGone) {
+  add("shop.db", usual_and_faster({"E1", "E2", "E2"}));
+  ASSERT_NE(program("shop.db"), plain());
+  casebase::tamper((folder_ / "shop.db").string(), "DELETE FROM capstan_head WHERE number = 1");
+  EXPECT_EQ(program("shop.db"), plain());
+  EXPECT_THAT(last_.err, HasSubstr("what went well raises no value"));
+  EXPECT_THAT(last_.err, HasSubstr("[CASE-LOST]"));
+  EXPECT_THAT(explained(), HasSubstr("those that went well raise nothing"));
+  const Ran tuned = run("cases tune shop.db out.json");
+  EXPECT_EQ(tuned.code, 4) << tuned.err;
+  EXPECT_EQ(tuned.out, "");
+  EXPECT_THAT(tuned.err, HasSubstr("nothing is proposed"));
 }
 
 TEST_F(Precedents, FailedCutsOfADryShopSayLessOfAFloodedOne) {
@@ -202,6 +220,22 @@ TEST_F(Precedents, ACaseOfAnotherMachineCountsNothing) {
   EXPECT_THAT(last_.err, HasSubstr("without a case within a distance of 0.5: there the table holds"));
   EXPECT_THAT(last_.err, Not(HasSubstr("CASE-BAD-NEAR")));
   EXPECT_THAT(explained(), Not(HasSubstr("case base")));
+  const std::string all = std::to_string(13 * planned_.size());
+  EXPECT_THAT(last_.err, HasSubstr(all + " of " + all + " cases say nothing of this plan: " + all +
+                                   " of another machine than 'generic_vmc'"));
+}
+
+TEST_F(Precedents, CasesOfAnotherMaterialOrToolClassAreToldByNumber) {
+  auto cases = cut(2, Verdict::kBad, [](Case& c) { c.asked.material_group = "N/wrought_aluminium"; });
+  const auto other = cut(1, Verdict::kBad, [](Case& c) { c.asked.tool_class = "carbide/twist_drill"; });
+  cases.insert(cases.end(), other.begin(), other.end());
+  add("other.db", cases);
+  EXPECT_EQ(program("other.db"), plain());
+  const std::size_t n = planned_.size();
+  EXPECT_THAT(last_.err, HasSubstr(std::to_string(3 * n) + " of " + std::to_string(3 * n) +
+                                   " cases say nothing of this plan: " + std::to_string(2 * n) +
+                                   " of another material than 'P/"));
+  EXPECT_THAT(last_.err, HasSubstr(std::to_string(n) + " of classes of tools that it does not use"));
 }
 
 TEST_F(Precedents, AThousandCopiesOfOneFailureAreOne) {

@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "planner/door/app/command/reference.h"
 #include "planner/physics/mechanics/loads/margin.h"
 #include "tests/door/app/command/command.h"
 #include "tests/door/app/plans.h"
@@ -99,6 +100,20 @@ TEST_F(Readme, ShowsWhatTheProgramSays) {
     EXPECT_EQ(missing(printed, s.lines), "")
         << (s.python ? "$ python3 " : "$ capstan ") << s.arguments << "\n"
         << r.err << r.out;
+  }
+}
+
+TEST(ReadmeSessions, ShowEachCommandOfTheCaseBase) {
+  const auto shown = sessions(readme());
+  const auto all = command_reference().commands;
+  const auto cases = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.name == "cases"; });
+  ASSERT_NE(cases, all.end());
+  EXPECT_GE(cases->commands.size(), 11U);
+  for (const CommandText& c : cases->commands) {
+    const std::string begins = "cases " + c.name + " ";
+    EXPECT_TRUE(std::any_of(shown.begin(), shown.end(),
+                            [&](const Shown& s) { return s.arguments.starts_with(begins) && !s.lines.empty(); }))
+        << begins;
   }
 }
 

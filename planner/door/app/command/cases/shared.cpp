@@ -9,8 +9,13 @@ namespace capstan::app {
 
 using casebase::Field;
 
-void report_faults(Session& s, const casebase::CaseBase& base) {
-  for (Diagnostic& d : base.take_faults()) s.job.report(std::move(d));
+bool report_faults(Session& s, const casebase::CaseBase& base) {
+  bool whole = base.whole();
+  for (Diagnostic& d : base.take_faults()) {
+    whole = whole && d.code != "CASE-ROW";
+    s.job.report(std::move(d));
+  }
+  return whole;
 }
 
 std::string json_text(std::string_view text) {

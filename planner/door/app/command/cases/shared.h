@@ -12,8 +12,9 @@
 /// What the verbs of `capstan cases` have in common.
 namespace capstan::app {
 
-/// Reports what was found altered or gone in a base.
-void report_faults(Session& s, const casebase::CaseBase& base);
+/// Reports what was found altered or gone in a base; whether all of it is what was stored, as far as it was
+/// read.
+bool report_faults(Session& s, const casebase::CaseBase& base);
 /// Whether a case holds all words of a filter: each is its origin, its verdict, or a part of a category, of
 /// its source, part, workingstep or tool.
 [[nodiscard]] bool wanted(const casebase::Case& c, const std::vector<std::string>& words);

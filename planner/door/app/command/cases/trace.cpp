@@ -38,6 +38,11 @@ bool is_of(const Case& c, const PlannedSteps& planned, const std::string& hash) 
          });
 }
 
+bool names_step(const PlannedSteps& planned, const std::string& name) {
+  return std::any_of(planned.steps.begin(), planned.steps.end(),
+                     [&](const retain::Step& s) { return s.id == name; });
+}
+
 std::string lines_text(const Lines& lines) {
   return lines.first == 0 ? std::string("-") : std::to_string(lines.first) + "-" + std::to_string(lines.last);
 }
@@ -165,14 +170,23 @@ int run_cases_trace(Session& s) {
   report_faults(s, *base);
   const std::string hash = planned->plan ? casebase::plan_hash_of(*planned->plan) : std::string();
   const std::vector<std::string>& parts = s.options.log.parts;
+  std::size_t of_another = 0;  // cases of steps of these names that another plan was cut by
   std::vector<Traced> rows;
   for (const Case& c : cases) {
-    if (c.origin == casebase::Origin::kSimulated || !is_of(c, *planned, hash) || !wanted(c, s.options.words))
+    if (c.origin == casebase::Origin::kSimulated || !wanted(c, s.options.words)) continue;
+    if (!is_of(c, *planned, hash)) {
+      of_another +=
+          planned->plan && !c.from.plan_hash.empty() && names_step(*planned, c.from.workingstep) ? 1 : 0;
       continue;
+    }
     if (!parts.empty() && std::find(parts.begin(), parts.end(), c.from.part) == parts.end()) continue;
     const auto at = lines.find(c.from.workingstep);
     rows.push_back({&c, at == lines.end() ? Lines{} : at->second});
   }
+  if (of_another > 0)
+    s.job.note("CASE-PLAN", counted(of_another, "case", "cases") +
+                                " of steps of these names were cut by another plan than this one (" +
+                                hash.substr(0, 12) + "), and are not shown");
   // By part and time, then as the plan has the steps.
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < planned->steps.size(); ++i) place.emplace(planned->steps[i].id, i);

@@ -360,7 +360,16 @@ int run_cases_tune(Session& s) {
   const auto cards = tooling::shipped_materials();
   if (!cards) return s.end(cards.error(), kUnreadable);
   const std::vector<MaterialCorrections> materials = correct_models(*base, *cards);
-  report_faults(s, *base);
+  if (!report_faults(s, *base)) {
+    return s.end(
+        Diagnostic{.code = "CASE-LOST",
+                   .message =
+                       "cases of it were altered or are gone, and they may speak against what the others "
+                       "say: nothing is proposed",
+                   .file = casebase::name_of(*s.options.inputs.cases),
+                   .hint = "restore it from a copy, or export its cases into a new one"},
+        kImpossible);
+  }
   if (!s.options.outputs.empty()) {
     if (auto drawn = write_pictures(s.options.outputs.front(), steps, options, s.job); !drawn)
       return s.end(drawn.error(), kImpossible);

@@ -20,6 +20,7 @@
 #include "planner/model/nouns/executable.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/physics/motion/time.h"
+#include "tests/casebase/sample.h"
 #include "tests/door/app/command/command.h"
 #include "tests/support/corpus.h"
 
@@ -306,6 +307,31 @@ TEST_F(CaseModels, LargerForcesRaiseThoseOfThePlan) {
   }
   ASSERT_NE(changed, "");
   EXPECT_THAT(run("explain tuned.json '" + changed + "'").out, HasSubstr("not the plan without cases: "));
+}
+
+TEST_F(CaseModels, ForcesThatEdgesRaisedStayRaisedWhileARowIsGone) {
+  planned_with(cut(3, 1.6));
+  const double whole = plan("tuned.json").material.mechanistic.front().ktc_n_mm2;
+  const double card = plain_.material.mechanistic.front().ktc_n_mm2;
+  ASSERT_GT(whole, 1.4 * card);
+  // All rows of the third edge: two are left, which is too few where all is there.
+  const std::size_t rows = cut(3, 1.6).size(), one = rows / 3;
+  casebase::tamper((folder_ / "base.db").string(),
+                   "DELETE FROM capstan_head WHERE number > " + std::to_string(rows - one));
+  const Ran ran = run("plan '" + part() + "' --reopen all --cases base.db -o tuned.json");
+  ASSERT_LE(ran.code, 1) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("[CASE-LOST]"));
+  EXPECT_NEAR(plan("tuned.json").material.mechanistic.front().ktc_n_mm2, whole, 0.1 * card);
+}
+
+TEST_F(CaseModels, ForcesThatCasesLoweredAreTheCardsWhileARowIsGone) {
+  planned_with(cut(6, 0.8));
+  ASSERT_FALSE(plan("tuned.json").material == plain_.material);
+  casebase::tamper((folder_ / "base.db").string(), "DELETE FROM capstan_head WHERE number = 2");
+  const Ran ran = run("plan '" + part() + "' --reopen all --cases base.db -o tuned.json");
+  ASSERT_LE(ran.code, 1) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("nothing is lowered or narrowed while cases of the base are lost"));
+  EXPECT_EQ(plan("tuned.json").material, plain_.material);
 }
 
 TEST_F(CaseModels, TwoEdgesNarrowNothing) {
