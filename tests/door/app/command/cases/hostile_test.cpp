@@ -173,7 +173,7 @@ TEST_F(CasesHostile, TuneAndReportRefuseWhatIsNoBaseAndNoPlan) {
     EXPECT_EQ(slurp(folder_ / "none.db"), bytes);
   }
   ASSERT_EQ(run("cases add base.db cases.csv").code, 0);
-  for (const std::string bytes : {std::string(), kLog, std::string("{")}) {
+  for (const std::string& bytes : {std::string(), kLog, std::string("{")}) {
     put("plan.json", bytes);
     const Ran ran = run("cases tune base.db plan.json -o tuned.svg");
     EXPECT_EQ(ran.code, 3) << bytes << ran.err;
