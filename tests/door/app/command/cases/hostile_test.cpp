@@ -25,7 +25,8 @@ const std::string kLog = kLogHead + "0,1,600,3000\n10,2,0,3000\n12,2,300,3000\n2
 const std::string kMeasuredHead = "part,characteristic,type,nominal,tol_plus,tol_minus,value\n";
 const std::string kMeasured = kMeasuredHead + "7,DIAMETER5,Diameter,4,0.2,-0.2,4.1\n";
 const std::string kCasesHead =
-    "operation,material_group,tool_class,machine_class,origin,vc_m_min,fz_mm,source,cutter_diameter_mm,teeth\n";
+    "operation,material_group,tool_class,machine_class,origin,vc_m_min,fz_mm,source,cutter_diameter_mm,"
+    "teeth\n";
 const std::string kCase = "DRILLING,N/aluminium,carbide/twist_drill,mill,entered,90,0.1,book,10,2\n";
 const std::string kMark = "\xEF\xBB\xBF";
 
