@@ -25,8 +25,9 @@ const std::string kLog = kLogHead + "0,1,600,3000\n10,2,0,3000\n12,2,300,3000\n2
 const std::string kMeasuredHead = "part,characteristic,type,nominal,tol_plus,tol_minus,value\n";
 const std::string kMeasured = kMeasuredHead + "7,DIAMETER5,Diameter,4,0.2,-0.2,4.1\n";
 const std::string kCasesHead =
-    "operation,material_group,tool_class,machine_class,origin,vc_m_min,fz_mm,source,cutter_diameter_mm\n";
-const std::string kCase = "DRILLING,N/aluminium,carbide/twist_drill,mill,entered,90,0.1,book,10\n";
+    "operation,material_group,tool_class,machine_class,origin,vc_m_min,fz_mm,source,cutter_diameter_mm,"
+    "teeth\n";
+const std::string kCase = "DRILLING,N/aluminium,carbide/twist_drill,mill,entered,90,0.1,book,10,2\n";
 const std::string kMark = "\xEF\xBB\xBF";
 
 std::string windows(const std::string& text) {
@@ -125,10 +126,10 @@ TEST_F(CasesHostile, InspectionsAreRefusedWithOneMessage) {
 TEST_F(CasesHostile, CasesAreRefusedWithOneMessage) {
   for (const auto& [bytes, says] : std::vector<std::pair<std::string, std::string>>{
            {"", "cases.csv"},
-           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,nan,0.1,book,10\n", "'nan' is not"},
-           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,inf,0.1,book,10\n", "'inf' is not"},
-           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,1e308,0.1,book,10\n", "1e+308"},
-           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,-90,0.1,book,10\n", "-90"},
+           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,nan,0.1,book,10,2\n", "'nan' is not"},
+           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,inf,0.1,book,10,2\n", "'inf' is not"},
+           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,1e308,0.1,book,10,2\n", "1e+308"},
+           {kCasesHead + "DRILLING,N/a,carbide/twist_drill,mill,entered,-90,0.1,book,10,2\n", "-90"},
            {kCasesHead + kCase + "DRILLING,N/a,carbide/twist_drill,mill,entered,90\n", "fields instead of"},
            {"colour\nred\n", "the column 'colour' is unknown"}})
     refused("cases add base.db cases.csv", "cases.csv", bytes, says);
@@ -152,7 +153,7 @@ TEST_F(CasesHostile, ALogThatEndsWithinAStepKeepsTheStepsBeforeIt) {
   put("log.csv", kLogHead + "0,1,600,3000\n10,2,0,3000\n12,2,300,3000\n22,2,300,3000\n");
   const Ran ran = run(import());
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("log.csv:5: warning: the log ends within it: it makes no case (BORE)"));
+  EXPECT_THAT(ran.err, HasSubstr("log.csv:5: warning: BORE: the log ends within it: it makes no case"));
   EXPECT_THAT(ran.err, HasSubstr("1 log: 1 case, 1 of them new"));
   const std::string listed = run("cases list base.db").out;
   EXPECT_THAT(listed, HasSubstr("DRILLING"));
@@ -173,7 +174,7 @@ TEST_F(CasesHostile, TuneAndReportRefuseWhatIsNoBaseAndNoPlan) {
     EXPECT_EQ(slurp(folder_ / "none.db"), bytes);
   }
   ASSERT_EQ(run("cases add base.db cases.csv").code, 0);
-  for (const std::string bytes : {std::string(), kLog, std::string("{")}) {
+  for (const std::string& bytes : {std::string(), kLog, std::string("{")}) {
     put("plan.json", bytes);
     const Ran ran = run("cases tune base.db plan.json -o tuned.svg");
     EXPECT_EQ(ran.code, 3) << bytes << ran.err;
