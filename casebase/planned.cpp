@@ -218,18 +218,6 @@ void take_contact(double diameter_mm, Bound& b) {
   b.mean_chip_mm = b.fz_mm * (1.0 - cosine) / b.mean_contact_rad;
 }
 
-std::string strategy_of(const model::Plan& plan, model::AnyRef operation) {
-  const auto word = [](const auto* op) {
-    return op != nullptr && op->its_machining_strategy.set()
-               ? keyword(model::noun_type(model::AnyRef(op->its_machining_strategy).type).keyword)
-               : std::string();
-  };
-  std::string out = word(plan.model.get<model::Two5dMillingOperation>(operation));
-  if (out.empty()) out = word(plan.model.get<model::FreeformOperation>(operation));
-  if (out.empty()) out = word(plan.model.get<model::DrillingTypeOperation>(operation));
-  return out;
-}
-
 void take_allowances(const model::Plan& plan, model::AnyRef operation, Bound& b) {
   if (const auto* side = plan.model.get<model::SideMilling>(operation))
     b.allowance_side_mm = std::max(0.0, side->allowance_side.value_or(0.0));
@@ -245,6 +233,18 @@ void take_allowances(const model::Plan& plan, model::AnyRef operation, Bound& b)
 std::string digits(double v) { return fmt::format("{:.8e}", v + 0.0); }
 
 }  // namespace
+
+std::string strategy_of(const model::Plan& plan, model::AnyRef operation) {
+  const auto word = [](const auto* op) {
+    return op != nullptr && op->its_machining_strategy.set()
+               ? keyword(model::noun_type(model::AnyRef(op->its_machining_strategy).type).keyword)
+               : std::string();
+  };
+  std::string out = word(plan.model.get<model::Two5dMillingOperation>(operation));
+  if (out.empty()) out = word(plan.model.get<model::FreeformOperation>(operation));
+  if (out.empty()) out = word(plan.model.get<model::DrillingTypeOperation>(operation));
+  return out;
+}
 
 std::string plan_hash_of(const model::Plan& plan) {
   std::string text = "capstan plan 1\n" + plan.material.id + '\n' + plan.machine.id + '\n';

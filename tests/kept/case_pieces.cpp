@@ -61,7 +61,7 @@ void look_up(const std::string&) {
   for (int i = 0; i < 10'000; ++i) {
     const double* p = all.row(random() % cases::kPoints);
     const auto hits = index->nearest({std::vector<double>(p, p + cases::kDims), weight}, kNearest);
-    wanted(hits.size() == kNearest && hits.front().distance == 0.0, "a point is not its own neighbour");
+    wanted(hits.size() == kNearest && hits.front().distance2 == 0.0, "a point is not its own neighbour");
   }
 }
 

@@ -103,9 +103,11 @@ std::vector<Row> rows(const std::string& capstan, const std::string& own, const 
     out.push_back({name, {own, "--piece", name, plan}});
   const std::string base = scratch + "/cases.db";
   (void)taken_by(std::vector<std::string>{own, "--piece", "cases-fill", base});
-  for (const char* name : {"cases-open", "cases-add", "cases-question", "cases-look-up"})
-    out.push_back({name, {own, "--piece", name, base}});
-  if (!smoke) out.push_back({"cases-import", {own, "--piece", "cases-import", base}});
+  for (const char* name : {"cases-open", "cases-add"}) out.push_back({name, {own, "--piece", name, base}});
+  if (!smoke) {
+    for (const char* name : {"cases-question", "cases-look-up", "cases-import"})
+      out.push_back({name, {own, "--piece", name, base}});
+  }
   if (!smoke)
     out.push_back(
         {"plan-surface", command({"plan", examples + "/surface.stl", "--material", "EN AW-6061", "-o",

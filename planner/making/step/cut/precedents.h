@@ -68,8 +68,8 @@ struct Experience {
                                          const casebase::OfStep& of, const model::FeatureShape& shape,
                                          const model::Candidate& candidate);
 
-/// Ranks cutters by what was cut with them, too; says so in their reasons. Where failed cuts put the
-/// first behind another it is among the rejected, too (kFirstFailed). `cases` may be null.
+/// Ranks cutters by what was cut with them, too; says so in their reasons. Where cases put the first behind
+/// another it is among the rejected, too; one that failed by kFirstFailed. `cases` may be null.
 void weigh_by_cases(const casebase::CaseBase* cases, const model::Plan& plan, const casebase::OfStep& of,
                     const model::FeatureShape& shape, model::Selection& selection);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casebase/casebase.h"
+#include "casebase/planned.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/step/cut/strategies.h"
 #include "planner/model/nouns/all.h"
@@ -108,9 +109,8 @@ void tell_behind(const model::Plan& plan, const StepDraft& step, CaseTally& told
 /// rules'.
 void tell_strategies(model::Plan& plan, const PlanSoFar& p, const StepDraft& step, const PathWithCut& made,
                      Job& job) {
-  const auto as_case = casebase::case_of(plan, plan.steps.back());
-  if (!as_case || as_case->bound.strategy.empty()) return;
-  const std::string& taken = as_case->bound.strategy;
+  const std::string taken = casebase::strategy_of(plan, step.operation);
+  if (taken.empty()) return;
   const std::vector<OfStrategy> near =
       strategies_near(p, step, step.shapes.front(), without_cases(*made.cases, made.question));
   if (near.empty()) return;

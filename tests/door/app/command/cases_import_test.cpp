@@ -74,7 +74,7 @@ TEST_F(CasesImport, TraceWritesAllOutputsOrNone) {
   nothing_written("-o b.db -o trace.txt", 2, "USAGE-OUTPUT");
   nothing_written("-o b.db -o c.db", 2, "two case bases");
   nothing_written("-o b.db -o none/b.csv", 2, "FILE-WRITE");
-  nothing_written("-o b.csv -o oracle://shop:secret@host/cases", 5, "CASE-URI");
+  nothing_written("-o b.csv -o oracle://shop:secret@host/cases", 4, "CASE-URI");
   EXPECT_THAT(run("cases trace base.db sheet.csv -o oracle://shop:secret@host/cases").err,
               Not(HasSubstr("secret")));
   // A case base that is none takes nothing; what was there stays.
