@@ -1,11 +1,8 @@
 #pragma once
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <pwd.h>
 #include <sys/prctl.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,21 +21,8 @@
 
 namespace capstan::casebase {
 
-/// A port of 127.0.0.1 that nobody listens at; 0 where there is no loopback.
-inline int free_port() {
-  sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof at;
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
-  const bool bound = s >= 0 && bind(s, reinterpret_cast<sockaddr*>(&at), size) == 0 &&
-                     getsockname(s, reinterpret_cast<sockaddr*>(&at), &size) == 0;
-  if (s >= 0) close(s);
-  return bound ? ntohs(at.sin_port) : 0;
-}
-
-/// A server of PostgreSQL of its own: a private folder with a socket, and a port of 127.0.0.1 that asks for a
-/// password. Where the tests run as root, who must not run a server, it runs as `postgres` or `nobody`.
+/// A server of PostgreSQL of its own: a private folder, a socket in it, no port. Where the tests run as root,
+/// who must not run a server, it runs as `postgres` or `nobody`.
 class PostgresServer {
  public:
   /// Null where no server is installed.
@@ -46,10 +30,7 @@ class PostgresServer {
     const std::string programs = programs_folder();
     if (programs.empty()) return nullptr;
     auto server = std::unique_ptr<PostgresServer>(new PostgresServer(programs));
-    const std::string password = server->folder_.file("password");
-    std::ofstream(password) << kPassword << '\n';
-    if (!server->run({programs + "/initdb", "-D", server->data(), "--auth-local=trust",
-                      "--auth-host=scram-sha-256", "--pwfile=" + password, "-U", "shop", "-N"}) ||
+    if (!server->run({programs + "/initdb", "-D", server->data(), "-A", "trust", "-U", "shop", "-N"}) ||
         !server->start())
       return nullptr;
     return server;
@@ -60,20 +41,13 @@ class PostgresServer {
 
   /// The URI of a database; `more` behind the user, such as ":password".
   [[nodiscard]] std::string uri(const std::string& database, const std::string& more = "") const {
-    return "postgresql://shop" + more + "@/" + database + "?host=" + folder_.path().string() +
-           "&port=" + port();
+    return "postgresql://shop" + more + "@/" + database + "?host=" + folder_.path().string();
   }
-  /// The same over TCP; empty where there is no loopback.
-  [[nodiscard]] std::string tcp_uri(const std::string& database,
-                                    const std::string& password = kPassword) const {
-    return port_ == 0 ? "" : "postgresql://shop:" + password + "@127.0.0.1:" + port() + "/" + database;
-  }
-  static constexpr const char* kPassword = "loopback-only";
   /// Runs a statement as psql does; what it prints.
   std::string sql(const std::string& database, const std::string& statement) const {
     const std::string out = folder_.file("out");
     EXPECT_TRUE(run({programs_ + "/psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-h",
-                     folder_.path().string(), "-p", port(), "-U", "shop", "-d", database, "-c", statement},
+                     folder_.path().string(), "-U", "shop", "-d", database, "-c", statement},
                     out))
         << statement;
     std::ifstream in(out);
@@ -85,15 +59,11 @@ class PostgresServer {
     for (int i = 0; i < kTurns; ++i) {
       // One that was killed leaves workers for a moment, and no other starts until they are gone.
       if (server_ <= 0 || waitpid(server_, nullptr, WNOHANG) == server_) {
-        if (!served_) port_ = free_port();  // another program may have been quicker
-        const std::string listen = port_ == 0 ? "" : "127.0.0.1";
-        server_ =
-            launch({programs_ + "/postgres", "-D", data(), "-k", folder_.path().string(), "-p", port(), "-c",
-                    "listen_addresses=" + listen, "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
-                   folder_.file("log"));
+        server_ = launch({programs_ + "/postgres", "-D", data(), "-k", folder_.path().string(), "-c",
+                          "listen_addresses=", "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
+                         folder_.file("log"));
       }
-      if (run({programs_ + "/pg_isready", "-q", "-h", folder_.path().string(), "-p", port()}))
-        return served_ = true;
+      if (run({programs_ + "/pg_isready", "-q", "-h", folder_.path().string()})) return true;
       usleep(20'000);
     }
     return false;
@@ -124,8 +94,6 @@ class PostgresServer {
     std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
   }
 
-  /// The port also names the socket in the folder.
-  [[nodiscard]] std::string port() const { return std::to_string(port_ == 0 ? 5432 : port_); }
   /// Whether a process does anything yet: one that ended has no command line, also while nobody has asked for
   /// its end.
   static bool runs(pid_t process) {
@@ -172,8 +140,6 @@ class PostgresServer {
   std::string programs_;
   const passwd* user_ = nullptr;
   pid_t server_ = 0;
-  int port_ = 0;
-  bool served_ = false;  ///< once: it keeps its port
 };
 
 /// A server with databases of its own, and a private folder for the files beside; the tests of one program
@@ -195,10 +161,6 @@ class PostgresPlace {
   PostgresPlace& operator=(const PostgresPlace&) = delete;
 
   [[nodiscard]] std::string uri(const std::string& more = "") const { return server_.uri(database_, more); }
-  [[nodiscard]] std::string tcp_uri() const { return server_.tcp_uri(database_); }
-  [[nodiscard]] std::string tcp_uri(const std::string& password) const {
-    return server_.tcp_uri(database_, password);
-  }
   std::string sql(const std::string& statement) const { return server_.sql(database_, statement); }
   [[nodiscard]] PostgresServer& server() const { return server_; }
   [[nodiscard]] const Folder& beside() const { return beside_; }

@@ -33,21 +33,17 @@ class InAFile final : public Where {
   Folder folder_;
 };
 
-enum class Over { kSocket, kLoopback };
-
 class OnAServer final : public Where {
  public:
-  OnAServer(std::unique_ptr<PostgresPlace> place, Over over) : place_(std::move(place)), over_(over) {}
-  static std::unique_ptr<Where> make(Over over) {
+  explicit OnAServer(std::unique_ptr<PostgresPlace> place) : place_(std::move(place)) {}
+  static std::unique_ptr<Where> make() {
     auto place = PostgresPlace::make();
-    if (!place || (over == Over::kLoopback && place->tcp_uri().empty())) return nullptr;
-    return std::make_unique<OnAServer>(std::move(place), over);
+    return place ? std::make_unique<OnAServer>(std::move(place)) : nullptr;
   }
-  std::string uri() const override { return over_ == Over::kSocket ? place_->uri() : place_->tcp_uri(); }
+  std::string uri() const override { return place_->uri(); }
 
  private:
   std::unique_ptr<PostgresPlace> place_;
-  Over over_;
 };
 
 /// A kind of store: its name, and a place for one; null where the machine has none, and the test is skipped.
@@ -303,12 +299,10 @@ TEST_P(StoreContract, IsWholeAfterItsWriterWasKilled) {
   expect_whole_after_killed_writers(where_->uri(), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, StoreContract,
-    testing::Values(StoreKind{"sqlite", [] { return std::make_unique<InAFile>(); }},
-                    StoreKind{"postgresql", [] { return OnAServer::make(Over::kSocket); }},
-                    StoreKind{"postgresql_over_tcp", [] { return OnAServer::make(Over::kLoopback); }}),
-    [](const auto& kind) { return kind.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, StoreContract,
+                         testing::Values(StoreKind{"sqlite", [] { return std::make_unique<InAFile>(); }},
+                                         StoreKind{"postgresql", OnAServer::make}),
+                         [](const auto& kind) { return kind.param.name; });
 
 }  // namespace
 }  // namespace capstan::casebase

@@ -205,22 +205,6 @@ TEST_F(PostgresStore, AddsNothingWhereRowsAreGone) {
   }
 }
 
-TEST_F(PostgresStore, IsOneBaseOverTheSocketAndOverLoopbackByPassword) {
-  if (place_->tcp_uri().empty()) GTEST_SKIP() << "there is no loopback on this machine";
-  fill(place_->tcp_uri(), {sample()});
-  Job job;
-  EXPECT_EQ(CaseBase::open(place_->uri(), job)->cases(), std::vector{sample()});
-  EXPECT_EQ(place_->sql("SELECT count(*) FROM capstan.head"), "1");
-  // Who has another password is told so, and the password by nobody.
-  const Folder nobodys;  // no local copy
-  setenv("CAPSTAN_CASES", nobodys.path().c_str(), 1);
-  const auto refused = CaseBase::open(place_->tcp_uri("tr0ub4dor"), job);
-  setenv("CAPSTAN_CASES", place_->beside().path().c_str(), 1);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(to_text(refused.error()), HasSubstr("password authentication failed"));
-  EXPECT_THAT(to_text(refused.error()), Not(HasSubstr("tr0ub4dor")));
-}
-
 TEST_F(PostgresStore, TellsNoPassword) {
   const std::string secret = "tr0ub4dor";
   Job job;

@@ -238,10 +238,13 @@ TEST(CorrectionsOf, MeasuredCasesAlone) {
 }
 
 TEST(CorrectionsOf, LivesOfOtherMaterialsTellExponentsAlone) {
-  const CorrectionHandbook handbook{
-      .force = {1800.0, 0.2, 1.5},
-      .force_margin = 1.8,
-      .life = {.substrate = "carbide", .v0_m_min = 200.0, .life_min = 15.0, .n = 0.25, .source = {}}};
+  const CorrectionHandbook handbook{.force = {1800.0, 0.2, 1.5},
+                                    .force_margin = 1.8,
+                                    .life = {.substrate = "carbide",
+                                             .v0_m_min = cut(1).bound.vc_m_min,
+                                             .life_min = 15.0,
+                                             .n = 0.25,
+                                             .source = {}}};
   // An edge that is worn by 0.3 mm after a time, as VB ~ t^0.7.
   const auto edge = [](int number, const char* material, double depth_mm, double life_min) {
     Case c = cut(number);
