@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "planner/controls/controls.h"
-#include "planner/proof/verify/verify.h"
-#include "tests/door/pipeline/block.h"
+#include "planner/proof/verify/plan/plan_checks.h"
 #include "tests/support/empty_plan.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -159,24 +158,23 @@ TEST(Sisters, AreCalledAndNamedInTheProgram) {
 }
 
 TEST(Sisters, ThatAreNotWhatTheyStandForAreFound) {
-  const auto codes = [](const Plan& plan) {
-    Job job;
+  const auto said = [](const Plan& plan) {
+    verify::Findings found;
+    verify::check_sisters(plan, found);
     std::string out;
-    for (const auto& f : verify::check_plan(plan, job)) {
-      if (f.code == "CHK-SISTER") out += f.message + "\n";
-    }
+    for (const auto& f : found.take()) out += f.code + " " + f.message + "\n";
     return out;
   };
   Plan plan = milled({20, 20});
   Job job;
   share_among_sisters(plan, two_mills(plan), job);
-  EXPECT_EQ(codes(plan), "");
+  EXPECT_EQ(said(plan), "");
   Plan thin = plan;
   thin.cutters.back().cutting_diameter_mm = 17.9;
-  EXPECT_NE(codes(thin).find("its diameter, 17.9 mm in place of 18 mm"), std::string::npos) << codes(thin);
+  EXPECT_NE(said(thin).find("its diameter, 17.9 mm in place of 18 mm"), std::string::npos) << said(thin);
   Plan away = plan;
   away.cutters.back().pocket = 1;
-  EXPECT_NE(codes(away).find("not loaded under a number of its own"), std::string::npos);
+  EXPECT_NE(said(away).find("not loaded under a number of its own"), std::string::npos);
 }
 
 }  // namespace

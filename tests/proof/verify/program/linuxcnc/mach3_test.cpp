@@ -71,8 +71,8 @@ TEST(Mach3Reader, AReamerComesOutAtFeedToWhereTheCycleEnds) {
 TEST(Mach3Reader, WhatIsLinuxCncsAloneOrASettingIsAFault) {
   for (const char* block : {"G59.1\n", "G61.1\n", "G33.1 Z-5 K1\n", "M60\n", "G43.1 Z50\n"})
     EXPECT_TRUE(finds(read(block), "CHK-CODE")) << block;
-  EXPECT_TRUE(finds(read("M51\n"), "CHK-CODE"));
-  EXPECT_EQ(faults(read("M51\n", {{"shop_codes", "M51"}})), "");
+  EXPECT_TRUE(finds(read("M55\n"), "CHK-CODE"));
+  EXPECT_EQ(faults(read("M55\n", {{"shop_codes", "M55"}})), "");
   EXPECT_TRUE(finds(read("M98\n", {{"shop_codes", "M98"}}), "CHK-UNVERIFIABLE"));
   EXPECT_TRUE(finds(read("G1 X9 F100 ; a comment\n"), "CHK-SYNTAX"));
   EXPECT_TRUE(finds(read("G98 G83 X5 Y6 Z-8 R2 Q3 F100\nG80\n"), "CHK-UNVERIFIABLE"));
