@@ -50,7 +50,7 @@ Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<co
     out.left_out = {rms(left_out), coverage_90(left_out)};
   }
   out.doubted = static_cast<std::size_t>(
-      std::count_if(fit.weight.begin(), fit.weight.end(), [](double w) { return w < 0.5; }));
+      std::count_if(fit.weight.begin(), fit.weight.end(), [](double w) { return w < kDoubtedWeight; }));
   out.fit = std::move(fit);
   return out;
 }
