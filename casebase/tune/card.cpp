@@ -12,6 +12,7 @@
 #include "casebase/planned.h"
 #include "casebase/record/failing.h"
 #include "casebase/tune/advise.h"
+#include "casebase/tune/applied/named.h"
 #include "casebase/tune/evidence.h"
 #include "casebase/tune/from_case.h"
 #include "planner/ground/base/number.h"
@@ -19,9 +20,6 @@
 
 namespace capstan::casebase::tune {
 namespace {
-
-/// Digits of an id that are enough to find a case.
-constexpr std::size_t kIdShown = 12;
 
 bool positive(double v) { return std::isfinite(v) && v > 0.0; }
 bool measured(const std::optional<Figure>& f) {
@@ -285,11 +283,10 @@ std::string CardCorrection::words() const {
                        counted(edges, "edge", "edges"));
   if (!beyond.empty())
     out += fmt::format("; {} beyond what the others explain, as {}",
-                       counted(beyond.size(), "case lies", "cases lie"), beyond.front().substr(0, kIdShown));
+                       counted(beyond.size(), "case lies", "cases lie"), short_id(beyond.front()));
   if (!cut_short.empty())
     out += fmt::format("; {} a tool that broke or chattered heavily, as {}",
-                       counted(cut_short.size(), "case is of", "cases are of"),
-                       cut_short.front().substr(0, kIdShown));
+                       counted(cut_short.size(), "case is of", "cases are of"), short_id(cut_short.front()));
   if (unfed > 0)
     out += model == CardModel::kForce
                ? fmt::format("; {} not heard, for nobody says with which feed, or which the plan held",
@@ -309,11 +306,9 @@ std::string CardCorrection::far_words() const {
 std::string CardCorrection::all_words() const { return words() + (far == 0 ? "" : "; " + far_words()); }
 
 std::string CardCorrection::named() const {
-  std::string out;
-  const std::size_t shown = std::min(ids.size(), kCasesNamed);
-  for (std::size_t i = 0; i < shown; ++i) out += (i == 0 ? "" : ", ") + ids[i].substr(0, kIdShown);
-  if (shown < ids.size()) out += fmt::format(" and {} more", ids.size() - shown);
-  return out;
+  std::vector<std::string> shown;
+  for (const std::string& id : ids) shown.push_back(short_id(id));
+  return tune::named(shown);
 }
 
 std::vector<CardCorrection> card_corrections(std::span<const Case> cases, const model::WorkMaterial& card,

@@ -102,11 +102,9 @@ struct CardCorrection {
   [[nodiscard]] std::string far_words() const;
   /// Both, as records have them.
   [[nodiscard]] std::string all_words() const;
-  /// "1f0c53c2, 2b77a901 and 16 more".
+  /// "1f0c53c2b77a, 2b77a901f3c5 and 16 more".
   [[nodiscard]] std::string named() const;
 };
-/// Cases that `CardCorrection::named` names. As kLeanedShown of recall/advice.h.
-inline constexpr std::size_t kCasesNamed = 8;
 
 /// The spread of a card's forces for milling with a substrate, as a factor (mechanics::ForceMargin::spread).
 using SpreadOf = std::function<double(model::Substrate)>;

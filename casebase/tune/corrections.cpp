@@ -61,8 +61,8 @@ Corrected told(std::string model, std::vector<CorrectedTerm> terms, std::span<co
     out.left_out = {rms(left_out), coverage_90(left_out), left_out};
   }
   const auto end = fit.weight.begin() + static_cast<std::ptrdiff_t>(out.cases);
-  out.doubted =
-      static_cast<std::size_t>(std::count_if(fit.weight.begin(), end, [](double w) { return w < 0.5; }));
+  out.doubted = static_cast<std::size_t>(
+      std::count_if(fit.weight.begin(), end, [](double w) { return w < kDoubtedWeight; }));
   out.fit = std::move(fit);
   return out;
 }

@@ -21,10 +21,13 @@ struct CorrectedTerm {
   double value = 0.0, std_dev = 0.0;
 };
 
+/// A row of a robust fit that weighs less is doubted.
+inline constexpr double kDoubtedWeight = 0.5;
+
 struct Corrected {
   std::string model;  ///< "cutting force", "tool life", "time", "size of bores"
   std::vector<CorrectedTerm> terms;
-  std::size_t cases = 0, groups = 0, doubted = 0;  ///< doubted: those that weigh less than half
+  std::size_t cases = 0, groups = 0, doubted = 0;  ///< doubted: by kDoubtedWeight
   /// Each edge or part predicted from the others: rms of the error (of the logarithm; of bores in mm), and
   /// the share within the stated interval of 90 %. Nothing where there are fewer than three of them, or more
   /// than 300.

@@ -239,6 +239,12 @@ bool mills_bore(const Question& q) {
   return round && q.operation.ends_with("MILLING") && q.feature.find("THREAD") == std::string::npos;
 }
 
+bool finishes_bore(const Case& step) {
+  const bool finishes =
+      step.asked.operation.find("FINISH") != std::string::npos || !(step.bound.allowance_side_mm > 0.0);
+  return finishes && mills_bore(step.asked);
+}
+
 std::vector<TimeSample> times_of(std::span<const Case> cases) {
   std::vector<TimeSample> out;
   Groups parts;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -56,8 +57,14 @@ struct PlannedStep {
 /// edge was new; a wear whose age is not known counts where it is beyond what is allowed already.
 [[nodiscard]] Evidence evidence_of(const Case& c, const PlannedStep& planned);
 
+/// Cases of which times and bores are heard, at most: reading one takes some 10 us. Default, unsourced.
+inline constexpr std::size_t kMostHeard = 1000;
+
 /// Whether the step mills a bore, whose size is the path's: of a drill, a reamer or a tap it is the tool's.
 [[nodiscard]] bool mills_bore(const Question& question);
+/// Whether it is the step that gives a milled bore its size: a finish, or one that leaves nothing on the
+/// wall.
+[[nodiscard]] bool finishes_bore(const Case& step);
 /// Whether the tool broke or chattered heavily: what was observed is not what such a cut does.
 [[nodiscard]] bool cut_short(const Observed& observed);
 /// What measured cases observed of times, each part a group. Cuts that were judged bad are left out, and

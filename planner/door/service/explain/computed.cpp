@@ -1,10 +1,13 @@
 #include "planner/door/service/explain/computed.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/workpiece.h"
+#include "planner/making/step/record/expected_by_cases.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
 
@@ -99,6 +102,10 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   if (r->cutting_s + r->rapid_s > 0.0) {
     out.push_back({"time", duration(r->cutting_s + r->rapid_s),
                    "cutting " + duration(r->cutting_s) + ", rapids " + duration(r->rapid_s)});
+  }
+  for (const auto& [name, what] :
+       {std::pair{"time_by_cases", step::time_row_of(v.id)}, {"bore_by_cases", step::bore_row_of(v.id)}}) {
+    if (const auto* row = step::row_of(plan, what)) out.push_back({name, row->value, row->source});
   }
   return out;
 }

@@ -5,9 +5,11 @@
 #include <set>
 
 #include "planner/door/service/explain/computed.h"
+#include "planner/door/service/explain/origins.h"
 #include "planner/door/service/explain/step_view.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/step/record/expected_by_cases.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/corner_rest.h"
@@ -53,7 +55,6 @@ std::string key_value(const Plan& plan, const DecisionKey& key) {
   return value_text(plan.model, *a, plan.model.object(key.object), kDecimals);
 }
 
-/// "spindle torque" of "spindle_torque"
 std::string plain_name(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
@@ -227,14 +228,6 @@ void part_text(const Plan& plan, const StepView& v, const StepPart& part, std::s
   if (!lines.empty()) out += "\n" + part.role + ": " + label(plan.model, part.object) + "\n" + lines;
 }
 
-void provenance(const Plan& plan, std::string& out) {
-  if (plan.provenance.empty()) return;
-  out += "\nWhere inputs come from\n";
-  Rows rows;
-  for (const auto& p : plan.provenance) rows.push_back({p.what, p.value, p.source});
-  out += table(rows);
-}
-
 double by_steps(const Plan& plan) {
   double s = 0.0;
   for (const model::StepResult& r : plan.steps) s += r.cutting_s + r.rapid_s;
@@ -282,6 +275,8 @@ std::string feature_name(const Plan& plan, AnyRef feature) {
 void step_table(const Plan& plan, const std::vector<StepView>& views, std::string& out) {
   Rows rows = {
       {"n", "step", "feature", "operation", "T", "tool", "ap mm", "ae mm", "1/min", "mm/min", "time"}};
+  const bool by_cases = has_step_times(plan);
+  if (by_cases) rows.front().emplace_back("by cases");
   for (const StepView& v : views) {
     if (v.result == nullptr) continue;
     const auto& r = *v.result;
@@ -292,6 +287,7 @@ void step_table(const Plan& plan, const std::vector<StepView>& views, std::strin
                     cutter_text(plan, r.cutter_id), mm(r.axial_depth_mm), mm(r.radial_depth_mm),
                     speed_text(r.spindle_rpm), r.feed_mm_min > 0.0 ? trimmed(r.feed_mm_min, 0) : "-",
                     duration(r.cutting_s + r.rapid_s)});
+    if (by_cases) rows.back().push_back(told_of_step(plan, step::time_row_of(v.id), "-"));
   }
   if (rows.size() > 1) {
     out += "\nSteps, in order\n" + table(rows);
@@ -352,7 +348,7 @@ std::vector<std::string> open_texts(const Plan& plan) {
 std::string explain(const Plan& plan) {
   std::string out;
   overview_head(plan, out);
-  provenance(plan, out);
+  out += origins_text(plan);
   const auto views = views_of(plan);
   step_table(plan, views, out);
   if (!plan.unplanned.empty()) {
