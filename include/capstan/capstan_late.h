@@ -64,22 +64,22 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_set(capstan_late* session, const
                                                     const char* value);
 CAPSTAN_LATE_API capstan_late_code capstan_late_prepare(capstan_late* session);
 
-/* Tells what became of the loaded tools since their table was written, in place of what was told before: text of
- * `size` bytes, a tool a line, by its number. NULL or 0 bytes: nothing is told. The option "tool-state" takes the
- * same from a file.
+/* Tells what became of the loaded tools since their table was written, in place of what was told before: text
+ * of `size` bytes, a tool a line, by its number. NULL or 0 bytes: nothing is told. The option "tool-state"
+ * takes the same from a file.
  *
  *     T3 broken
  *     T5 wear 0.02 length-wear 0.01 life-left 12.5     ; mm, mm, minutes of cutting
  *     T6 wear 0.02 in-table                            ; D and Z of the table are less by it already
  *
- * A broken tool, or one without life left, is not called. `wear` is radial: twice of it comes off the diameter, and
- * paths are made for that. `length-wear` comes off the length: the tool table that the bound plan gives says what has
- * to be in effect. A step that cuts longer than its edge has life, behind those that this plan cuts with it
- * before, gets another tool, of the same kind first, or nothing is given (LATE-LIFE, code 4). Where workingsteps
- * are bound one after the other, lives count from the one that is bound next. What was bound before is not
- * given any more; capstan_late_bind_next goes on with it.
- * On CAPSTAN_LATE_USAGE (an unknown word, a number that is missing, negative or not finite, a tool or a word
- * twice) nothing is changed. Of a number that the table has not, the next bind warns. Needs the option "tools". */
+ * A broken tool, or one without life left, is not called. `wear` is radial: twice of it comes off the
+ * diameter, and paths are made for that. `length-wear` comes off the length: the tool table that the bound
+ * plan gives says what has to be in effect. A step that cuts longer than its edge has life, behind those that
+ * this plan cuts with it before, gets another tool, of the same kind first, or nothing is given (LATE-LIFE,
+ * code 4). Where workingsteps are bound one after the other, lives count from the one that is bound next.
+ * What was bound before is not given any more; capstan_late_bind_next goes on with it. On CAPSTAN_LATE_USAGE
+ * (an unknown word, a number that is missing, negative or not finite, a tool or a word twice) nothing is
+ * changed. Of a number that the table has not, the next bind warns. Needs the option "tools". */
 CAPSTAN_LATE_API capstan_late_code capstan_late_tool_state(capstan_late* session, const char* states,
                                                            size_t size);
 

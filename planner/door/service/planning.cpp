@@ -239,11 +239,12 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
   if (auto ok = edit(request, plan, inputs, job); !ok)
     return failed(ok.error(), code_of(ok.error(), Code::kImpossible));
   if (!request.state.tools.empty() && !request.tools)
-    return failed({.code = "APP-TOOL-STATE",
-                   .message = request.sign + "tool-state tells what became of loaded tools, and no tool table "
-                                             "says which these are",
-                   .expected = request.sign + "tools with the machine's tool table"},
-                  Code::kUsage);
+    return failed(
+        {.code = "APP-TOOL-STATE",
+         .message = request.sign + "tool-state tells what became of loaded tools, and no tool table "
+                                   "says which these are",
+         .expected = request.sign + "tools with the machine's tool table"},
+        Code::kUsage);
   late::LatePolicy policy;
   policy.tools = request.state.tools;
   policy.tools_told_at = request.state.tools_told_at;

@@ -30,10 +30,10 @@ class Session {
   /// reads the shop's settings (the option `shop`) anew. "axis-limits" and "work-offset" drop what is bound,
   /// for it was not held against them; `bind_next` goes on with it all the same.
   Code set(std::string_view name, const std::string& text);
-  /// Sets what became of the loaded tools (late::parse_tool_states), in place of what was told before; the option
-  /// "tool-state" does the same with a file. An empty text: nothing is told. What is bound is dropped, as above.
-  /// Where workingsteps are bound one after the other, lives count from the one that is bound next. On
-  /// kUsage nothing is changed.
+  /// Sets what became of the loaded tools (late::parse_tool_states), in place of what was told before; the
+  /// option "tool-state" does the same with a file. An empty text: nothing is told. What is bound is dropped,
+  /// as above. Where workingsteps are bound one after the other, lives count from the one that is bound next.
+  /// On kUsage nothing is changed.
   Code tell_tools(const std::string& states);
   /// Opens the shop, so that the first `bind` need not.
   Code open();

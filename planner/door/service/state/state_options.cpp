@@ -41,8 +41,7 @@ std::string set_tools(Request& r, const std::string& file) {
   const auto text = read_file(file, kMostStateBytes);
   if (!text) return "'" + file + "' cannot be read: " + text.error().message;
   auto states = late::parse_tool_states(*text, file);
-  if (!states)
-    return file + ":" + std::to_string(states.error().line) + ": " + fault_of(states.error());
+  if (!states) return file + ":" + std::to_string(states.error().line) + ": " + fault_of(states.error());
   r.state.tools = *std::move(states);
   r.state.tools_told_at = 0;
   return {};
@@ -56,7 +55,8 @@ std::vector<Option> state_options() {
        .value = Value::kText,
        .help = of_bind(
            "a file of what became of the loaded tools, a tool a line: T3 broken, or T5 wear 0.02 length-wear "
-           "0.01 life-left 12.5 (mm, mm, minutes; in-table behind wear that the tool table has); needs --tools"),
+           "0.01 life-left 12.5 (mm, mm, minutes; in-table behind wear that the tool table has); needs "
+           "--tools"),
        .set = &set_tools},
       {.name = "spindle-power",
        .value = Value::kText,

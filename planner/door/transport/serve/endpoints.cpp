@@ -28,8 +28,8 @@ bool names_file(const std::string& option, const std::string& value) {
   if (std::find(kFileOptions.begin(), kFileOptions.end(), option) == kFileOptions.end()) return false;
   std::error_code ignored;
   return option == "rules" || option == "cases" || option == "cache" || option == "edits" ||
-         option == "tool-state" ||
-         value.find('/') != std::string::npos || std::filesystem::exists(value, ignored);
+         option == "tool-state" || value.find('/') != std::string::npos ||
+         std::filesystem::exists(value, ignored);
 }
 
 std::vector<std::string> split(const std::string& path) {
