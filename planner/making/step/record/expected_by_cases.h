@@ -18,8 +18,8 @@ inline constexpr std::string_view kTimeByCases = "time by cases";
 /// What measured cases of the plan's machine say of its time and of the bores that it mills
 /// (casebase/tune/corrections.h), with the interval of 90 % for one further part: CASE-TIME, a note;
 /// CASE-BORE, a warning where that interval leaves the zone of the tolerance, else a note. Bores are
-/// heard of the same material and tool class alone, and either from three parts on. Paths and feeds stay as
-/// they are. Gives a row for the plan's record of each. `cases` may be null.
+/// heard of the same material, tool class and cutter diameter alone, and either from three parts on. Paths
+/// and feeds stay as they are. Gives a row for the plan's record of each. `cases` may be null.
 [[nodiscard]] std::vector<model::Provenance> tell_expected(const model::Plan& plan,
                                                            const casebase::CaseBase* cases, Job& job);
 
