@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,7 +26,7 @@ struct CorrectedTerm {
 inline constexpr double kDoubtedWeight = 0.5;
 
 struct Corrected {
-  std::string model;  ///< "cutting force", "tool life", "time", "size of bores"
+  std::string model;  ///< "cutting force", "tool life", "time", "size of bores by a cutter of 4 mm"
   std::vector<CorrectedTerm> terms;
   std::size_t cases = 0, groups = 0, doubted = 0;  ///< doubted: by kDoubtedWeight
   /// Each edge or part predicted from the others: rms of the error (of the logarithm; of bores in mm), and
@@ -152,7 +153,13 @@ struct BoreCorrection {
   Corrected how;
   [[nodiscard]] double deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const;
   [[nodiscard]] double std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const;
+  /// Half the interval of 90 % of one further part, by Student's t of what tells the scatter: of cutters as
+  /// slender (of those that scatter most, where none is); of the parts, where all are as slender.
+  [[nodiscard]] double half_90_mm(double feed_per_turn_mm, double stick_out_ratio) const;
 };
+/// The cutter's own deviation, and what grows as a cantilever bends: with the feed and the cube of its
+/// slenderness (Timoshenko, Strength of Materials, part I). `samples`: of one cutter diameter
+/// (`bores_by_cutter`), for neither is the same of another. Nothing without a usable sample.
 [[nodiscard]] std::optional<BoreCorrection> correct_bores(std::span<const BoreSample> samples,
                                                           bool leave_out = true);
 
@@ -161,7 +168,7 @@ struct Corrections {
   std::optional<ForceCorrection> force;
   std::optional<LifeCorrection> life;
   std::optional<TimeCorrection> time;
-  std::optional<BoreCorrection> bores;
+  std::map<double, BoreCorrection> bores;  ///< by the cutter's diameter, mm
 };
 
 /// A material with the corrected coefficients in place of the handbook's, their origin named.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "casebase/key/normalisation.h"
+#include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 
 namespace capstan::casebase::tune {
@@ -260,17 +261,49 @@ std::vector<TimeSample> times_of(std::span<const Case> cases) {
   return out;
 }
 
+namespace {
+
+std::optional<BoreSample> bore_of(const Case& c, Groups& parts) {
+  const auto& size = c.observed.size_deviation_mm;
+  if (cut_short(c.observed)) return std::nullopt;
+  if (c.origin != Origin::kMeasured || !mills_bore(c.asked) || !evidence(size)) return std::nullopt;
+  if (!positive(c.asked.cutter_diameter_mm) || !c.bound.aimed_over_mm) return std::nullopt;
+  return BoreSample{size->value - c.bound.aimed_over_mm->value, c.bound.fz_mm * std::max(1, c.asked.teeth),
+                    c.asked.stick_out_mm / c.asked.cutter_diameter_mm, parts.of(part_name(c.from))};
+}
+
+}  // namespace
+
 std::vector<BoreSample> bores_of(std::span<const Case> cases) {
   std::vector<BoreSample> out;
   Groups parts;
   for (const Case& c : cases) {
     tick();
-    const auto& size = c.observed.size_deviation_mm;
-    if (cut_short(c.observed)) continue;
-    if (c.origin != Origin::kMeasured || !mills_bore(c.asked) || !evidence(size)) continue;
-    if (!positive(c.asked.cutter_diameter_mm) || !c.bound.aimed_over_mm) continue;
-    out.push_back({size->value - c.bound.aimed_over_mm->value, c.bound.fz_mm * std::max(1, c.asked.teeth),
-                   c.asked.stick_out_mm / c.asked.cutter_diameter_mm, parts.of(part_name(c.from))});
+    if (const auto bore = bore_of(c, parts)) out.push_back(*bore);
+  }
+  return out;
+}
+
+bool same_cutter(const Question& a, const Question& b) {
+  const auto [least, most] = std::minmax(a.cutter_diameter_mm, b.cutter_diameter_mm);
+  return most <= (1.0 + kSameDiameter) * least;
+}
+
+std::map<double, std::vector<BoreSample>> bores_by_cutter(std::span<const Case> cases) {
+  std::vector<std::pair<const Question*, BoreSample>> bores;
+  Groups parts;
+  for (const Case& c : cases) {
+    tick();
+    if (const auto bore = bore_of(c, parts)) bores.emplace_back(&c.asked, *bore);
+  }
+  std::stable_sort(bores.begin(), bores.end(), [](const auto& a, const auto& b) {
+    return a.first->cutter_diameter_mm < b.first->cutter_diameter_mm;
+  });
+  std::map<double, std::vector<BoreSample>> out;
+  const Question* smallest = nullptr;
+  for (const auto& [asked, bore] : bores) {
+    if (smallest == nullptr || !same_cutter(*smallest, *asked)) smallest = asked;
+    out[smallest->cutter_diameter_mm].push_back(bore);
   }
   return out;
 }
@@ -304,8 +337,17 @@ Corrections corrections_of(std::span<const Case> cases, const CorrectionHandbook
       lives.push_back({c.bound.vc_m_min, c.bound.fz_mm, c.bound.ap_mm, *life, edges.of(edge_name(c.from)),
                        1 + materials.of(c.asked.material_group)});
   }
-  return {correct_force(forces, handbook.force), correct_life(lives, handbook.life),
-          correct_time(times_of(cases)), correct_bores(bores_of(cases))};
+  Corrections out{correct_force(forces, handbook.force),
+                  correct_life(lives, handbook.life),
+                  correct_time(times_of(cases)),
+                  {}};
+  for (const auto& [cutter, samples] : bores_by_cutter(cases)) {
+    auto bores = correct_bores(samples);
+    if (!bores) continue;
+    bores->how.model += " by a cutter of " + trimmed(cutter, 3) + " mm";
+    out.bores.emplace(cutter, *std::move(bores));
+  }
+  return out;
 }
 
 }  // namespace capstan::casebase::tune

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -73,6 +74,13 @@ inline constexpr std::size_t kMostHeard = 1000;
 /// What they observed of milled bores, each part a group; without those whose tool broke or chattered. One
 /// that was judged bad is heard: its size may be why.
 [[nodiscard]] std::vector<BoreSample> bores_of(std::span<const Case> cases);
+/// Whether bores by cutters of these diameters tell of each other: each size has a stiffness and a deviation
+/// of its own. Regrinds are of one size, the next size is not.
+[[nodiscard]] bool same_cutter(const Question& a, const Question& b);
+/// Their diameters differ by no more. Default, unsourced.
+inline constexpr double kSameDiameter = 0.01;
+/// `bores_of`, by the diameter in mm of the smallest cutter of that size.
+[[nodiscard]] std::map<double, std::vector<BoreSample>> bores_by_cutter(std::span<const Case> cases);
 
 /// What the handbook says where cases correct it.
 struct CorrectionHandbook {

@@ -284,11 +284,11 @@ TEST(CorrectionsOf, BoresThatAreMilledAloneByPart) {
     return corrections_of(cases, handbook).bores;
   };
   const auto milled = bores("BOTTOM_AND_SIDE_FINISH_MILLING", "ROUND_HOLE");
-  ASSERT_TRUE(milled);
-  EXPECT_EQ(milled->how.groups, 4U);
-  EXPECT_FALSE(bores("REAMING", "ROUND_HOLE"));
-  EXPECT_FALSE(bores("DRILLING", "ROUND_HOLE"));
-  EXPECT_FALSE(bores("SIDE_FINISH_MILLING", "DEFINED_THREAD"));
+  ASSERT_EQ(milled.size(), 1U);
+  EXPECT_EQ(milled.at(10.0).how.groups, 4U);
+  EXPECT_TRUE(bores("REAMING", "ROUND_HOLE").empty());
+  EXPECT_TRUE(bores("DRILLING", "ROUND_HOLE").empty());
+  EXPECT_TRUE(bores("SIDE_FINISH_MILLING", "DEFINED_THREAD").empty());
 }
 
 /// A bore that was milled on a part, 0.02 mm too wide, in 75 s instead of 60.
@@ -343,6 +343,26 @@ TEST(SamplesOfCases, LeaveOutSizesOfPathsOfWhichNobodySaysWhatTheyAimAt) {
   Case pocket = cut(1);
   pocket.bound.aimed_over_mm.reset();
   EXPECT_FALSE(evidence_of(pocket, planned()).ln_load[static_cast<std::size_t>(Watched::kSize)]);
+}
+
+TEST(SamplesOfCases, OfBoresAreFittedCutterByCutter) {
+  // One cutter makes bores 0.02 mm too small, the other 0.03 mm too large.
+  std::vector<Case> cases;
+  for (int part = 0; part < 6; ++part) {
+    Case c = milled_bore(std::to_string(part));
+    c.asked.cutter_diameter_mm = part % 2 == 0 ? 10.0 : 3.175;
+    c.asked.stick_out_mm = 3.0 * c.asked.cutter_diameter_mm;
+    c.observed.size_deviation_mm = Figure{.value = part % 2 == 0 ? -0.02 : 0.03};
+    cases.push_back(c);
+  }
+  cases[3].asked.cutter_diameter_mm = 3.2;  // the next regrind of the same
+  const Corrections made = corrections_of(cases, {});
+  ASSERT_EQ(made.bores.size(), 2U);
+  const double feed_mm = cases.front().bound.fz_mm * cases.front().asked.teeth;
+  EXPECT_NEAR(made.bores.at(10.0).deviation_mm(feed_mm, 3.0), -0.02, 0.002);
+  EXPECT_NEAR(made.bores.at(3.175).deviation_mm(feed_mm, 3.0), 0.03, 0.002);
+  EXPECT_EQ(made.bores.at(3.175).how.cases, 3U);
+  EXPECT_EQ(made.bores.at(3.175).how.model, "size of bores by a cutter of 3.175 mm");
 }
 
 TEST(EvidenceOf, HoldsASizeAgainstItsZoneAsDrawn) {

@@ -2,44 +2,31 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <map>
+#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "casebase/retain/join/import.h"
-#include "casebase/tune/corrections.h"
-#include "casebase/tune/regression.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
+#include "tests/validation/casebase/plates_left_out.h"
 #include "tests/validation/studies.h"
 
 // The plates of the NIST test bed as cases, imported as `capstan cases import` does, and each plate predicted
-// from the others: ln(time of a tool) by ln(path / feed), and the deviation of its bores by feed per turn
-// times the slenderness cubed (the flexibility of a cantilever, Timoshenko, Strength of Materials, part I),
-// each by `tune::regress` with a constant of the tool.
+// from the others (plates_left_out.h).
 
 namespace capstan::validation {
 namespace {
 
 using casebase::Case;
 namespace retain = casebase::retain;
-namespace tune = casebase::tune;
 
 const std::set<std::string> kTraced = {"2", "5", "9", "12", "16", "18"};
 const std::set<std::string> kInterrupted = {"1", "10", "11", "19"};
 constexpr const char* kDoubtful = "7";  // its feeds are not known (section 1)
-constexpr double kSlender = 10.0;       // stick-out over diameter that the term is 1 at, times mm per turn
-
-/// One prediction without the plate.
-struct Left {
-  const Case* c = nullptr;
-  double observed = 0.0, untuned = 0.0, predicted = 0.0, std_dev = 0.0;
-  double half_90 = 0.0;  ///< of the interval of 90 %
-  [[nodiscard]] bool within() const { return std::abs(observed - predicted) <= half_90; }
-};
 
 Result<std::vector<Case>> import_plates(const std::string& folder, Job& job) {
   const auto sheet = read_file(testing::source_dir() + "/tests/validation/nist/plate_sheet.csv");
@@ -73,164 +60,147 @@ Result<std::vector<Case>> import_plates(const std::string& folder, Job& job) {
   return out;
 }
 
-/// Each case of `of` predicted from those of the same workingstep of other plates.
-std::vector<Left> leave_plates_out(const std::vector<Case>& cases,
-                                   const std::function<bool(const Case&)>& usable,
-                                   const std::function<Left(const Case&)>& observed,
-                                   const std::function<std::vector<double>(const Case&)>& terms,
-                                   const std::function<std::size_t(const Case&)>& kind,
-                                   const tune::RegressionOptions& options) {
-  std::map<std::string, std::vector<const Case*>> steps;
-  for (const Case& c : cases) {
-    if (usable(c)) steps[c.from.workingstep].push_back(&c);
-  }
-  std::vector<Left> out;
-  for (const auto& [step, of] : steps) {
-    std::vector<tune::Row> rows;
-    std::map<std::string, std::size_t> plates;
-    for (const Case* c : of)
-      rows.push_back({terms(*c), observed(*c).observed, 1.0,
-                      plates.emplace(c->from.part, plates.size()).first->second, kind(*c)});
-    const auto left = tune::leave_groups_out(rows, rows.front().x.size(), options);
-    for (std::size_t i = 0; i < of.size(); ++i) {
-      Left l = observed(*of[i]);
-      l.c = of[i];
-      l.predicted = left[i].predicted;
-      l.std_dev = left[i].std_dev;
-      l.half_90 = tune::deviations_90(left[i].freedom) * l.std_dev;
-      out.push_back(l);
-    }
-  }
-  return out;
-}
-
-struct Figures {
+/// How a predictor does over some cases.
+struct PredictorFigures {
   std::size_t n = 0, within = 0;
-  double untuned = 0.0, predicted = 0.0, stated = 0.0;  // rms
+  double error = 0.0, stated = 0.0;    // rms
+  double observed = 0.0, value = 0.0;  // means
 };
-Figures figures_of(const std::vector<Left>& all, const std::function<bool(const Left&)>& of) {
-  Figures f;
-  for (const Left& l : all) {
+using Wanted = std::function<bool(const LeftOutCase&)>;
+PredictorFigures figures_of(const std::vector<LeftOutCase>& all, std::size_t by, const Wanted& of) {
+  PredictorFigures f;
+  for (const LeftOutCase& l : all) {
     if (!of(l)) continue;
     ++f.n;
-    f.within += l.within() ? 1 : 0;
-    f.untuned += (l.observed - l.untuned) * (l.observed - l.untuned);
-    f.predicted += (l.observed - l.predicted) * (l.observed - l.predicted);
-    f.stated += l.std_dev * l.std_dev;
+    f.within += l.within(by) ? 1 : 0;
+    f.error += l.error(by) * l.error(by);
+    f.stated += l.by[by].std_dev * l.by[by].std_dev;
+    f.observed += l.observed;
+    f.value += l.by[by].value;
   }
   const double n = f.n > 0 ? static_cast<double>(f.n) : 1.0;
-  f.untuned = std::sqrt(f.untuned / n);
-  f.predicted = std::sqrt(f.predicted / n);
+  f.error = std::sqrt(f.error / n);
   f.stated = std::sqrt(f.stated / n);
+  f.observed /= n;
+  f.value /= n;
   return f;
 }
 
-std::vector<std::string> row_of(const std::string& name, const Figures& f) {
-  return {name,
-          std::to_string(f.n),
-          fixed(f.untuned, 3),
-          fixed(f.predicted, 3),
-          fixed(f.stated, 3),
-          std::to_string(f.within) + " of " + std::to_string(f.n)};
+std::string within_text(const PredictorFigures& f) {
+  return std::to_string(f.within) + " of " + std::to_string(f.n);
 }
 
-std::vector<std::string> head_of(const std::string& first, const std::string& unit) {
-  return {first,
-          "n",
-          "untuned, rms" + unit,
-          "plate left out, rms" + unit,
-          "stated, rms" + unit,
-          "within the interval of 90 %"};
-}
-
-bool has_trace(const Left& l) { return kTraced.contains(l.c->from.part); }
-bool counted_plate(const Left& l) {
+bool has_trace(const LeftOutCase& l) { return kTraced.contains(l.c->from.part); }
+bool counted_plate(const LeftOutCase& l) {
   return !kInterrupted.contains(l.c->from.part) && l.c->from.part != kDoubtful;
 }
+bool anything(const LeftOutCase&) { return true; }
 
-std::vector<Left> times_of(const std::vector<Case>& cases) {
-  return leave_plates_out(
-      cases,
-      [](const Case& c) {
-        // The engraver's time in the table holds a later run of another program (section 1).
-        return c.observed.time_s && c.predicted.time_s > 0.0 &&
-               (c.from.workingstep != "ENGRAVING" || kTraced.contains(c.from.part));
-      },
-      [](const Case& c) {
-        return Left{.observed = std::log(c.observed.time_s->value), .untuned = std::log(c.predicted.time_s)};
-      },
-      [](const Case& c) {
-        return std::vector<double>{1.0, std::log(c.predicted.time_s)};
-      },
-      [](const Case&) { return std::size_t{0}; },
-      // Nothing is held of the constant; time goes at most with path over feed, and not at all where a tool
-      // never reaches its feed. Noise: as `tune::correct_time`, of its expectation alone.
-      {.prior = {{}, {0.5, 0.5}}, .noise = 0.05, .between = 0.025});
+std::string signed_mm(double v) { return (v < 0.0 ? "" : "+") + fixed(v, 3); }
+
+/// Those with a time that is the plate's own.
+std::vector<Case> timed(const std::vector<Case>& cases) {
+  std::vector<Case> out;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(out), [](const Case& c) {
+    // The engraver's time in the table holds a later run of another program (section 1).
+    return c.observed.time_s && c.predicted.time_s > 0.0 &&
+           (c.from.workingstep != "ENGRAVING" || kTraced.contains(c.from.part));
+  });
+  return out;
 }
 
-std::vector<Left> bores_of(const std::vector<Case>& cases) {
-  return leave_plates_out(
-      cases, [](const Case& c) { return c.observed.size_deviation_mm.has_value(); },
-      [](const Case& c) {
-        return Left{.observed = c.observed.size_deviation_mm->value, .untuned = c.predicted.deflection_mm};
-      },
-      [](const Case& c) {
-        const double slender = c.asked.stick_out_mm / c.asked.cutter_diameter_mm / kSlender;
-        return std::vector<double>{1.0, c.bound.fz_mm * c.asked.teeth * slender * slender * slender};
-      },
-      [](const Case& c) { return tune::slenderness_of(c.asked.stick_out_mm / c.asked.cutter_diameter_mm); },
-      {.noise = 0.02, .between = 0.01});
-}
+constexpr const char* kTimeNames[kTimePredictors] = {"path ÷ feed",
+                                                     "motion model, not calibrated",
+                                                     "motion model, calibrated",
+                                                     "not calibrated, tuned by all tools",
+                                                     "not calibrated, tuned by tools alike",
+                                                     "calibrated, tuned by all tools",
+                                                     "calibrated, tuned by tools alike"};
 
-void tell_times(const std::vector<Left>& times, Comparison& out) {
-  Table table{head_of("ln(time of a tool)", ""), {}};
-  const auto add = [&](const std::string& name, const std::function<bool(const Left&)>& of) {
-    table.rows.push_back(row_of(name, figures_of(times, of)));
+void tell_times(const std::vector<LeftOutCase>& times, Comparison& out) {
+  Table table{{"rms of ln(time of a tool), predicted over measured", "n"}, {}};
+  table.head.insert(table.head.end(), std::begin(kTimeNames), std::end(kTimeNames));
+  const auto add = [&](const std::string& name, const Wanted& of) {
+    std::vector<std::string> row = {name, std::to_string(figures_of(times, 0, of).n)};
+    for (std::size_t by = 0; by < kTimePredictors; ++by)
+      row.push_back(fixed(figures_of(times, by, of).error, 3));
+    table.rows.push_back(std::move(row));
   };
-  add("all", [](const Left&) { return true; });
+  add("all", anything);
   add("plates not interrupted, feeds known", counted_plate);
-  add("of them with a trace", [](const Left& l) { return counted_plate(l) && has_trace(l); });
+  add("of them with a trace", [](const LeftOutCase& l) { return counted_plate(l) && has_trace(l); });
   std::set<std::string> steps;
-  for (const Left& l : times) steps.insert(l.c->from.workingstep);
+  for (const LeftOutCase& l : times) steps.insert(l.c->from.workingstep);
   for (const std::string& step : steps) {
-    add("of them " + step, [&](const Left& l) { return counted_plate(l) && l.c->from.workingstep == step; });
+    add("of them " + step,
+        [&](const LeftOutCase& l) { return counted_plate(l) && l.c->from.workingstep == step; });
   }
-  out.text += markdown(table);
-  Table data{{"part", "untuned", "predicted", "low", "high", "measured"}, {}};
-  for (const Left& l : times) {
-    data.rows.push_back({l.c->from.part, fixed(std::exp(l.untuned), 3), fixed(std::exp(l.predicted), 3),
-                         fixed(std::exp(l.predicted - l.half_90), 3),
-                         fixed(std::exp(l.predicted + l.half_90), 3), fixed(std::exp(l.observed), 3)});
+  Table stated{{"plates not interrupted, feeds known", "rms", "stated, rms", "within the interval of 90 %"},
+               {}};
+  for (std::size_t by = kTuned; by < kTimePredictors; ++by) {
+    const PredictorFigures f = figures_of(times, by, counted_plate);
+    stated.rows.push_back({kTimeNames[by], fixed(f.error, 3), fixed(f.stated, 3), within_text(f)});
+  }
+  out.text += markdown(table) + "\n" + markdown(stated);
+  Table data{{"part", "tool", "measured", "path", "motion", "calibrated", "tuned", "low", "high"}, {}};
+  for (const LeftOutCase& l : times) {
+    const PlatePrediction& tuned = l.by[kTunedAlike];
+    data.rows.push_back({l.c->from.part, std::to_string(plate_tool_of(*l.c)), fixed(std::exp(l.observed), 3),
+                         fixed(std::exp(l.by[kByPath].value), 3), fixed(std::exp(l.by[kByMotion].value), 3),
+                         fixed(std::exp(l.by[kByCalibrated].value), 3), fixed(std::exp(tuned.value), 3),
+                         fixed(std::exp(tuned.value - tuned.half_90), 3),
+                         fixed(std::exp(tuned.value + tuned.half_90), 3)});
   }
   out.data.emplace_back("plates_times.dat", columns(data));
 }
 
-void tell_bores(const std::vector<Left>& bores, Comparison& out) {
-  Table table{head_of("deviation of a bore", ", mm"), {}};
-  Table each{{"part", "bores", "stick-out, mm", "feed per turn, mm", "measured, mm", "left out, mm",
-              "interval of 90 %, mm", "within"},
+bool of_4_mm(const LeftOutCase& l) { return l.c->asked.diameter_mm > 3.5; }
+
+void tell_bores(const std::vector<LeftOutCase>& bores, Comparison& out) {
+  Table table{
+      {"deviation of a bore from what is programmed, mm", "n", "measured, mean", "static bending, mean",
+       "static bending, rms error", "tuned, rms error", "stated, rms", "within the interval of 90 %"},
+      {}};
+  Table each{{"part", "bores", "stick-out, mm", "feed per turn, mm", "measured, mm",
+              "static bending says, mm", "left out, mm", "interval of 90 %, mm", "within"},
              {}};
-  Table data{{"part", "measured", "predicted", "low", "high"}, {}};
+  Table data{{"part", "measured", "predicted", "low", "high", "bending"}, {}};
+  const auto add = [&](const std::string& name, const Wanted& of) {
+    const PredictorFigures bending = figures_of(bores, kByBending, of),
+                           tuned = figures_of(bores, kTunedBores, of);
+    table.rows.push_back({name, std::to_string(tuned.n), signed_mm(tuned.observed), signed_mm(bending.value),
+                          fixed(bending.error, 3), fixed(tuned.error, 3), fixed(tuned.stated, 3),
+                          within_text(tuned)});
+  };
   std::set<std::string> steps;
-  for (const Left& l : bores) steps.insert(l.c->from.workingstep);
-  for (const std::string& step : steps)
-    table.rows.push_back(
-        row_of(step, figures_of(bores, [&](const Left& l) { return l.c->from.workingstep == step; })));
-  std::vector<Left> sorted = bores;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Left& a, const Left& b) {
-    const auto key = [](const Left& l) { return std::pair(l.c->from.part.size(), l.c->from.part); };
+  for (const LeftOutCase& l : bores) steps.insert(l.c->from.workingstep);
+  for (const std::string& step : steps) {
+    std::set<double> stick_outs;
+    for (const LeftOutCase& l : bores) stick_outs.insert(l.c->asked.stick_out_mm);
+    add(step, [&](const LeftOutCase& l) { return l.c->from.workingstep == step; });
+    for (const double stick_out : stick_outs) {
+      add("of them by a stick-out of " + fixed(stick_out, 1) + " mm", [&](const LeftOutCase& l) {
+        return l.c->from.workingstep == step && l.c->asked.stick_out_mm == stick_out;
+      });
+    }
+  }
+  std::vector<LeftOutCase> sorted = bores;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const LeftOutCase& a, const LeftOutCase& b) {
+    const auto key = [](const LeftOutCase& l) { return std::pair(l.c->from.part.size(), l.c->from.part); };
     return a.c->from.workingstep != b.c->from.workingstep ? a.c->from.workingstep > b.c->from.workingstep
                                                           : key(a) < key(b);
   });
-  for (const Left& l : sorted) {
-    const double low = l.predicted - l.half_90, high = l.predicted + l.half_90;
+  for (const LeftOutCase& l : sorted) {
+    const PlatePrediction& tuned = l.by[kTunedBores];
+    const double bending = l.by[kByBending].value, low = tuned.value - tuned.half_90,
+                 high = tuned.value + tuned.half_90;
     each.rows.push_back({l.c->from.part, l.c->from.workingstep, fixed(l.c->asked.stick_out_mm, 1),
-                         fixed(l.c->bound.fz_mm * l.c->asked.teeth, 3), fixed(l.observed, 3),
-                         fixed(l.predicted, 3), fixed(low, 3) + " to " + fixed(high, 3),
-                         l.within() ? "yes" : "no"});
-    if (l.c->asked.diameter_mm > 3.5) {
-      data.rows.push_back(
-          {l.c->from.part, fixed(l.observed, 4), fixed(l.predicted, 4), fixed(low, 4), fixed(high, 4)});
+                         fixed(l.c->bound.fz_mm * l.c->asked.teeth, 3), signed_mm(l.observed),
+                         signed_mm(bending), signed_mm(tuned.value),
+                         signed_mm(low) + " to " + signed_mm(high), l.within(kTunedBores) ? "yes" : "no"});
+    if (of_4_mm(l)) {
+      data.rows.push_back({l.c->from.part, fixed(l.observed, 4), fixed(tuned.value, 4), fixed(low, 4),
+                           fixed(high, 4), fixed(bending, 4)});
     }
   }
   out.text += "\n" + markdown(table) + "\n<details><summary>bores of every plate</summary>\n\n" +
@@ -246,16 +216,13 @@ Result<std::string> counted_against_table(const std::vector<Case>& cases, const 
   if (!table) return tl::unexpected(table.error());
   const auto timed = retain::read_times(*table, "times_per_tool.csv", job);
   if (!timed) return tl::unexpected(timed.error());
-  const std::map<std::string, int> tools = {{"FACE", 15},   {"SPOT", 7},       {"PROFILE", 3},
-                                            {"POCKETS", 4}, {"BORES 4 mm", 5}, {"BORES 3 mm", 1}};
   constexpr double kAsked = 0.02;
   std::size_t n = 0, within = 0;
   double worst = 0.0;
   for (const Case& c : cases) {
-    const auto tool = tools.find(c.from.workingstep);
-    if (!kTraced.contains(c.from.part) || tool == tools.end() || !c.observed.time_s) continue;
+    if (!kTraced.contains(c.from.part) || c.from.workingstep == "ENGRAVING" || !c.observed.time_s) continue;
     for (const retain::Timed& t : *timed) {
-      if (t.part != c.from.part || t.tool != tool->second) continue;
+      if (t.part != c.from.part || t.tool != plate_tool_of(c)) continue;
       const double off = std::abs(c.observed.time_s->value / t.moving_s - 1.0);
       worst = std::max(worst, off);
       within += off <= kAsked ? 1 : 0;
@@ -287,15 +254,26 @@ Comparison plates(const std::string& corpus) {
   out.text = std::to_string(cases->size()) + " cases of " + std::to_string(parts.size()) + " plates.\n\n";
   if (const auto counted = counted_against_table(*cases, corpus + "/measured/nist_plate", job))
     out.text += *counted;
-  const auto times = times_of(*cases), bores = bores_of(*cases);
+  const auto plate = nist::read_plate(corpus + "/measured/nist_plate",
+                                      testing::source_dir() + "/tests/validation/nist_plate.yaml");
+  const auto models = plate ? models_without(*plate) : tl::unexpected(plate.error());
+  if (!models) {
+    out.skipped = models.error().message;
+    return out;
+  }
+  const std::vector<Case> with_time = timed(*cases);
+  const auto times = times_left_out(with_time, *models), bores = bores_left_out(*cases, *models);
   tell_times(times, out);
   tell_bores(bores, out);
-  const Figures t = figures_of(times, counted_plate),
-                b = figures_of(bores, [](const Left&l) { return l.c->asked.diameter_mm > 3.5; });
-  out.headline = "a plate left out: rms of ln(time of a tool) " + fixed(t.predicted, 3) + " (untuned " +
-                 fixed(t.untuned, 2) + "), " + std::to_string(t.within) + " of " + std::to_string(t.n) +
-                 " within the interval of 90 %; 4 mm bores " + fixed(b.predicted, 3) + " mm (untuned " +
-                 fixed(b.untuned, 3) + "), " + std::to_string(b.within) + " of " + std::to_string(b.n);
+  const auto time = [&](std::size_t by) { return figures_of(times, by, counted_plate); };
+  const PredictorFigures tuned = time(kTunedAlike), bore = figures_of(bores, kTunedBores, of_4_mm);
+  out.headline = "a plate left out: rms of ln(time of a tool) " + fixed(time(kByMotion).error, 2) +
+                 " by the motion model, " + fixed(time(kTuned).error, 2) + " tuned by all tools, " +
+                 fixed(tuned.error, 3) + " by tools alike (" + within_text(tuned) +
+                 " within the interval of 90 %), " + fixed(time(kByCalibrated).error, 3) +
+                 " by the calibrated model; 4 mm bores " + fixed(bore.error, 3) + " mm (" +
+                 within_text(bore) + "), by static bending " +
+                 fixed(figures_of(bores, kByBending, of_4_mm).error, 3) + " mm with the wrong sign";
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/physics/motion/time.h"
+#include "tooling/shop/machine/machine.h"
 
 namespace capstan::validation::nist {
 model::Machine machine_of(const Plate& plate, const MachineFit& fit) {
@@ -58,15 +59,18 @@ double nominal_s(const ToolRun& run, double feed_ipm) {
   return 60.0 * length / (kInch * feed_ipm);
 }
 
-Status predict(const Plate& plate, const MachineFit& fit, std::vector<Row>& rows, bool calibrating_only) {
-  const model::Machine machine = machine_of(plate, fit);
+Status predict(const Plate& plate, const model::Machine& machine, double handling_s, std::vector<Row>& rows,
+               bool calibrating_only) {
   for (Row& r : rows) {
     if (calibrating_only && !r.part->calibrates) continue;
     const auto s = moving_s(*run_of(plate, *r.part, r.time->tool), r.feed_ipm, machine);
     if (!s) return tl::unexpected(s.error());
-    r.predicted_s = *s + fit.handling_s;
+    r.predicted_s = *s + handling_s;
   }
   return {};
+}
+Status predict(const Plate& plate, const MachineFit& fit, std::vector<Row>& rows, bool calibrating_only) {
+  return predict(plate, machine_of(plate, fit), fit.handling_s, rows, calibrating_only);
 }
 
 double rms_of(const std::vector<Row>& rows) {
@@ -176,21 +180,47 @@ std::string remark_of(const Row& r) {
 // A row that counts for the aim: not calibrating, not interrupted.
 bool counts(const Row& r) { return !r.part->calibrates && !r.part->interrupted; }
 
-}  // namespace
-
-Result<TimeStudy> study_times(const Plate& plate) {
-  TimeStudy out;
-  out.later = later_run(plate);
+Result<std::vector<Row>> rows_of(const Plate& plate, const LaterRun& later) {
+  std::vector<Row> out;
   for (const PlatePart& p : plate.parts) {
     for (const ToolTime& t : plate.times) {
       if (t.part != p.part) continue;
       const ToolRun* run = run_of(plate, p, t.tool);
       if (run == nullptr) return fail("VALID-PROGRAM", "no program runs tool " + std::to_string(t.tool));
-      Row row = row_of(plate, p, t, out.later);
+      Row row = row_of(plate, p, t, later);
       row.nominal_s = nominal_s(*run, row.feed_ipm);
-      out.rows.push_back(row);
+      out.push_back(row);
     }
   }
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<Row>> times_on(const Plate& plate, const model::Machine& machine) {
+  auto rows = rows_of(plate, later_run(plate));
+  if (!rows) return rows;
+  if (auto s = predict(plate, machine, 0.0, *rows, false); !s) return tl::unexpected(s.error());
+  return rows;
+}
+
+Result<model::Machine> uncalibrated_machine(const Plate& plate) {
+  Job job;
+  auto machine = tooling::load_machine(std::string(tooling::kDefaultMachine), job);
+  if (!machine) return machine;
+  for (model::LinearAxis& axis : machine->axes) {
+    axis.rapid_mm_min = 60.0 * plate.rapid_mm_s;
+    axis.feed_max_mm_min = 60.0 * plate.feed_max_mm_s;
+  }
+  return machine;
+}
+
+Result<TimeStudy> study_times(const Plate& plate) {
+  TimeStudy out;
+  out.later = later_run(plate);
+  auto rows = rows_of(plate, out.later);
+  if (!rows) return tl::unexpected(rows.error());
+  out.rows = *std::move(rows);
   auto fit = calibrate(plate, out.rows);
   if (!fit) return tl::unexpected(fit.error());
   out.fit = *fit;

@@ -48,6 +48,13 @@ struct TimeStudy {
   std::vector<Row> rows;
 };
 
+/// The machine of the plates as nobody calibrated it: the one that is planned with where none is named, with
+/// this machine's rapid and largest feed.
+[[nodiscard]] Result<model::Machine> uncalibrated_machine(const Plate& plate);
+/// All tools of all parts, predicted on a machine: what their programs hold, without `MachineFit::handling_s`
+/// and without standing still. The rows point into the plate.
+[[nodiscard]] Result<std::vector<Row>> times_on(const Plate& plate, const model::Machine& machine);
+
 /// Calibrates on the parts that the set-up names and predicts all.
 [[nodiscard]] Result<TimeStudy> study_times(const Plate& plate);
 

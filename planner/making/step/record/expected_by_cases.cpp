@@ -161,14 +161,15 @@ void tell_step_times(const std::vector<Case>& steps, const std::vector<Case>& ca
   }
 }
 
-/// How far bores come out from the size asked, by the measured parts of one tool class.
+/// How far bores come out from the size asked, by the measured parts of one tool class and cutter diameter.
 struct Bores {
   std::optional<tune::BoreCorrection> correction;  ///< nothing: of too few parts
   Heard heard;
 };
-Bores bores_of(const std::vector<Case>& cases, const std::string& tool_class) {
+Bores bores_of(const std::vector<Case>& cases, const casebase::Question& q) {
   const std::vector<Case> same = those_heard(cases, tune::bores_of, [&](const Case& c) {
-    return c.asked.tool_class == tool_class && c.bound.fz_mm > 0.0 && c.asked.stick_out_mm > 0.0;
+    return c.asked.tool_class == q.tool_class && tune::same_cutter(c.asked, q) && c.bound.fz_mm > 0.0 &&
+           c.asked.stick_out_mm > 0.0;
   });
   const auto samples = tune::bores_of(same);
   Bores out{.correction = tune::correct_bores(samples, false), .heard = {}};
@@ -181,23 +182,24 @@ Bores bores_of(const std::vector<Case>& cases, const std::string& tool_class) {
   return out;
 }
 
-/// `cases`: of the plan's material. Bores of another material, or of another tool class, say nothing of
+/// `cases`: of the plan's material. Bores of another material, tool class or cutter diameter say nothing of
 /// these: other forces bend other tools.
 void tell_bores(const model::Plan& plan, const std::vector<Case>& steps, const std::vector<Case>& cases,
                 std::vector<model::Provenance>& rows, Job& job) {
-  std::map<std::string, Bores> by_tool;
+  std::map<std::pair<std::string, double>, Bores> by_tool;
   for (const Case& s : steps) {
     const casebase::Question& q = s.asked;
     // A path that the file gave aims where the file says.
     if (!tune::finishes_bore(s) || !s.bound.aimed_over_mm || !(q.cutter_diameter_mm > 0.0) ||
         !(q.stick_out_mm > 0.0))
       continue;
-    if (!by_tool.contains(q.tool_class)) by_tool.emplace(q.tool_class, bores_of(cases, q.tool_class));
-    const Bores& bores = by_tool.at(q.tool_class);
+    const std::pair tool(q.tool_class, q.cutter_diameter_mm);
+    if (!by_tool.contains(tool)) by_tool.emplace(tool, bores_of(cases, q));
+    const Bores& bores = by_tool.at(tool);
     if (!bores.correction) continue;
     const double feed_mm = s.bound.fz_mm * std::max(1, q.teeth),
                  ratio = q.stick_out_mm / q.cutter_diameter_mm;
-    const double half = half_90(bores.correction->std_dev_mm(feed_mm, ratio), bores.heard.parts);
+    const double half = bores.correction->half_90_mm(feed_mm, ratio);
     const double middle = s.bound.aimed_over_mm->value, half_zone = 0.5 * q.tolerance_mm;
     const double comes = middle + bores.correction->deviation_mm(feed_mm, ratio);
     const std::string value = signed_mm(comes) + " +- " + fixed(half, 3) + " mm";

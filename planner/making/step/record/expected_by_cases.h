@@ -25,8 +25,9 @@ inline constexpr std::string_view kTimeByCases = "time by cases";
 /// it mills (casebase/tune/corrections.h), with the interval of 90 % for one further part: CASE-TIME, a note;
 /// CASE-BORE, a warning where that interval leaves the zone of the tolerance, else a note. A step's time is
 /// told where steps like it were measured: of the same operation with a tool of the same class. Bores are
-/// heard of the same material and tool class alone; all of it from three parts on. Gives a row for the plan's
-/// record of each, with the cases by id, what came of them, and what is without them. `cases` may be null.
+/// heard of the same material, tool class and cutter diameter alone; all of it from three parts on. Gives a
+/// row for the plan's record of each, with the cases by id, what came of them, and what is without them.
+/// `cases` may be null.
 [[nodiscard]] std::vector<model::Provenance> tell_expected(const model::Plan& plan,
                                                            const casebase::CaseBase* cases, Job& job);
 

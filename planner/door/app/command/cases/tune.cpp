@@ -95,7 +95,7 @@ std::vector<const tune::Corrected*> models_of(const tune::Corrections& c) {
   if (c.force) out.push_back(&c.force->how);
   if (c.life) out.push_back(&c.life->how);
   if (c.time) out.push_back(&c.time->how);
-  if (c.bores) out.push_back(&c.bores->how);
+  for (const auto& [cutter, bores] : c.bores) out.push_back(&bores.how);
   return out;
 }
 
@@ -131,11 +131,11 @@ std::string corrections_text(const MaterialCorrections& m) {
              " of the planned time, +- " + fixed(100.0 * t->ln_std_dev(block_s), 0) + " %\n";
     }
   }
-  if (const auto& b = m.corrections.bores) {
+  for (const auto& [cutter, bores] : m.corrections.bores) {
     for (const double ratio : {3.0, 6.0}) {
-      out += "  bores at 0.05 mm per turn, stick-out " + trimmed(ratio, 0) +
-             " D: " + fixed(b->deviation_mm(0.05, ratio), 3) + " +- " + fixed(b->std_dev_mm(0.05, ratio), 3) +
-             " mm\n";
+      out += "  " + bores.how.model + " at 0.05 mm per turn, stick-out " + trimmed(ratio, 0) +
+             " D: " + fixed(bores.deviation_mm(0.05, ratio), 3) + " +- " +
+             fixed(bores.half_90_mm(0.05, ratio), 3) + " mm (90 of 100)\n";
     }
   }
   return out;

@@ -327,13 +327,16 @@ TEST_F(CaseModels, ABoreThatWasJudgedBadForItsSizeIsHeard) {
   EXPECT_THAT(planned_with(cases).err, HasSubstr("[CASE-BORE]"));
 }
 
-TEST_F(CaseModels, BoresOfAnotherMaterialOrToolClassSayNothing) {
-  for (const bool material : {true, false}) {
+TEST_F(CaseModels, BoresOfAnotherMaterialToolClassOrCutterSayNothing) {
+  for (const int other : {0, 1, 2}) {
     auto cases = bored(2.0);
-    for (Case& c : cases)
-      (material ? c.asked.material_group : c.asked.tool_class) = material ? "K/grey_iron" : "hss/endmill";
+    for (Case& c : cases) {
+      if (other == 0) c.asked.material_group = "K/grey_iron";
+      if (other == 1) c.asked.tool_class = "hss/endmill";
+      if (other == 2) c.asked.cutter_diameter_mm *= 1.2;
+    }
     std::filesystem::remove(folder_ / "base.db");
-    EXPECT_THAT(planned_with(cases).err, Not(HasSubstr("CASE-BORE"))) << material;
+    EXPECT_THAT(planned_with(cases).err, Not(HasSubstr("CASE-BORE"))) << other;
   }
 }
 
