@@ -97,12 +97,8 @@ std::string set_revenue(Request& r, Text text) {
   return {};
 }
 std::string set_margin(Request& r, Text text) {
-  if (!mechanics::margin_policy(text)) {
-    std::string names;
-    for (const std::string& name : mechanics::margin_names()) names += name + ", ";
-    return "'" + text + "' is no margin; expected " + names +
-           "or a number of standard deviations above 0 and at most " + trimmed(mechanics::kMostDeviations, 1);
-  }
+  if (!mechanics::margin_policy(text))
+    return "'" + text + "' is no margin; expected " + mechanics::margins_asked();
   r.margin = text;
   return {};
 }

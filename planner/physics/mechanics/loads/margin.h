@@ -64,4 +64,11 @@ inline constexpr NamedMargin kUsualMargin = kNamedMargins[1];
   return names;
 }
 
+/// What a margin may be, for who named none: "careful, usual, bold, or a number of standard deviations ...".
+[[nodiscard]] inline std::string margins_asked() {
+  std::string out;
+  for (const NamedMargin& m : kNamedMargins) out += std::string(m.name) + ", ";
+  return out + "or a number of standard deviations above 0 and at most " + trimmed(kMostDeviations, 1);
+}
+
 }  // namespace capstan::mechanics
