@@ -353,7 +353,8 @@ TEST_F(CorpusNistAsGiven, FinishesTheWallOnEveryLevelAndTheFloorOnTheLast) {
     return std::any_of(moves.begin(), moves.end(), [z](const CanonMove& m) {
       constexpr double kInside = 62.5;  // within the wall pass and its arcs in and out
       return m.kind == Kind::kFeed && std::abs(m.z - z) < kPrinted && std::abs(m.from_z - z) < kPrinted &&
-             m.x > kInside && m.x < 79.0 && std::abs(m.y - m.from_y) > 20.0;
+             m.x > kInside && m.x < 79.0 && std::abs(m.y - m.from_y) > 20.0 &&
+             std::abs(m.x - m.from_x) < kPrinted;  // a pass beside the wall, not the way to the next level
     });
   };
   const auto theirs = nist("finish");

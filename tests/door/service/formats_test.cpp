@@ -59,12 +59,12 @@ TEST(Formats, AnOutputsEndingTellsItsFormat) {
 
 TEST(Formats, TextsForPeopleAreMadeOfTheTable) {
   EXPECT_EQ(written_endings(),
-            ".p21, .stp, .stpnc, .238, .json, .ngc, .tbl, .nc, .mpf, .h, .gcode, .html or .yaml");
+            ".p21, .stp, .stpnc, .238, .json, .ngc, .tbl, .nc, .mpf, .h, .gcode, .tap, .html or .yaml");
   EXPECT_EQ(written_text(),
             "ISO 14649 .p21 .stp, AP238 .stpnc .238, plan .json, program .ngc, tool table .tbl, program .nc, "
-            "program .mpf, program .h, program .gcode, "
+            "program .mpf, program .h, program .gcode, program .tap, "
             "report .html, edits .yaml");
-  EXPECT_EQ(endings_of(Holds::kProgram), ".ngc, .nc, .mpf, .h, .gcode");
+  EXPECT_EQ(endings_of(Holds::kProgram), ".ngc, .nc, .mpf, .h, .gcode, .tap");
   EXPECT_EQ(read_text(),
             "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, "
             "CAD part in STEP (AP203, AP214 or AP242), or STL mesh");
