@@ -68,8 +68,12 @@ int main(int argc, char** argv) {
   if (code == CAPSTAN_LATE_OK && tool_state != NULL) {
     /* A control that has the states in memory needs no file. */
     char* states = read_all(tool_state, &size_of_states);
-    code =
-        states == NULL ? CAPSTAN_LATE_UNREADABLE : capstan_late_tool_state(session, states, size_of_states);
+    if (states == NULL) {
+      fprintf(stderr, "%s cannot be read\n", tool_state);
+      code = CAPSTAN_LATE_UNREADABLE;
+    } else {
+      code = capstan_late_tool_state(session, states, size_of_states);
+    }
     free(states);
   }
   if (code == CAPSTAN_LATE_OK)

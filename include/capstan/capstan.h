@@ -35,7 +35,8 @@ struct PlanOptions {
   bool allow_findings =
       false;  ///< a program although the check condemns it; it stops before what is condemned. Never of a
               ///< plan that its file states in two ways, or whose workpiece or set-ups it states wrongly
-  std::string margin = {};             ///< of loads against their limits: "careful", "usual", "bold"
+  std::string margin = {};  ///< of loads against their limits: "careful", "usual", "bold", or a number of
+                            ///< standard deviations above 0 and at most 3: "1.28"
   std::string cases = {};              ///< a case base to begin from
   std::string stock = {};              ///< the raw piece: "block:+2" or "box:x0,y0,z0,x1,y1,z1", mm
   std::string solver = {};             ///< as `capstan plan --solver` lists them

@@ -73,8 +73,9 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_prepare(capstan_late* session);
  *     T6 wear 0.02 in-table                            ; D and Z of the table are less by it already
  *
  * A broken tool, or one without life left, is not called. `wear` is radial: twice of it comes off the
- * diameter, and paths are made for that. `length-wear` comes off the length: the tool table that the bound
- * plan gives says what has to be in effect. A step that cuts longer than its edge has life, behind those that
+ * diameter, and paths are made for that. `length-wear` comes off the length. Both are the whole since the
+ * edge was new, of which only what the table has not yet is taken off. The tool table that the bound plan
+ * gives says what has to be in effect. A step that cuts longer than its edge has life, behind those that
  * this plan cuts with it before, gets another tool, of the same kind first, or nothing is given (LATE-LIFE,
  * code 4). Where workingsteps are bound one after the other, lives count from the one that is bound next.
  * What was bound before is not given any more; capstan_late_bind_next goes on with it. On CAPSTAN_LATE_USAGE

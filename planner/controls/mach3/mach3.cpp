@@ -80,8 +80,8 @@ constinit const Dialect kDialect{
     .program = {"mach3", ".tap", "text/x-gcode"},
     .tool_table = {},
     .work_offsets = kWorkOffsets,
-    // G64 has no word for a tolerance; spindle and feed are not held in step. Tool numbers: 254 rows of its
-    // tool table, remembered; look-ahead: its setting, 20 blocks where nothing is set, remembered.
+    // G64 has no word for a tolerance; spindle and feed are not held in step. Tool numbers, the rows of its
+    // tool table, and look-ahead, where nothing is set: defaults, unsourced.
     .conformance = {.rigid_tapping = false,
                     .path_tolerance = false,
                     .largest_tool_number = 254,

@@ -103,7 +103,7 @@ Plan joined(const Plan& brought, const Plan& bound, const pipeline::Window& wind
     if (is == nullptr) {
       out.cutters.push_back(*was);
     } else if (is_cut && !cuts_alike(*is, *was)) {
-      auto [name, is_new] = as_cut.try_emplace(s.cutter_id, s.cutter_id + " as cut");
+      auto [name, is_new] = as_cut.try_emplace(s.cutter_id, s.cutter_id + std::string(kAsCut));
       while (is_new && model::find_cutter(out, name->second) != nullptr) name->second += " before";
       if (is_new) {
         model::Cutter gone = *was;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <set>
+#include <string_view>
 #include <vector>
 
 #include "planner/door/pipeline/pipeline.h"
@@ -27,6 +28,9 @@ struct Next {
 /// The operations of steps that are meant.
 [[nodiscard]] std::set<model::AnyRef> operations_of(const model::Plan& plan, const pipeline::Window& window,
                                                     const std::vector<model::AnyRef>& steps);
+
+/// Behind the name of a cutter that was another when it cut.
+inline constexpr std::string_view kAsCut = " as cut";
 
 /// The whole plan of which some steps were bound: the steps before as they were cut, these, and what
 /// `brought` has of those after them. A cutter that was another when it cut keeps its sizes under a name of

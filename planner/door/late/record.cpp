@@ -35,6 +35,8 @@ std::string tools_hash(const std::vector<model::Cutter>& library) {
 
 void record(model::Plan& plan, const model::Plan& brought, const pipeline::Inputs& inputs, const Told& told) {
   std::erase_if(plan.provenance, [](const auto& p) { return p.what.starts_with(kWhat) || is_tool_state(p); });
+  const std::vector<model::Provenance> known = wear_known(brought, told.of_tools);
+  plan.provenance.insert(plan.provenance.end(), known.begin(), known.end());
   plan.provenance.insert(plan.provenance.end(), told.of_tools.begin(), told.of_tools.end());
   std::size_t n = 1;
   for (const model::Provenance& p : brought.provenance) {

@@ -13,7 +13,7 @@ namespace capstan::late {
 /// which tools, both with a hash, and what was re-opened. Every form of a plan keeps it.
 ///
 /// What was told of the tools (ToldTools::rows) stands before it, in place of what earlier bindings were
-/// told.
+/// told; of these stays what tells of wear that is not told anew (wear_known).
 ///
 /// Hashes  64 bits in hex: of the machine's data, and of number, place, length and diameter of each loaded
 /// tool.

@@ -147,7 +147,7 @@ Result<model::Plan> close_plan(model::Plan plan, const Drafts& drafts, const Req
   }
   if (bind == Bind::kAll) {
     const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
-    share_among_sisters(plan, asked.inputs.library, job);
+    share_among_sisters(plan, asked.inputs.library, restrictions_of(asked.inputs), job);
     step::tell_edges(plan, asked.inputs.cases.get(), job);
     step::tell_other_classes(plan, asked.inputs.cases.get(), job);
     given::state_machine_needs(plan);

@@ -20,6 +20,12 @@ const std::vector<model::Cutter>& usable(const Asked& asked, std::vector<model::
 
 }  // namespace
 
+std::vector<model::Edit> restrictions_of(const Inputs& inputs) {
+  std::vector<model::Edit> out = inputs.edits;
+  out.insert(out.end(), inputs.kept_off.begin(), inputs.kept_off.end());
+  return out;
+}
+
 const std::vector<model::Edit>* edits_of(const Inputs& inputs) {
   return inputs.edits.empty() ? nullptr : &inputs.edits;
 }
@@ -99,8 +105,7 @@ Drafted select_open_tools(model::Plan plan, Drafts drafts, const Required& requi
   std::vector<model::Cutter> loaded;
   const std::vector<model::Cutter>& cutters = usable(asked, loaded);
   const std::vector<model::Cutter>& library = asked.inputs.library;
-  std::vector<model::Edit> restrictions = asked.inputs.edits;
-  restrictions.insert(restrictions.end(), asked.inputs.kept_off.begin(), asked.inputs.kept_off.end());
+  const std::vector<model::Edit> restrictions = restrictions_of(asked.inputs);
   const piece::Piece piece{plan, required.shapes, grown_mm(asked.inputs)};
   const given::Choice choice{library,
                              cutters,

@@ -56,6 +56,9 @@ struct Required {
   piece::Shapes shapes;
 };
 
+/// What bars tools: the edits, and the tools that steps are kept off.
+[[nodiscard]] std::vector<model::Edit> restrictions_of(const Inputs& inputs);
+
 /// Excess of the raw piece over the finished part, mm.
 [[nodiscard]] double grown_mm(const Inputs& inputs);
 

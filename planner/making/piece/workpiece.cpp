@@ -256,6 +256,7 @@ Result<Margin> margin_of(const model::Plan& plan, const WorkpieceWish& wish, Job
   if (!policy) {
     Diagnostic d = unknown_name(kMargin, before->value, mechanics::margin_names(), "capstan plan --help");
     d.file = plan.file_name;
+    d.expected = mechanics::margins_asked();
     d.hint = "the plan says that it was made with it: name one with --margin; " + d.hint;
     return fail(std::move(d));
   }

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "planner/door/late/next.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/given/magazine.h"
 #include "planner/model/nouns/all.h"
@@ -90,13 +91,22 @@ void open(Relieved& out, const StepResult& step, const Cutter& tool, const std::
   out.kept_off.push_back(std::move(off));
 }
 
+/// The number of a step's tool; of one that was another when it cut, the number that it has now.
+int number_of(const Plan& plan, const std::string& id) {
+  const Cutter* c = model::find_cutter(plan, id);
+  const std::size_t as_cut = id.rfind(kAsCut);
+  if (c != nullptr && c->pocket <= 0 && as_cut != std::string::npos)
+    c = model::find_cutter(plan, id.substr(0, as_cut));
+  return c == nullptr ? 0 : c->pocket;
+}
+
 }  // namespace
 
 std::map<int, double> minutes_of(const Plan& plan, std::size_t from, std::size_t to) {
   std::map<int, double> out;
   for (std::size_t k = from; k < std::min(to, plan.steps.size()); ++k) {
-    const Cutter* c = model::find_cutter(plan, plan.steps[k].cutter_id);
-    if (c != nullptr && c->pocket > 0) out[c->pocket] += plan.steps[k].cutting_s / kSecondsPerMin;
+    const int number = number_of(plan, plan.steps[k].cutter_id);
+    if (number > 0) out[number] += plan.steps[k].cutting_s / kSecondsPerMin;
   }
   return out;
 }

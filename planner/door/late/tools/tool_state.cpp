@@ -24,6 +24,9 @@ using model::Cutter;
 constexpr std::string_view kRow = "tool-state T";
 constexpr std::string_view kOfTable = " of the tool table";
 
+constexpr const char* kWear = "wear";
+constexpr const char* kLengthWear = "length-wear";
+
 /// A word that a number follows, and where that goes.
 struct Amount {
   std::string_view word;
@@ -32,8 +35,8 @@ struct Amount {
 };
 constexpr std::array kAmounts = {
     Amount{"life-left", &ToolState::life_left_min, model::range::kToolLifeMin.most},
-    Amount{"length-wear", &ToolState::length_wear_mm, model::range::kToolLengthMm.most},
-    Amount{"wear", &ToolState::wear_mm, model::range::kToolLengthMm.most},
+    Amount{kLengthWear, &ToolState::length_wear_mm, model::range::kToolLengthMm.most},
+    Amount{kWear, &ToolState::wear_mm, model::range::kToolLengthMm.most},
 };
 /// A word that stands alone.
 struct Flag {
@@ -122,24 +125,67 @@ std::string told(const Size& s) { return std::string(s.word) + " " + trimmed(s.t
 std::string in_table(const Size& s) {
   return told(s) + ", in " + s.letter + " " + trimmed(s.now_mm, 4) + " mm" + std::string(kOfTable);
 }
-std::string taken_off(const Size& s, double from_mm) {
-  return told(s) + ", off " + s.letter + ": " + trimmed(from_mm, 4) + " to " +
-         trimmed(from_mm - s.worn_mm, 4) + " mm";
+/// From the size of the new edge.
+std::string taken_off(const Size& s, double new_mm) {
+  return told(s) + ", off " + s.letter + ": " + trimmed(new_mm, 4) + " to " + trimmed(new_mm - s.worn_mm, 4) +
+         " mm";
 }
 
-/// Whether the table's size is less by the wear already.
-bool has_it(const Size& s, const ToolState& state, const model::Plan& brought) {
-  if (state.in_table) return true;
-  const std::string row = row_of(state.number);
+/// What the plan's record says of a size: the wear that was told, the size of the new edge, and the worn one.
+struct Recorded {
+  double told_mm, new_mm, worn_mm;
+  bool in_table;  ///< the table had it then
+};
+constexpr double kWrittenMm = 1.5e-4;  ///< rounding of two numbers with four decimals, as rows have them
+
+/// A row's sentence of a size, as told, taken_off and in_table write it; nothing of another.
+std::optional<Recorded> sentence_of(const Size& s, const std::string& sentence) {
+  std::istringstream words(sentence);
+  std::string word, told, unit, how, letter, first, to, second;
+  if (!(words >> word >> told >> unit >> how >> letter >> first) || word != s.word) return std::nullopt;
+  const auto wear = parse_double(told), size = parse_double(first);
+  if (!wear || !size) return std::nullopt;
+  if (how == "in" && letter == s.letter)
+    return Recorded{*wear, *size + *wear * (s.worn_mm / s.told_mm), *size, true};
+  if (how != "off" || letter != std::string(s.letter) + ":" || !(words >> to >> second)) return std::nullopt;
+  const auto worn = parse_double(second);
+  return worn ? std::optional(Recorded{*wear, *size, *worn, false}) : std::nullopt;
+}
+
+/// The last that a plan's record says of a size.
+std::optional<Recorded> recorded(const Size& s, int number, const model::Plan& brought) {
+  std::optional<Recorded> out;
   for (const model::Provenance& p : brought.provenance) {
-    if (p.what != row) continue;
-    // The table that an earlier binding gave is in effect now.
-    if (p.value.find(taken_off(s, s.now_mm + s.worn_mm)) != std::string::npos) return true;
-    // One that had it then has it still, unless it measures more than the tool was planned with.
-    const bool had_it = p.value.find(std::string(", in ") + s.letter + " ") != std::string::npos;
-    if (had_it && !(s.planned_mm && s.now_mm > *s.planned_mm + model::kSameDiameterMm)) return true;
+    if (p.what != row_of(number)) continue;
+    std::istringstream sentences(p.value);
+    for (std::string one; std::getline(sentences, one, ';');)
+      if (const auto r = sentence_of(s, one)) out = r;
   }
-  return s.planned_mm && std::abs(*s.planned_mm - s.now_mm - s.worn_mm) <= model::kSameDiameterMm;
+  return out;
+}
+
+/// By how much the table's size is less already, of the wear that is told, mm: 0 to all of it. Wear is told
+/// as a whole since the edge was new, so that what an earlier binding took off is a part of it.
+double already(const Size& s, const ToolState& state, const model::Plan& brought) {
+  if (state.in_table) return s.worn_mm;
+  if (s.planned_mm && std::abs(*s.planned_mm - s.now_mm - s.worn_mm) <= model::kSameDiameterMm)
+    return s.worn_mm;
+  const auto then = recorded(s, state.number, brought);
+  if (!then) return 0.0;
+  double out = 0.0;
+  if (std::abs(then->new_mm - s.now_mm - s.worn_mm) <= kWrittenMm) {
+    out = s.worn_mm;
+  } else if (std::abs(s.now_mm - then->worn_mm) <= kWrittenMm) {
+    // The table is the one of then, or the one that was given then.
+    out = then->new_mm - then->worn_mm;
+  } else if (then->in_table) {
+    // One that had it then has it still, unless it measures more than the tool was planned with.
+    if (!s.planned_mm || s.now_mm <= *s.planned_mm + model::kSameDiameterMm) out = s.worn_mm;
+  } else if (s.now_mm > then->worn_mm && s.told_mm >= then->told_mm - kWrittenMm) {
+    // The same edge, in the table of a binding before that one.
+    out = then->new_mm - s.now_mm;
+  }
+  return out >= s.worn_mm - kWrittenMm ? s.worn_mm : std::max(0.0, out);
 }
 
 const Cutter* planned(const model::Plan& brought, int number) {
@@ -158,20 +204,21 @@ void set_word(Cutter& c, std::string_view letter, double value) {
 Status wear(const ToolState& state, const model::Plan& brought, Cutter& c, std::vector<std::string>& words) {
   const Cutter* then = planned(brought, state.number);
   const auto counts = [&](const Size& s) -> Result<std::optional<double>> {
-    if (has_it(s, state, brought)) {
+    const double has = already(s, state, brought), left = s.now_mm + has - s.worn_mm;
+    if (has >= s.worn_mm) {
       words.push_back(in_table(s));
       return std::optional<double>();
     }
-    if (!(s.now_mm - s.worn_mm > 0.0))
+    if (!(left > 0.0))
       return fail({.code = "LATE-TOOL-STATE",
                    .message = name_of(state.number) + ": " + told(s) + " leaves nothing of its " +
                               trimmed(s.now_mm, 4) + " mm",
                    .hint = "correct the tool's state, or say that it is broken"});
-    words.push_back(taken_off(s, s.now_mm));
-    return std::optional(s.now_mm - s.worn_mm);
+    words.push_back(taken_off(s, s.now_mm + has));
+    return std::optional(left);
   };
   if (state.wear_mm && *state.wear_mm > 0.0) {
-    const Size size{"wear",
+    const Size size{kWear,
                     "D",
                     2.0 * *state.wear_mm,
                     *state.wear_mm,
@@ -188,7 +235,7 @@ Status wear(const ToolState& state, const model::Plan& brought, Cutter& c, std::
   }
   if (state.length_wear_mm && *state.length_wear_mm > 0.0) {
     const bool measured = then != nullptr && model::table_word(*then, "Z").has_value();
-    const Size size{"length-wear",
+    const Size size{kLengthWear,
                     "Z",
                     *state.length_wear_mm,
                     *state.length_wear_mm,
@@ -196,8 +243,9 @@ Status wear(const ToolState& state, const model::Plan& brought, Cutter& c, std::
                     measured ? std::optional(model::length_offset_mm(*then)) : std::nullopt};
     // An offset that counts from a reference tool is any number.
     if (c.table_line && c.table_line->against_reference) {
-      words.push_back(has_it(size, state, brought) ? in_table(size) : taken_off(size, size.now_mm));
-      if (!words.back().ends_with(kOfTable)) set_word(c, "Z", size.now_mm - size.worn_mm);
+      const double has = already(size, state, brought);
+      words.push_back(has >= size.worn_mm ? in_table(size) : taken_off(size, size.now_mm + has));
+      if (has < size.worn_mm) set_word(c, "Z", size.now_mm + has - size.worn_mm);
       return {};
     }
     const auto left = counts(size);
@@ -213,6 +261,13 @@ Status wear(const ToolState& state, const model::Plan& brought, Cutter& c, std::
   }
   return {};
 }
+
+std::string first_word(const std::string& sentence) {
+  std::string out;
+  std::istringstream(sentence) >> out;
+  return out;
+}
+bool is_wear(const std::string& word) { return word == kWear || word == kLengthWear; }
 
 /// What a library knows of lives is older than what the control tells.
 void take_life(double left_min, Cutter& c) {
@@ -249,6 +304,31 @@ std::string ToldTools::words() const {
 
 bool is_tool_state(const model::Provenance& row) { return row.what.starts_with(kRow); }
 
+std::vector<model::Provenance> wear_known(const model::Plan& brought,
+                                          const std::vector<model::Provenance>& told) {
+  std::vector<model::Provenance> out;
+  for (const model::Provenance& row : brought.provenance) {
+    if (!is_tool_state(row)) continue;
+    std::istringstream sentences(row.value);
+    for (std::string one; std::getline(sentences, one, ';');) {
+      const std::string word = first_word(one);
+      if (!is_wear(word)) continue;
+      const bool anew = std::any_of(told.begin(), told.end(), [&](const model::Provenance& t) {
+        std::istringstream now(t.value);
+        bool says = false;
+        for (std::string s; t.what == row.what && std::getline(now, s, ';');)
+          says = says || first_word(s) == word;
+        return says;
+      });
+      if (!anew) {
+        out.push_back(row);
+        break;
+      }
+    }
+  }
+  return out;
+}
+
 Result<ToldTools> take_tool_states(const std::vector<ToolState>& states, const model::Plan& brought,
                                    std::vector<Cutter>& library, Job& job) {
   ToldTools out;
@@ -266,7 +346,9 @@ Result<ToldTools> take_tool_states(const std::vector<ToolState>& states, const m
     for (Cutter& c : library) {
       if (!is(c)) continue;
       words.clear();
-      if (auto ok = wear(state, brought, c, words); !ok) return tl::unexpected(ok.error());
+      if (!state.broken && !spent) {
+        if (auto ok = wear(state, brought, c, words); !ok) return tl::unexpected(ok.error());
+      }
       if (state.life_left_min) take_life(*state.life_left_min, c);
       if (state.broken || spent)
         out.out_of_use.push_back({c, state.broken ? "is broken" : "has no life left"});

@@ -17,6 +17,7 @@ struct ToolState {
   int number = 0;  ///< its T
   bool broken = false;
   bool in_table = false;  ///< diameter and length of the table are less by the wear already
+  /// Both are the whole since the edge was new.
   std::optional<double> wear_mm = std::nullopt;  ///< of the cutting edge, radial: twice that off the diameter
   std::optional<double> length_wear_mm = std::nullopt;  ///< off the length
   std::optional<double> life_left_min = std::nullopt;   ///< of its edge, minutes of cutting
@@ -48,10 +49,11 @@ struct ToldTools {
 /// Takes the states into the loaded tools of a library: a tool that is broken, or has no life left, is taken
 /// out; wear comes off diameter and length, in the tool table's line too, for that has to be in effect.
 ///
-/// Once      wear is not taken off a table that has it: where the state says so (`in_table`), the plan that
-/// is
-///           `brought` recorded so, or the table measures the planned tool of that number less by just the
-///           wear. Which of both counts is noted (LATE-WEAR) and recorded.
+/// Once      what a table has of the wear is not taken off again: all of it where the state says so
+///           (`in_table`), or the table measures the planned tool of that number, or its new edge, less by
+///           just the wear; what the record of the plan that is `brought` says where the table is the one of
+///           then. Which counts is noted (LATE-WEAR) and recorded, from the size of the new edge. Wear of a
+///           tool that is taken out is not looked at.
 /// Warns     LATE-TOOL-STATE for a number that no loaded tool has.
 /// Fails     LATE-TOOL-STATE for wear that leaves no diameter or length.
 [[nodiscard]] Result<ToldTools> take_tool_states(const std::vector<ToolState>& states,
@@ -60,5 +62,9 @@ struct ToldTools {
 
 /// Whether a row of provenance tells a tool's state (ToldTools::rows).
 [[nodiscard]] bool is_tool_state(const model::Provenance& row);
+/// The rows of an earlier binding that tell of wear which `told`, this one's rows, do not tell anew: a table
+/// may have it still.
+[[nodiscard]] std::vector<model::Provenance> wear_known(const model::Plan& brought,
+                                                        const std::vector<model::Provenance>& told);
 
 }  // namespace capstan::late

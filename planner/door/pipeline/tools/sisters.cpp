@@ -5,9 +5,11 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/draft/draft.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/table_offsets.h"
 #include "planner/model/plan/decision/by_planning.h"
+#include "planner/model/plan/edit/restrictions.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "tooling/library/nouns/nouns.h"
 
@@ -76,6 +78,19 @@ bool chosen(const model::Plan& plan, const StepResult& step) {
          model::by_planning(plan.ledger.find(ws->its_operation, "its_tool"));
 }
 
+/// Whether nothing keeps the step off the tool.
+bool allowed(const model::Plan& plan, const StepResult& step, const Cutter& tool,
+             const std::vector<model::Edit>& restrictions) {
+  if (restrictions.empty()) return true;
+  draft::StepDraft s;
+  s.step = step.step;
+  if (const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step)) {
+    s.feature = ws->its_feature;
+    s.operation = ws->its_operation;
+  }
+  return !model::barred(restrictions, draft::edit_names(plan.model, s), tool);
+}
+
 void give(model::Plan& plan, StepResult& step, const Cutter& sister, const Cutter& tool, double minutes) {
   const auto operation = plan.model.get<model::MachiningWorkingstep>(step.step)->its_operation;
   step.cutter_id = sister.id;
@@ -120,7 +135,8 @@ bool is_sister(const Cutter& other, const Cutter& tool) {
          tool.adjustable_to_mm == 0.0 && other.adjustable_to_mm == 0.0;
 }
 
-void share_among_sisters(model::Plan& plan, const std::vector<Cutter>& library, Job& job) {
+void share_among_sisters(model::Plan& plan, const std::vector<Cutter>& library,
+                         const std::vector<model::Edit>& restrictions, Job& job) {
   constexpr double kSlack = 1e-9;
   const std::vector<std::string> ids = model::step_ids(plan);
   const std::vector<Cutter> tools = plan.cutters;
@@ -133,14 +149,28 @@ void share_among_sisters(model::Plan& plan, const std::vector<Cutter>& library, 
     Cutter now = tool;
     double worn = used(now), minutes = 0.0;
     bool cuts = false;  // it has a step already
+    const auto next_sister = [&](const StepResult& step, double worn_now, bool has_cut) {
+      const auto may = [&](const Cutter* c) {
+        return allowed(plan, step, instead_of(tool, *c), restrictions);
+      };
+      const auto lasts = std::find_if(free.begin(), free.end(), [&](const Cutter* c) {
+        return may(c) && used(*c) + share(step, instead_of(tool, *c)) <= 1.0 + kSlack;
+      });
+      if (lasts != free.end() || !has_cut) return lasts;
+      return std::find_if(free.begin(), free.end(),
+                          [&](const Cutter* c) { return may(c) && used(*c) < worn_now; });
+    };
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
       StepResult& step = plan.steps[i];
       if (step.cutter_id != tool.id) continue;
-      if (!free.empty() && cuts && worn + share(step, now) > 1.0 + kSlack && chosen(plan, step)) {
-        const double whole = minutes + step.cutting_s / 60.0;
+      const bool ends = (cuts || worn > 0.0) && worn + share(step, now) > 1.0 + kSlack;
+      const auto next = ends && chosen(plan, step) ? next_sister(step, worn, cuts) : free.end();
+      if (next != free.end()) {
+        const double used_min = now.life_min > 0.0 ? now.life_used_min : 0.0;
+        const double whole = used_min + minutes + step.cutting_s / 60.0;
         const Cutter before = now;
-        now = instead_of(tool, *free.front());
-        free.erase(free.begin());
+        now = instead_of(tool, **next);
+        free.erase(next);
         plan.cutters.push_back(now);
         job.note("PIP-SISTER", "step '" + ids[i] + "' calls T" + std::to_string(now.pocket) + " '" + now.id +
                                    "' in place of T" + std::to_string(before.pocket) + " '" + before.id +
@@ -150,7 +180,7 @@ void share_among_sisters(model::Plan& plan, const std::vector<Cutter>& library, 
         minutes = 0.0;
       }
       if (now.id != tool.id) {
-        if (!chosen(plan, step)) continue;
+        if (!chosen(plan, step) || !allowed(plan, step, now, restrictions)) continue;
         give(plan, step, now, tool, minutes);
       }
       worn += share(step, now);

@@ -8,7 +8,6 @@
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/expected_by_cases.h"
-#include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
 
 namespace capstan::service {
@@ -19,26 +18,31 @@ namespace {
 
 /// The chain of factors of the margin: "usual, exp(1 sqrt(ln^2 1.29 + ln^2 1.3 + ln^2 1.15)) of the spread of
 /// the coefficients, a worn edge and the feed turned up". The feed's is what the other two leave of the
-/// whole, which is the only one of the three that the plan holds together with the machine.
+/// whole, and has to be one that the machine allows: else the plan's card, or what cases say of it, was
+/// another than this one, and its factors are not known.
 std::string margin_text(const Plan& plan, const StepView& v) {
   const auto margin = piece::margin_said(plan);
   const auto* cutter = model::find_cutter(plan, v.result->cutter_id);
   const double whole = v.result->loads.force_margin;
   if (!margin || cutter == nullptr || !v.operation.set() || !(whole > 1.0))
     return "spread, wear and override together";
-  const bool milled = mechanics::is_milled(v.operation.type, *cutter);
-  const double spread = (milled ? mechanics::force_margin(plan.material, cutter->substrate)
-                                : mechanics::kienzle_margin(plan.material))
-                            .spread;
+  const mechanics::MarginAsked turned_up{.feed_up = std::max(1.0, plan.machine.abilities.feed_override_max)};
+  const mechanics::ForceMargin of_card =
+      mechanics::is_milled(v.operation.type, *cutter)
+          ? mechanics::force_margin(plan.material, cutter->substrate, turned_up)
+          : mechanics::kienzle_margin(plan.material, turned_up);
   const double k = margin->deviations;
-  const double ln_whole = std::log(whole) / k, ln_spread = std::log(spread);
-  const double ln_wear = std::log(mechanics::kWearForceFactor);
+  const double ln_whole = std::log(whole) / k, ln_spread = std::log(of_card.spread);
+  const double ln_wear = std::log(of_card.wear);
   const double rest = ln_whole * ln_whole - ln_spread * ln_spread - ln_wear * ln_wear;
-  // Cases may have narrowed the spread of this step: then the card's is not in the factor.
-  if (rest < -1e-9) return "spread, wear and override together, the spread narrowed by cases";
   const double override_up = std::exp(std::sqrt(std::max(0.0, rest)));
-  return "margin " + margin->name + ", exp(" + trimmed(k, 2) + " sqrt(ln^2 " + trimmed(spread, 3) +
-         " + ln^2 " + trimmed(mechanics::kWearForceFactor, 3) + " + ln^2 " + trimmed(override_up, 3) +
+  constexpr double kTold = 0.002;  // of the three decimals that are told
+  // 1: where the feed cannot be turned up.
+  const bool known = rest > -kTold * kTold && (std::abs(override_up - of_card.override_up) <= kTold ||
+                                               std::abs(override_up - 1.0) <= kTold);
+  if (!known) return "spread, wear and override together, of another card than the plan's";
+  return "margin " + margin->name + ", exp(" + trimmed(k, 2) + " sqrt(ln^2 " + trimmed(of_card.spread, 3) +
+         " + ln^2 " + trimmed(of_card.wear, 3) + " + ln^2 " + trimmed(override_up, 3) +
          ")) of the spread of the coefficients, a worn edge and the feed turned up";
 }
 

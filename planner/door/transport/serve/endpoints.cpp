@@ -173,12 +173,6 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
       return refused(403, "SERVE-FILE", "option '" + name + "' names a file of the server's",
                      "send the tool table as `tool_table`; only the server's own user may name files");
   }
-  if (const auto at = read->texts.find("tool_state"); at != read->texts.end()) {
-    if (const Code code = s.session.tell_tools(at->second); code != Code::kDone) {
-      keep_ending(s);
-      return of_call(code, s.session.message());
-    }
-  }
   if (const auto at = read->texts.find("tool_table"); at != read->texts.end()) {
     const std::string file = s.folder + "/tool.tbl";
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
@@ -192,6 +186,9 @@ HttpReply Endpoints::take_state(ServedSession& s, const HttpRequest& request, co
     code = s.session.set(name, value);
     if (code != Code::kDone) break;
   }
+  // Last, for it drops what was bound.
+  if (const auto at = read->texts.find("tool_state"); code == Code::kDone && at != read->texts.end())
+    code = s.session.tell_tools(at->second);
   if (code == Code::kDone) code = s.session.open();
   keep_ending(s);
   return of_call(code, s.session.message(), {{"session", json_of(s.id)}}, code == Code::kDone ? done : 0);

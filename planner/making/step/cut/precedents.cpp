@@ -272,7 +272,8 @@ void weigh_by_cases(const casebase::CaseBase* cases, const model::Plan& plan, co
     selection.rejected.push_back({first, std::string(kFirstFailed) + r.why});
     return;
   }
-  selection.rejected.push_back({first, "would be first by the table; by cases " + now + " takes less time"});
+  selection.rejected.push_back(
+      {first, "would be first by the table; with the times that cases tell, " + now + " comes before it"});
 }
 
 }  // namespace capstan::step

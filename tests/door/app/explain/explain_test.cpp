@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "planner/files/exchange/exchange.h"
@@ -95,8 +96,10 @@ TEST(Explain, LoadsAreToldAsExpectedAndWithTheChainOfFactorsUpToTheLimit) {
   auto plan = testing::planned_plate();
   auto& step = plan.steps.front();
   plan.provenance.push_back({"margin", "careful", "--margin"});
+  plan.machine.abilities.feed_override_max = 1.2;
+  // Kienzle: forces go with the feed's power of 1 - mc.
   const mechanics::ForceMargin margin{.spread = mechanics::kienzle_margin(plan.material).spread,
-                                      .override_up = 1.2,
+                                      .override_up = std::pow(1.2, 1.0 - plan.material.mc),
                                       .deviations = mechanics::margin_policy("careful")->deviations};
   step.loads.force_margin = margin.factor();
   step.loads.peak_force_n = 1000.0 * margin.factor();
@@ -106,7 +109,23 @@ TEST(Explain, LoadsAreToldAsExpectedAndWithTheChainOfFactorsUpToTheLimit) {
   EXPECT_THAT(*text, ContainsRegex("expected_force +1000 N"));
   EXPECT_THAT(*text, ContainsRegex("expected_power +500 W"));
   EXPECT_THAT(*text, HasSubstr("margin careful, exp(1.64 sqrt(ln^2 " + trimmed(margin.spread, 3) +
-                               " + ln^2 1.3 + ln^2 1.2)) of the spread of the coefficients"));
+                               " + ln^2 1.3 + ln^2 " + trimmed(margin.override_up, 3) +
+                               ")) of the spread of the coefficients"));
+}
+
+// Where cases gave another spread than the card's its factors are not told: they would be false.
+TEST(Explain, FactorsOfAMarginThatAnotherCardGaveAreNotTold) {
+  for (const double of_spread : {0.9, 1.1}) {
+    auto plan = testing::planned_plate();
+    plan.machine.abilities.feed_override_max = 1.2;
+    const mechanics::ForceMargin margin{.spread = of_spread * mechanics::kienzle_margin(plan.material).spread,
+                                        .override_up = std::pow(1.2, 1.0 - plan.material.mc)};
+    plan.steps.front().loads.force_margin = margin.factor();
+    const auto text = explain(plan, "DRILL IT");
+    ASSERT_TRUE(text) << to_text(text.error());
+    EXPECT_THAT(*text, HasSubstr("spread, wear and override together, of another card than the plan's"));
+    EXPECT_THAT(*text, Not(HasSubstr("ln^2")));
+  }
 }
 
 TEST(Explain, ALimitThatNobodyStatesIsNotTold) {

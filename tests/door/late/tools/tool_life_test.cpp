@@ -10,8 +10,10 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "planner/door/late/late.h"
+#include "planner/door/late/next.h"
 #include "planner/door/service/session.h"
 #include "tests/door/late/brought.h"
 
@@ -102,6 +104,26 @@ const model::Provenance* row(const model::Plan& plan, const std::string& what) {
   for (const auto& p : plan.provenance)
     if (p.what == what) return &p;
   return nullptr;
+}
+
+// A tool whose sizes are others now cut under a name of its own, out of the magazine (joined): it is its life
+// all the same.
+TEST(ToolLife, MinutesOfAToolThatWasAnotherWhenItCutAreItsOwn) {
+  model::Plan plan;
+  model::Cutter now;
+  now.id = "em10";
+  now.pocket = 3;
+  model::Cutter before = now;
+  before.id = now.id + std::string(kAsCut) + " before";
+  before.pocket = 0;
+  plan.cutters = {now, before};
+  for (const auto& [id, s] : {std::pair<std::string, double>{before.id, 90.0}, {now.id, 30.0}}) {
+    model::StepResult step;
+    step.cutter_id = id;
+    step.cutting_s = s;
+    plan.steps.push_back(std::move(step));
+  }
+  EXPECT_EQ(minutes(plan), (std::map<int, double>{{3, 2.0}}));
 }
 
 TEST(LateTools, ABrokenOneIsNotCalledWhereAnotherLikeItIsLoaded) {

@@ -161,9 +161,69 @@ TEST(ToolStates, ToldAgainBehindABindingThatTookThemAreTakenOffOnce) {
   EXPECT_DOUBLE_EQ(given.library[0].functional_length_mm, 114.98);
   // Of a table that had it then, and still has it.
   bound.provenance = given.told.rows;
-  EXPECT_DOUBLE_EQ(take("T3 wear 0.06", {mill(3, 114.98, 9.9)}, bound).library[0].cutting_diameter_mm, 9.9);
+  EXPECT_EQ(take("T3 wear 0.05", {mill(3, 114.98, 9.9)}, bound).library[0].cutting_diameter_mm, 9.9);
   // A new edge: the table measures more than the tool was planned with.
   EXPECT_DOUBLE_EQ(take("T3 wear 0.01", {mill(3)}, bound).library[0].cutting_diameter_mm, 10.0 - 2.0 * 0.01);
+}
+
+// Wear is told as a whole since the edge was new: what the table has of it is not taken off again.
+TEST(ToolStates, OfWearThatHasGrownTakeOffWhatItGrewBy) {
+  model::Plan bound;
+  const auto bind = [&](const std::string& states, double z_mm, double diameter_mm) {
+    Taken out = take(states, {mill(3, z_mm, diameter_mm)}, bound);
+    bound.cutters = out.library;
+    bound.provenance = out.told.rows;
+    return out;
+  };
+  (void)bind("T3 wear 0.05 length-wear 0.02", 115.0, 10.0);
+  // The control loads the table that was given; twice, as of steps that are bound one by one.
+  for (int i = 0; i < 2; ++i) {
+    const Taken grown = bind("T3 wear 0.06 length-wear 0.03", 114.98, 9.9);
+    EXPECT_NEAR(grown.library[0].cutting_diameter_mm, 10.0 - 2.0 * 0.06, 1e-9);
+    EXPECT_NEAR(grown.library[0].functional_length_mm, 115.0 - 0.03, 1e-9);
+    EXPECT_NEAR(model::table_word(grown.library[0], "D").value(), 10.0 - 2.0 * 0.06, 1e-9);
+    EXPECT_THAT(grown.said, HasSubstr("T3: wear 0.06 mm, off D: 10 to 9.88 mm"));
+    EXPECT_THAT(grown.said, HasSubstr("T3: length-wear 0.03 mm, off Z: 115 to 114.97 mm"));
+  }
+  // It is in the table now, and grows again.
+  EXPECT_EQ(bind("T3 wear 0.06", 114.97, 9.88).library[0].cutting_diameter_mm, 9.88);
+  EXPECT_EQ(bound.provenance.at(0).value, "wear 0.06 mm, in D 9.88 mm of the tool table");
+  EXPECT_NEAR(bind("T3 wear 0.08", 114.97, 9.88).library[0].cutting_diameter_mm, 10.0 - 2.0 * 0.08, 1e-9);
+  // The control's own table, of the new edge as ever: all comes off.
+  EXPECT_NEAR(bind("T3 wear 0.09", 115.0, 10.0).library[0].cutting_diameter_mm, 10.0 - 2.0 * 0.09, 1e-9);
+}
+
+TEST(ToolStates, OfAnOffsetAgainstAReferenceToolGrowTheSame) {
+  model::Cutter c = mill(3, -12.0);
+  c.table_line->against_reference = true;
+  c.functional_length_mm = 100.0;
+  const Taken first = take("T3 length-wear 0.02", {c});
+  model::Plan bound;
+  bound.cutters = first.library;
+  bound.provenance = first.told.rows;
+  const Taken grown = take("T3 length-wear 0.03", first.library, bound);
+  EXPECT_NEAR(model::table_word(grown.library[0], "Z").value(), -12.03, 1e-9);
+}
+
+// A table may have the wear still that an earlier binding was told.
+TEST(ToolStates, OfWearStayKnownUntilTheyAreToldAnew) {
+  model::Plan bound;
+  bound.provenance = take("T3 wear 0.05\nT4 broken\nT5 life-left 3", {mill(3), mill(4), mill(5)}).told.rows;
+  ASSERT_THAT(bound.provenance, SizeIs(3));
+  const auto known = [&](const std::string& states) {
+    return wear_known(bound, take(states, {mill(3, 115.0, 9.9)}, bound).told.rows);
+  };
+  for (const char* states : {"", "T3 life-left 2", "T3 length-wear 0.01"}) {
+    ASSERT_THAT(known(states), SizeIs(1)) << states;
+    EXPECT_EQ(known(states)[0].value, "wear 0.05 mm, off D: 10 to 9.9 mm");
+  }
+  EXPECT_THAT(known("T3 wear 0.05"), IsEmpty());
+}
+
+TEST(ToolStates, OfWearOfAToolThatIsTakenOutAreNotLookedAt) {
+  const Taken out = take("T3 broken wear 5\nT4 life-left 0 length-wear 115", {mill(3), mill(4)});
+  EXPECT_THAT(out.library, IsEmpty());
+  EXPECT_EQ(out.told.words(), "; out of use: T3 (is broken), T4 (has no life left)");
 }
 
 TEST(ToolStates, OfAMoreThanWholeWearAreRefused) {

@@ -61,7 +61,7 @@ using Ids = std::vector<std::string>;
 TEST(Sisters, TheStepInWhichTheLifeWouldEndAndThoseBehindItAreTheSisters) {
   Plan plan = milled({12, 12, 12, 12});
   Job job;
-  share_among_sisters(plan, two_mills(plan), job);
+  share_among_sisters(plan, two_mills(plan), {}, job);
   EXPECT_EQ(tools(plan), (Ids{"em18", "em18", "em18 b", "em18 b"}));
   ASSERT_EQ(plan.cutters.size(), 3U);
   const Cutter& sister = plan.cutters.back();
@@ -91,13 +91,13 @@ TEST(Sisters, TheStepInWhichTheLifeWouldEndAndThoseBehindItAreTheSisters) {
 TEST(Sisters, ALifeThatLastsChangesNothingAndNorDoesAToolThatAFileGave) {
   Plan lasts = milled({12, 12});
   Job job;
-  share_among_sisters(lasts, two_mills(lasts), job);
+  share_among_sisters(lasts, two_mills(lasts), {}, job);
   EXPECT_EQ(tools(lasts), (Ids{"em18", "em18"}));
   EXPECT_EQ(lasts.cutters.size(), 2U);
   Plan given = milled({20, 20});
   given.ledger.bind(given.model.get<model::MachiningWorkingstep>(given.steps[1].step)->its_operation,
                     "its_tool", model::Binder::kGiven, {"given", "in the file", "file"});
-  share_among_sisters(given, two_mills(given), job);
+  share_among_sisters(given, two_mills(given), {}, job);
   EXPECT_EQ(tools(given), (Ids{"em18", "em18"}));
 }
 
@@ -108,15 +108,61 @@ TEST(Sisters, WhatTheStepsRecordOfTheirEdgesCountsWhereNoLifeIsStated) {
   for (Cutter& c : library) c.life_min = 0.0;
   plan.cutters[0].life_min = 0.0;
   Job job;
-  share_among_sisters(plan, library, job);
+  share_among_sisters(plan, library, {}, job);
   EXPECT_EQ(tools(plan), (Ids{"em18", "em18 b"}));
 }
 
 TEST(Sisters, OneStepThatIsLongerThanALifeKeepsItsTool) {
   Plan plan = milled({40});
   Job job;
-  share_among_sisters(plan, two_mills(plan), job);
+  share_among_sisters(plan, two_mills(plan), {}, job);
   EXPECT_EQ(tools(plan), (Ids{"em18"}));
+}
+
+// A step has no tool that an operator forbids there: its own stays, and the check says that its life is over.
+TEST(Sisters, AreNotGivenToStepsThatAreKeptOffThem) {
+  model::Edit off;
+  off.kind = model::EditKind::kForbid;
+  off.of = model::EditOf::kTool;
+  off.value = "T7";
+  const auto with = [&](const std::string& where, const std::vector<double>& minutes, bool third = false) {
+    Plan plan = milled(minutes);
+    auto library = two_mills(plan);
+    if (third) {
+      library.push_back(library[1]);
+      library.back().id = "em18 c";
+      library.back().pocket = 8;
+    }
+    off.where = where;
+    Job job;
+    share_among_sisters(plan, library, {off}, job);
+    return tools(plan);
+  };
+  EXPECT_EQ(with("step 2", {20, 20}), (Ids{"em18", "em18"}));
+  EXPECT_EQ(with("step 2", {20, 20}, true), (Ids{"em18", "em18 c"}));
+  EXPECT_EQ(with("step 3", {20, 10.5, 10}), (Ids{"em18", "em18 b", "em18"}));
+  EXPECT_EQ(with("step 9", {20, 20}), (Ids{"em18", "em18 b"}));
+}
+
+TEST(Sisters, WhoseOwnLifeLastsForTheStepComeFirst) {
+  Plan plan = milled({20, 20});
+  auto library = two_mills(plan);
+  library.push_back(library[1]);
+  library[1].life_used_min = 28.5;
+  library[2].id = "em18 c";
+  library[2].pocket = 8;
+  Job job;
+  share_among_sisters(plan, library, {}, job);
+  EXPECT_EQ(tools(plan), (Ids{"em18", "em18 c"}));
+}
+
+TEST(Sisters, TakeTheFirstStepOfAToolThatIsWornAlready) {
+  Plan plan = milled({12, 12});
+  auto library = two_mills(plan);
+  plan.cutters[0].life_used_min = library[0].life_used_min = 28.5;
+  Job job;
+  share_among_sisters(plan, library, {}, job);
+  EXPECT_EQ(tools(plan), (Ids{"em18 b", "em18 b"}));
 }
 
 TEST(Sisters, AreOfTheSameSizesAndMayDifferInLength) {
@@ -142,7 +188,7 @@ TEST(Sisters, AreCalledAndNamedInTheProgram) {
   for (const char* control : {"linuxcnc", "fanuc", "heidenhain"}) {
     Plan plan = milled({20, 20});
     Job job;
-    share_among_sisters(plan, two_mills(plan), job);
+    share_among_sisters(plan, two_mills(plan), {}, job);
     plan.machine = controls::with_control(plan.machine, control);
     plan.setups[0].work_offset = controls::find_dialect(control)->work_offsets.front();
     const auto text = controls::write_program(plan, job);
@@ -167,7 +213,7 @@ TEST(Sisters, ThatAreNotWhatTheyStandForAreFound) {
   };
   Plan plan = milled({20, 20});
   Job job;
-  share_among_sisters(plan, two_mills(plan), job);
+  share_among_sisters(plan, two_mills(plan), {}, job);
   EXPECT_EQ(said(plan), "");
   Plan thin = plan;
   thin.cutters.back().cutting_diameter_mm = 17.9;

@@ -166,6 +166,21 @@ TEST_F(Serve, TellsWhatIsOpenBeforeItIsBound) {
   EXPECT_THAT(client.ask("GET", path + "/open").body, HasSubstr("there is no workingstep"));
 }
 
+// The options of a request are held before what it tells of the tools, which drops what was bound.
+TEST_F(Serve, AStateThatIsRefusedTakesNothingOfTheTools) {
+  RunningServer server;
+  Client client(server.socket());
+  const std::string path = opened(client);
+  EXPECT_EQ(client.ask("PUT", path + "/plan", plate()).status, 200);
+  EXPECT_EQ(client.ask("POST", path + "/bind", R"({"deadline_ms": 600000})").status, 200);
+  const auto program = client.ask("GET", path + "/output/linuxcnc");
+  ASSERT_EQ(program.status, 200);
+  const auto reply =
+      client.ask("PUT", path + "/state", R"({"options": {"margin": "wild"}, "tool_state": "T5 broken"})");
+  EXPECT_EQ(reply.status, 400) << reply.body;
+  EXPECT_EQ(client.ask("GET", path + "/output/linuxcnc").body, program.body);
+}
+
 TEST_F(Serve, TheQueueIsBoundedAndHealthAnswersBesideIt) {
   RunningServer server({.queue = 1});
   // Each client binds in a session of its own; one works, one waits, the others are refused at once.

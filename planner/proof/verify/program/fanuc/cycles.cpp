@@ -3,6 +3,7 @@
 
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/program/fanuc/interpreter.h"
+#include "planner/proof/verify/program/peck.h"
 
 // Canned cycles made into moves, as FANUC B-63944EN-2/02, 5.1, describes them: 1 to the place of the hole,
 // 2 by rapid to R, 3 feed to Z, 4 what is done at the bottom, 5 back to R, 6 by rapid to the initial level
@@ -24,7 +25,7 @@ void Interpreter::pecks(double x, double y) {
   const double d = motion_ == 830 ? ways_.peck_clearance_mm : ways_.chip_break_mm;
   double bottom = r_, one = shrinks_ ? i_ : q_;
   for (int n = 0; bottom > z_ && n < kMostPecks && cycle_blocks_ <= kCycleBlockCap; ++n) {
-    bottom = std::max(z_, bottom - one);
+    bottom = peck_bottom(bottom, one, z_);
     if (shrinks_) one = std::max(one - j_, k_);
     to({x, y, bottom}, MoveKind::kLine);
     if (bottom <= z_) break;

@@ -5,6 +5,7 @@
 
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/program/heidenhain/interpreter.h"
+#include "planner/proof/verify/program/peck.h"
 
 // Cycles. Those with lines .0, .1 act where they stand; of those with Q parameters 247 does, and 200, 201 and
 // 207 run where they are called, along Z below the tool. All begin by rapid at the set-up clearance Q200
@@ -15,8 +16,6 @@ namespace capstan::verify::heidenhain {
 using model::MoveKind;
 
 namespace {
-
-constexpr double kClose = 1e-9;
 
 enum Q : int {
   kClearance = 200,

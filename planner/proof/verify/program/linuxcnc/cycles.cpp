@@ -3,6 +3,7 @@
 
 #include "planner/proof/verify/findings.h"
 #include "planner/proof/verify/program/linuxcnc/interpreter.h"
+#include "planner/proof/verify/program/peck.h"
 
 // Canned cycles, made into moves.
 
@@ -26,7 +27,7 @@ void Interpreter::one_hole(int mode, double x, double y, double z, double r, dou
   if (mode == 830 || mode == 730) {
     double bottom = r;
     for (int n = 0; bottom > z && n < kMostPecks && cycle_blocks_ <= kCycleBlockCap; ++n) {
-      bottom = std::max(z, bottom - q);
+      bottom = peck_bottom(bottom, q, z);
       to({x, y, bottom}, MoveKind::kLine);
       if (bottom <= z) break;
       if (mode == 730) {

@@ -8,6 +8,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/program/peck.h"
 #include "planner/proof/verify/program/siemens/interpreter.h"
 
 // Cycles made into moves, as the manuals of the cycles describe them. All begin alike, above the hole: by
@@ -21,7 +22,6 @@ using model::MoveKind;
 namespace {
 
 constexpr int kMostPecks = 100000;
-constexpr double kClose = 1e-9;
 constexpr double kChipBreakMm = 1.0;  ///< _VRT 0
 
 enum Parameter : std::size_t { kRtp, kRfp, kSdis, kDp, kDpr, kDtb };

@@ -148,7 +148,9 @@ TEST_F(Recalled, AToolThatDidWellIsTakenBeforeOneThatIsALittleFaster) {
   EXPECT_THAT(tools_of(by_cases), ElementsAre("hss/spotdrill 2", "hss/twist_drill 3"));
   const std::string why = explained("cases.json", by_cases);
   EXPECT_THAT(why, HasSubstr("likely to go well, its time taken times 0.91"));
-  EXPECT_THAT(why, HasSubstr("would be first by the table; by cases three_flutes takes less time"));
+  EXPECT_THAT(
+      why,
+      HasSubstr("would be first by the table; with the times that cases tell, three_flutes comes before it"));
   EXPECT_THAT(last_.err, Not(HasSubstr("CASE-BAD-NEAR")));
 }
 

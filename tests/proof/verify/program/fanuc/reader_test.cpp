@@ -88,6 +88,18 @@ TEST(FanucCycles, PeckByQFromRAndComeBackToDAboveTheLastBottom) {
             (Moves{"R 5 6 2", "L 5 6 -2", "R 5 6 -1.7", "L 5 6 -6", "R 5 6 20"}));
 }
 
+// 9.9 mm in pecks of 3.3, and 14.4 in pecks of 4.8, are three each, whatever the sums round to.
+TEST(FanucCycles, PecksThatDivideTheDepthAreNotOneMoreByRounding) {
+  for (const char* hole : {"Z-7.9 R2. Q3.3", "Z-13.4 R1. Q4.8"}) {
+    for (const char* mode : {"G83", "G73"}) {
+      const auto all = moves(read("G98 " + std::string(mode) + " X5. Y6. " + hole + " F100.\nG80\n", "fanuc",
+                                  {{"peck_clearance_mm", "0.5"}, {"chip_break_mm", "0.3"}}));
+      EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const auto& m) { return m.starts_with("L"); }), 3)
+          << mode << " " << hole;
+    }
+  }
+}
+
 // Haas 96-8000, G83 and G73: the first pass cuts in by I, each succeeding one J less, the least is K; P waits
 // behind the last one. Setting 22 is d of both.
 TEST(FanucCycles, AHaasPecksByIThenLessByJAndNoLessThanK) {

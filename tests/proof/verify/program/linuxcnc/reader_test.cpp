@@ -25,5 +25,23 @@ TEST(LinuxCncCycles, G86WaitsAtTheBottomAndComesOutWithTheSpindleStopped) {
   EXPECT_EQ(out->spindle_rpm, 0.0);
 }
 
+// 9.9 mm in pecks of 3.3, and 14.4 in pecks of 4.8, are three each, whatever the sums round to.
+TEST(LinuxCncCycles, PecksThatDivideTheDepthAreNotOneMoreByRounding) {
+  for (const char* hole : {"Z-7.9 R2 Q3.3", "Z-13.4 R1 Q4.8"}) {
+    for (const char* mode : {"G83", "G73"}) {
+      const Program p =
+          read_program("G21 G17 G90 G94 G40 G80\nG54\nT1 M6\nG43 H1\nS1000 M3\nG0 X5 Y6\nG0 Z10\nG98 " +
+                           std::string(mode) + " X5 Y6 " + hole + " F100\nG80\nM2\n",
+                       "", "");
+      EXPECT_EQ(std::count_if(p.blocks.begin(), p.blocks.end(),
+                              [](const Block& b) {
+                                return b.kind == Block::Kind::kMove && b.move == model::MoveKind::kLine;
+                              }),
+                3)
+          << mode << " " << hole;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace capstan::verify::linuxcnc
