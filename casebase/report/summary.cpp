@@ -99,7 +99,10 @@ std::span<const Quantity> quantities() { return kQuantities; }
 double ratio_of(const Quantity& q, const Case& c) {
   const std::optional<Figure> seen = q.observed(c);
   const double expected = q.predicted(c);
-  return is_seen(seen) && expected > 0.0 ? std::max(kLeastRatio, std::abs(seen->value) / expected) : 0.0;
+  if (!is_seen(seen) || !(expected > 0.0)) return 0.0;
+  // Off by nothing is off by less than can be measured; a time or force of nothing was not observed.
+  if (seen->value == 0.0 && !q.at_most) return 0.0;
+  return std::max(kLeastRatio, std::abs(seen->value) / expected);
 }
 
 std::vector<Parting> partings_of(std::span<const Case* const> cases) {

@@ -63,9 +63,9 @@ struct Quantity {
 };
 [[nodiscard]] std::span<const Quantity> quantities();
 
-/// Observed over predicted of one case: at least kLeastRatio, or 0 where one of both is not known. Of a size
-/// what is off the size that the path aims at: a bore in the middle of its zone is not bent. A path that does
-/// not state its aim tells nothing.
+/// Observed over predicted of one case: at least kLeastRatio, or 0 where one of both is not known, or is 0
+/// where the prediction is no largest amount. Of a size what is off the size that the path aims at: a bore in
+/// the middle of its zone is not bent. A path that does not state its aim tells nothing.
 inline constexpr double kLeastRatio = 0.01;  ///< what is less, down to 0, counts as that; end of the plots
 [[nodiscard]] double ratio_of(const Quantity& q, const Case& c);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -13,6 +15,11 @@ namespace {
 
 constexpr double kTimeMaxS = 1e11;  // of a clock, since 1970: more is a damaged log. Default, unsourced
 constexpr double kWholeMax = 1e9;   // tools and lines of programs: more is a damaged log
+
+// Words of a program that runs, or that goes on after a stop: it is one execution still.
+// Source: MTConnect, part 3, EXECUTION.
+constexpr std::array<std::string_view, 6> kExecuting = {"ACTIVE", "FEED_HOLD",     "INTERRUPTED",
+                                                        "WAIT",   "OPTIONAL_STOP", "PROGRAM_OPTIONAL_STOP"};
 
 bool digits(std::string_view text, std::size_t at, std::size_t n, int& out) {
   if (at + n > text.size()) return false;
@@ -96,7 +103,9 @@ std::optional<std::string> put(Reading& r, const Column& column, std::string_vie
   if (text.empty() || equal_letters(text, "UNAVAILABLE")) return std::nullopt;
   switch (column.item) {
     case Item::kRunning:
-      r.running = equal_letters(text, "ACTIVE") || text == "1" || equal_letters(text, "TRUE");
+      r.running = text == "1" || equal_letters(text, "TRUE") ||
+                  std::any_of(kExecuting.begin(), kExecuting.end(),
+                              [&](std::string_view word) { return equal_letters(text, word); });
       return std::nullopt;
     case Item::kWorkingstep:
       r.workingstep = text;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -196,7 +197,7 @@ std::optional<std::string> beyond_what_is_kept(const Inspected& row) {
     case Measures::kRoughness:
       return beyond("surface_ra_um", row.ra_um, "a roughness of " + shortest(row.ra_um) + " um");
     case Measures::kPlace:
-      return beyond("position_deviation_mm", off, text);
+      return beyond("position_deviation_mm", row.has_nominal ? std::abs(off) : off, text);
     case Measures::kSize:
       return row.has_nominal ? beyond("size_deviation_mm", off, text) : std::nullopt;
     case Measures::kDepth:
@@ -234,17 +235,16 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
         if (type) row.type = without_blanks(cells[type->at]);
         if (row.part.empty() || row.characteristic.empty()) return "part or characteristic is empty";
         row.kind = measures_of(row);
-        if (row.kind == Measures::kOther) return std::nullopt;  // in whatever unit
-        const bool roughness = row.kind == Measures::kRoughness;
+        const bool roughness = row.kind == Measures::kRoughness, other = row.kind == Measures::kOther;
         double factor = roughness ? kMmPerUm : unit_mm;
         bool said = false;  // by the row's own cell, which goes before the columns' names
         if (unit) {
           const std::string word = lower(cells[unit->at]);
           const auto mm = length_unit(word);
-          if (!mm && !word.empty()) {
+          if (!mm && !word.empty() && !other) {
             return "the unit '" + word.substr(0, 20) + "' is none of mm, in, um and uin";
           }
-          said = mm.has_value();
+          said = !word.empty();
           factor = mm.value_or(factor);
         }
         std::optional<std::string> wrong;
@@ -253,6 +253,17 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
           return number(cells, column, factor, kLengthMax, wrong);
         };
         const auto v = length(value), n = length(nominal), u = length(upper), l = length(low);
+        if (other) {
+          // In whatever unit, one for the whole row: only whether it is beyond a limit is asked of it.
+          constexpr double kNone = std::numeric_limits<double>::infinity();
+          row.value_mm = v.value_or(0.0);
+          row.has_nominal = n.has_value();
+          row.nominal_mm = n.value_or(0.0);
+          row.upper_mm = u.value_or(kNone);
+          row.lower_mm = l.value_or(-kNone);
+          row.toleranced = !wrong && v && (u || l) && row.lower_mm <= row.upper_mm;
+          return std::nullopt;
+        }
         if (wrong) return wrong;
         if (!v) return "there is no value";
         if (roughness) {
@@ -263,9 +274,9 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
         row.value_mm = *v;
         row.has_nominal = n.has_value();
         row.nominal_mm = n.value_or(0.0);
-        row.toleranced = u && l;
+        row.toleranced = u && (l || row.kind == Measures::kPlace);
         row.upper_mm = u.value_or(0.0);
-        row.lower_mm = l.value_or(0.0);
+        row.lower_mm = l.value_or(row.kind == Measures::kPlace ? -row.upper_mm : 0.0);
         if (row.toleranced && row.lower_mm > row.upper_mm) return "the lower limit is above the upper one";
         return beyond_what_is_kept(row);
       });

@@ -18,10 +18,11 @@ enum class Measures : std::uint8_t {
   kDepth,      ///< a depth, a height: likewise
   kPlace,      ///< a position: its distance from the asked place, mm
   kRoughness,  ///< Ra, um
-  kOther,      ///< flatness, angles, Rz and all else, of which a case keeps nothing
+  kOther,      ///< flatness, angles, Rz and all else, of which a case keeps its verdict alone
 };
 
-/// One measured characteristic of one part. mm; flatness and the like have no nominal.
+/// One measured characteristic of one part. mm, of kOther in one unit of its own; flatness and the like have
+/// no nominal.
 struct Inspected {
   std::string part;            ///< its number
   std::string characteristic;  ///< its name in the inspection plan: "DIAMETER5"
@@ -30,7 +31,8 @@ struct Inspected {
   bool has_nominal = false;
   double nominal_mm = 0.0, upper_mm = 0.0, lower_mm = 0.0;  ///< the limits: deviations from the nominal
   double value_mm = 0.0;
-  bool toleranced = false;             ///< both limits are stated
+  /// Both limits are stated; of a place the upper one at least, of kOther either (the other is infinite).
+  bool toleranced = false;
   double ra_um = 0.0;                  ///< of kRoughness, in place of `value_mm`
   std::optional<double> ra_most = {};  ///< um; its upper limit, where the row states one
   std::uint64_t line = 0;

@@ -47,7 +47,7 @@ Result<Log> Log::open(std::unique_ptr<Store> store, Job& job) {
                .file = log.name(),
                .hint = "restore it from a copy; nothing is added to this one"};
   if (!totals) {
-    d.message = "its totals are gone: nobody can tell whether rows are missing";
+    d.message = "its totals are gone, or do not fit its rows: nobody can tell whether rows are missing";
   } else if (totals->rows != log.totals_.rows) {
     d.message = fmt::format("it should hold {} rows, and {} of them are there", totals->rows, log.taken_);
   } else if (totals->chain != log.totals_.chain) {
@@ -339,8 +339,7 @@ std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted
   const Status read = store_->bodies(numbers, [&](std::size_t i, std::string_view body) {
     out[i] = verified(entries_[wanted[i]], body, why[i]);
   });
-  if (!read) {
-    shared_->damaged = true;
+  if (!read) {  // a file in use, a lost connection: the rows are none the worse for it
     shared_->faults.push_back(read.error());
     return out;
   }

@@ -301,8 +301,9 @@ double BoreCorrection::std_dev_mm(double feed_per_turn_mm, double stick_out_rati
 }
 double BoreCorrection::half_90_mm(double feed_per_turn_mm, double stick_out_ratio) const {
   const Regression::Kind* kind = how.fit.kind_of(slenderness_of(stick_out_ratio));
-  const double freedom =
-      kind != nullptr ? kind->freedom : static_cast<double>(std::max<std::size_t>(2, how.groups) - 1);
+  // Bores of one part are no parts of their own: no more than the parts tell, however many bores they have.
+  const double of_parts = static_cast<double>(std::max<std::size_t>(2, how.groups) - 1);
+  const double freedom = kind != nullptr ? std::min(kind->freedom, of_parts) : of_parts;
   return deviations_90(freedom) * std_dev_mm(feed_per_turn_mm, stick_out_ratio);
 }
 

@@ -154,7 +154,8 @@ struct BoreCorrection {
   [[nodiscard]] double deviation_mm(double feed_per_turn_mm, double stick_out_ratio) const;
   [[nodiscard]] double std_dev_mm(double feed_per_turn_mm, double stick_out_ratio) const;
   /// Half the interval of 90 % of one further part, by Student's t of what tells the scatter: of cutters as
-  /// slender (of those that scatter most, where none is); of the parts, where all are as slender.
+  /// slender (of those that scatter most, where none is), and of no more than the parts; of the parts,
+  /// where all are as slender.
   [[nodiscard]] double half_90_mm(double feed_per_turn_mm, double stick_out_ratio) const;
 };
 /// The cutter's own deviation, and what grows as a cantilever bends: with the feed and the cube of its

@@ -203,7 +203,9 @@ Evidence evidence_of(const Case& c, const PlannedStep& p) {
   if (evidence(o.time_s) && positive(o.time_s->value) && positive(p.step.predicted.time_s)) {
     const bool lengths = positive(c.bound.path_length_mm) && positive(p.step.bound.path_length_mm);
     const double longer = lengths ? c.bound.path_length_mm / p.step.bound.path_length_mm : 1.0;
-    if (lengths || same_step) e.ln_time = std::log(o.time_s->value / longer / p.step.predicted.time_s);
+    // A case without a predicted time is none of one pass over the step: the time is an edge's.
+    if (lengths || (same_step && positive(c.predicted.time_s)))
+      e.ln_time = std::log(o.time_s->value / longer / p.step.predicted.time_s);
   }
   const auto load = [&](Watched w, const std::optional<Figure>& f) {
     const double limit = limit_of(p, w);

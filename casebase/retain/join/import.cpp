@@ -63,7 +63,13 @@ Result<std::vector<Case>> import_wear(std::istream& in, std::span<const Step> st
                                       const ImportOptions& options, Job& job) {
   auto rows = read_wear(whole(in), from.file, options.units.value_or(LogUnits{}).mm, job);
   if (!rows) return tl::unexpected(rows.error());
-  if (!from.part.empty()) std::erase_if(*rows, [&](const Worn& w) { return w.part != from.part; });
+  if (!from.part.empty()) {
+    // A row that names no part is of the one that is named.
+    for (Worn& w : *rows) {
+      if (w.part.empty()) w.part = from.part;
+    }
+    std::erase_if(*rows, [&](const Worn& w) { return w.part != from.part; });
+  }
   return cases_of_wear(steps, *rows, from, job);
 }
 

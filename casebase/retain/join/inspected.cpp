@@ -80,6 +80,12 @@ std::optional<Figure> deviation_of(const std::vector<const Inspected*>& rows,
   return mean_of(deviations);
 }
 
+double off_of(const Inspected& row) { return row.has_nominal ? row.value_mm - row.nominal_mm : row.value_mm; }
+bool is_beyond(const Inspected& row) {
+  const double deviation = off_of(row);
+  return row.toleranced && (deviation < row.lower_mm || deviation > row.upper_mm);
+}
+
 void take(const Inspected& row, Values& to) {
   if (row.kind == Measures::kRoughness) {
     to.roughnesses_um.push_back(row.ra_um);
@@ -88,14 +94,13 @@ void take(const Inspected& row, Values& to) {
     to.beyond = to.beyond || row.ra_um > *row.ra_most;
     return;
   }
-  const double deviation = row.has_nominal ? row.value_mm - row.nominal_mm : row.value_mm;
   if (row.kind == Measures::kPlace)
-    to.places.push_back(deviation);
+    to.places.push_back(std::abs(off_of(row)));  // a distance
   else
     (row.kind == Measures::kDepth ? to.depths : to.sizes).push_back(&row);
   if (!row.toleranced) return;
   to.judged = true;
-  to.beyond = to.beyond || deviation < row.lower_mm || deviation > row.upper_mm;
+  to.beyond = to.beyond || is_beyond(row);
 }
 
 }  // namespace
@@ -117,12 +122,14 @@ void add_inspection(std::span<const Inspected> rows, std::span<const Step> steps
     const bool known = std::any_of(cases.begin(), cases.end(),
                                    [&](const Case& c) { return c.from.workingstep == printable(step); });
     const bool deviates = row.kind == Measures::kSize || row.kind == Measures::kDepth;
-    if (!known)
+    if (!known) {
       nobodys.push_back(&row);
-    else if (row.kind == Measures::kOther || (deviates && !row.has_nominal))
+    } else if (row.kind == Measures::kOther || (deviates && !row.has_nominal)) {
       unkept.push_back(&row);
-    else
+      if (row.kind == Measures::kOther && is_beyond(row)) of[printable(step)].beyond = true;
+    } else {
       take(row, of[printable(step)]);
+    }
   }
   tell(nobodys, "no case of this log is about", {}, from, job);
   tell(unkept, "a case keeps nothing of these (no size, depth, place or Ra, or without a nominal)", {}, from,

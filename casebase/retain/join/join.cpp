@@ -48,16 +48,19 @@ std::set<int> other_runs(const std::map<int, const Step*>& by_tool, const std::v
   return out;
 }
 
-// Names, by run, that a log has in two stays or more while the plan has several steps of that name (the
-// second is "name~2") and the log names none of the others: nobody can tell which stay was at which.
+// Names, by run, that a log has while the plan has several steps of that name (the second is "name~2") and
+// the log names none of the others: nobody can tell which stay was at which, or whether one was at several
+// that follow each other. The markers of a program tell a single stay from them.
 std::set<std::pair<int, std::string>> names_of_several(const std::map<std::string, const Step*>& by_id,
-                                                       const std::vector<Executed>& executed) {
+                                                       const std::vector<Executed>& executed,
+                                                       const ProgramMarks* marks) {
   std::map<std::pair<int, std::string>, int> stays;
   for (const Executed& e : executed) ++stays[{e.run, e.workingstep}];
   std::set<std::pair<int, std::string>> out;
   for (const auto& [at, n] : stays) {
     const std::string second = at.second + "~2";
-    if (n > 1 && by_id.contains(second) && !stays.contains({at.first, second})) out.insert(at);
+    if ((n > 1 || marks == nullptr) && by_id.contains(second) && !stays.contains({at.first, second}))
+      out.insert(at);
   }
   return out;
 }
@@ -214,7 +217,7 @@ std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Execut
   for (const Step& s : steps) {
     if (s.is_for(from.part)) by_id[s.id] = &s;
   }
-  const auto several = names_of_several(by_id, executed);
+  const auto several = names_of_several(by_id, executed, marks);
   // By run and place among the steps: their order is the order of the cases.
   std::map<std::pair<int, const Step*>, Executed> whole;
   for (const Executed& e : executed) {

@@ -49,8 +49,9 @@ inline constexpr int kSummedUp = 0;
 /// with a nominal give the deviation of size, depths that of depth, positions that of place; of several
 /// values their mean, and their spread as standard deviation. Of roughnesses the largest Ra counts. Sizes
 /// (depths) of several nominals in one step are no size of it: those of the nominal that the step asks for
-/// count, and the others are told. A value beyond its limits, or an Ra above what the step asks for, makes a
-/// bad case, a measured one within them a good one, unless the log made it bad. Rows of other parts are
+/// count, and the others are told. A value beyond its limits, of whatever kind, or an Ra above what the step
+/// asks for, makes a bad case, a kept one within them a good one, unless the log made it bad. Rows of other
+/// parts are
 /// passed over; others that find no case, or of which a case keeps nothing, are reported by name and line
 /// (LOG-STEP).
 void add_inspection(std::span<const Inspected> rows, std::span<const Step> steps, const LogFrom& from,
@@ -60,11 +61,12 @@ void add_inspection(std::span<const Inspected> rows, std::span<const Step> steps
 /// of them as `wear_mm`, the time that it cut. An edge without a serial number is called by the file and its
 /// part. The step is the one that the rows name, or whose tool they name, or the only one for their part.
 /// Feed and speed that the table states are what was executed, as measured; what it does not state is taken
-/// from the step, as entered. The verdict is not known.
+/// from the step, as entered. The verdict is not known. The case has no path and no predicted time: the time
+/// is the edge's, not the step's.
 ///
 /// Told as notes (LOG-STEP) and left out: an edge of no step, or of several, for its wear is of none of them;
-/// one without a reading after it cut; one of which the table states another feed or depth than the step, by
-/// more than 1 % (default, unsourced).
+/// one without a reading after it cut; one of which the table states another speed, feed or depth than the
+/// step, by more than 1 % (default, unsourced).
 [[nodiscard]] std::vector<Case> cases_of_wear(std::span<const Step> steps, std::span<const Worn> rows,
                                               const LogFrom& from, Job& job);
 

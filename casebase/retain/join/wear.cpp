@@ -12,7 +12,7 @@
 namespace capstan::casebase::retain {
 namespace {
 
-constexpr double kAgree = 0.01;  // share by which the table's feed and depth may be off the step's
+constexpr double kAgree = 0.01;  // share by which the table's speed, feed and depth may be off the step's
 
 /// The rows of one edge, in their order.
 struct Edge {
@@ -46,6 +46,10 @@ const Step* step_of(const Worn& w, std::span<const Step> steps) {
   return found;
 }
 
+double speed_m_min(const Worn& w, const Case& c) {
+  return w.rpm * std::numbers::pi * c.asked.cutter_diameter_mm / 1000.0;
+}
+
 bool agree(double stated, double planned) {
   return stated <= 0.0 || planned <= 0.0 || std::abs(stated - planned) <= kAgree * planned;
 }
@@ -53,10 +57,12 @@ bool agree(double stated, double planned) {
 /// What the table and the step say differently of the cut.
 std::optional<std::string> parted(const Worn& w, const Case& planned) {
   const double feed_mm = planned.bound.fz_mm * std::max(1, planned.asked.teeth);
-  const auto differ = [](const char* what, double table, double step) {
-    return std::string(what) + " is " + shortest(table) + " mm in the table and " + trimmed(step, 4) +
-           " mm in the step";
+  const auto differ = [](const char* what, double table, double step, const std::string& unit = " mm") {
+    return std::string(what) + " is " + trimmed(table, 4) + unit + " in the table and " + trimmed(step, 4) +
+           unit + " in the step";
   };
+  const double vc = speed_m_min(w, planned);
+  if (!agree(vc, planned.bound.vc_m_min)) return differ("the speed", vc, planned.bound.vc_m_min, " m/min");
   if (!agree(w.feed_per_turn_mm, feed_mm)) return differ("the feed per turn", w.feed_per_turn_mm, feed_mm);
   if (!agree(w.depth_mm, planned.bound.ap_mm)) return differ("the depth", w.depth_mm, planned.bound.ap_mm);
   return std::nullopt;
@@ -65,8 +71,7 @@ std::optional<std::string> parted(const Worn& w, const Case& planned) {
 /// What was executed: as the table has it, else as the step.
 void execute(Case& c, const Worn& w) {
   const int teeth = std::max(1, c.asked.teeth);
-  const double turn_mm = std::numbers::pi * c.asked.cutter_diameter_mm;
-  const double vc = w.rpm * turn_mm / 1000.0;
+  const double vc = speed_m_min(w, c);
   if (c.bound.vc_m_min == 0.0) c.bound.vc_m_min = vc;
   if (c.bound.fz_mm == 0.0) c.bound.fz_mm = w.feed_per_turn_mm / teeth;
   const auto figure = [](double stated, double planned) -> std::optional<Figure> {
@@ -93,6 +98,10 @@ tl::expected<Case, std::string> case_of_edge(const Edge& edge, std::span<const S
   Case c = step->planned;
   c.origin = Origin::kMeasured;
   c.observed = {};
+  // The time is that of the edge, over many parts: it is held against no path and no time of the step.
+  c.predicted.time_s = 0.0;
+  c.bound.path_length_mm = 0.0;
+  c.bound.path_blocks = 0;
   execute(c, last);
   c.observed.time_s = Figure{last.time_s, 0.0, Origin::kMeasured};
   bool worn = false;

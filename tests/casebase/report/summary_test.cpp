@@ -122,6 +122,12 @@ TEST(CaseReport, BlamesAModelThatIsOffByMoreThanChance) {
   EXPECT_FALSE(partings_of({&one, 1}).front().apart);
 }
 
+TEST(CaseReport, ATimeOfNothingBlamesNobody) {
+  const std::vector<Case> cases = {cut("A", 10.0, 0.0), cut("A", 10.0, 0.0)};
+  const auto groups = grouped(cases, By::kWorkingstep);
+  EXPECT_TRUE(partings_of(groups.front().cases).empty());
+}
+
 TEST(CaseReport, DoesNotTakeASimulatedFigureForAnObservation) {
   std::vector<Case> cases = some();
   for (Case& c : cases) c.observed.time_s->origin = Origin::kSimulated;

@@ -42,6 +42,23 @@ TEST(Trace, TakesSeveralItemsOfALineAndUnknownOnesAndDevices) {
   EXPECT_TRUE(s.said.empty());
 }
 
+TEST(Trace, AProgramThatIsHeldAndGoesOnIsOneRun) {
+  for (const std::string held :
+       {"FEED_HOLD", "INTERRUPTED", "WAIT", "OPTIONAL_STOP", "PROGRAM_OPTIONAL_STOP"}) {
+    const Split s = split_trace(
+        "2017-02-01T10:00:00Z|execution|ACTIVE|tool|1|path_feedrate|10\n"
+        "2017-02-01T10:00:05Z|execution|" +
+        held +
+        "|path_feedrate|0\n"
+        "2017-02-01T10:00:08Z|execution|ACTIVE|path_feedrate|10\n"
+        "2017-02-01T10:00:13Z|execution|READY\n");
+    ASSERT_TRUE(s.end) << held;
+    ASSERT_EQ(s.steps.size(), 1U) << held;
+    EXPECT_DOUBLE_EQ(s.steps[0].active_s, 13.0) << held;
+    EXPECT_DOUBLE_EQ(s.steps[0].moving_s, 10.0) << held;
+  }
+}
+
 TEST(Trace, KeepsRunsApart) {
   const Split s = split_trace(kRun +
                               "2017-02-06T10:00:00Z|Program_Status|ACTIVE\n"

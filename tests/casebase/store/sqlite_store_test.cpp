@@ -244,6 +244,46 @@ TEST(CaseStore, ReadsACaseOnceHoweverManyQuestionsFindIt) {
   EXPECT_TRUE(evidence_near(*anew, sample(10.0).asked)->empty());
 }
 
+/// A store of which bodies cannot be read for a while.
+class Busy : public Store {
+ public:
+  Busy(std::unique_ptr<Store> real, const bool& busy) : real_(std::move(real)), busy_(busy) {}
+  [[nodiscard]] std::string name() const override { return real_->name(); }
+  [[nodiscard]] Result<std::string> read(std::int64_t after, const TakeHead& take) override {
+    return real_->read(after, take);
+  }
+  [[nodiscard]] Status bodies(std::span<const std::int64_t> numbers, const TakeBody& take) override {
+    if (busy_) return fail(Diagnostic{.code = "CASE-BUSY", .message = "another writer holds it"});
+    return real_->bodies(numbers, take);
+  }
+  [[nodiscard]] Status append(std::int64_t after, const TakeHead& take, const Decide& decide) override {
+    return real_->append(after, take, decide);
+  }
+
+ private:
+  std::unique_ptr<Store> real_;
+  const bool& busy_;
+};
+
+TEST(CaseStore, TakesCasesAgainWhenItCouldNotBeReadForAWhile) {
+  const Folder folder;
+  fill(folder.file(), {sample(10.0)});
+  Job job;
+  bool busy = true;
+  auto real = open_sqlite(folder.file(), Missing::kRefuse, job).value();
+  auto log = Log::open(std::make_unique<Busy>(std::move(real), busy), job).value();
+  const std::vector<std::uint32_t> first = {0};
+  EXPECT_FALSE(log.load(first).front());
+  const std::vector<Diagnostic> faults = log.take_faults();
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().severity, Severity::kError);
+  busy = false;
+  EXPECT_TRUE(log.load(first).front());
+  const std::vector<Case> more = {sample(20.0)};
+  const Status added = log.add(more);
+  EXPECT_TRUE(added.has_value()) << to_text(added.error());
+}
+
 TEST(CaseStore, NoticesThatRowsAreGone) {
   for (const std::string gone : {"1", "2"}) {
     const Folder folder;

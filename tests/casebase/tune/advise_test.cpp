@@ -123,6 +123,21 @@ TEST(Advise, LoadsOverTheLimitLowerTheValues) {
   EXPECT_EQ(a.binding, "peak force");
 }
 
+TEST(Advise, WhereAllSettingsFailAnotherCutIsNeeded) {
+  // Failures at the gentlest setting that is heard speak against all that are less gentle.
+  std::vector<Evidence> cases;
+  for (int i = 0; i < 60; ++i) {
+    cases.push_back(good(i, i % 3 == 0 ? kHandbook : Setting{-0.34 * (i % 3), -0.34 * (i % 3)}));
+    cases.back().failed = cases.back().judged = true;
+  }
+  EXPECT_TRUE(advise(cases, handbook(), {}).another_cut);
+  std::vector<Evidence> loaded = good_ones(12);
+  for (Evidence& e : loaded) e.ln_load[kForce] = std::log(0.95);
+  const Advice lowered = advise(loaded, handbook(), {});
+  EXPECT_TRUE(lowered.lowered);
+  EXPECT_FALSE(lowered.another_cut);
+}
+
 TEST(Advise, FailuresLowerTheValuesAndLaterSuccessOnOtherEdgesLiftsThem) {
   std::vector<Evidence> cases;
   for (int i = 0; i < 4; ++i) {

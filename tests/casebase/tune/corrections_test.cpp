@@ -199,6 +199,20 @@ TEST(CorrectBores, OfFewPartsHaveAnIntervalOfStudentsT) {
   EXPECT_NEAR(c->half_90_mm(0.05, 4.0) / c->std_dev_mm(0.05, 4.0), 2.353, 0.01);
 }
 
+TEST(CorrectBores, OfOnePartAreNoPartsOfTheirOwn) {
+  std::vector<BoreSample> samples;
+  for (std::size_t i = 0; i < 40; ++i) {
+    samples.push_back(
+        {0.001 * static_cast<double>(i % 5), 0.05, i % 2 == 0 ? 3.0 : 6.0, i % 4 < 2 ? 0U : 1U});
+  }
+  samples.push_back({0.002, 0.05, 3.0, 2U});
+  const auto c = correct_bores(samples);
+  ASSERT_TRUE(c);
+  // Three parts: 2 degrees of freedom, 2.920 (Abramowitz and Stegun, table 26.10).
+  EXPECT_NEAR(c->half_90_mm(0.05, 3.0) / c->std_dev_mm(0.05, 3.0), 2.920, 0.01);
+  EXPECT_NEAR(c->half_90_mm(0.05, 6.0) / c->std_dev_mm(0.05, 6.0), 2.920, 0.01);
+}
+
 TEST(CorrectBores, OfOneSlendernessSayLittleOfASlenderOne) {
   std::vector<BoreSample> samples;
   for (std::size_t i = 0; i < 8; ++i) samples.push_back({-0.02, 0.05, 3.0, i});

@@ -64,6 +64,13 @@ TEST_F(FacadeImport, RefusesWhatItCannotUseAndKeepsNothing) {
   what_.parts = {"1", "2"};
   EXPECT_EQ(refused().code, "USAGE-IMPORT");
   what_.parts = {};
+  what_.triggers = {"colour"};
+  EXPECT_THAT(refused().text, HasSubstr("'colour' is no trigger"));
+  what_.triggers = {};
+  const std::vector<std::string> logs = what_.logs;
+  what_.logs = {};
+  EXPECT_THAT(refused().text, HasSubstr("no log is named"));
+  what_.logs = logs;
   what_.logs.push_back(folder_ / "none.csv");  // the first log alone is not kept either
   EXPECT_EQ(refused().code, "FILE-READ");
 }

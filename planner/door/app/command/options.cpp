@@ -376,8 +376,7 @@ class CommandLine {
     tune->add_option("plan", out_.files, "a plan, whose steps are tuned; without it the models alone")
         ->expected(0, 1);
     tune->add_flag("--json", out_.json, "JSON on standard output");
-    tune->add_option("-o,--output", out_.outputs, "picture (SVG) of each step of which there are cases")
-        ->expected(1);
+    tune->add_option("-o,--output", out_.outputs, "picture (SVG) of each step that has cases")->expected(1);
     tune->add_option("--today", out_.today,
                      "date, e.g. 2016-06-28: later days of cases do not count as days");
   }
@@ -406,7 +405,8 @@ class CommandLine {
     in->add_option("--column", l.columns, "name of a column, in order, of a table that does not say")
         ->expected(1)
         ->take_all();
-    in->add_option("--period", l.period_s, "of LinuxCNC's servo thread, s")->check(CLI::Range(1e-6, 1.0));
+    in->add_option("--period", l.period_s, "of LinuxCNC's servo thread, s")
+        ->check(CLI::Range(service::kLeastPeriodS, service::kMostPeriodS));
     auto* trace = on_base(cases, "trace",
                           "which part, step, tool edge, program line and measured value belong together",
                           Command::kCasesTrace);
@@ -421,7 +421,7 @@ class CommandLine {
         ->add_option("-o,--output", out_.outputs, "picture (SVG): what was observed over what was predicted")
         ->expected(1)
         ->take_all();
-    trace->add_option("-o,--output", out_.outputs, "a file (.jsonl, .csv), a case base (.db, postgresql:...)")
+    trace->add_option("-o,--output", out_.outputs, "a file (.jsonl, .csv), case base (.db, postgresql://...)")
         ->expected(1)
         ->take_all();
     for (CLI::App* sub : {trace, report}) {

@@ -62,8 +62,9 @@ retain::LogUnits inches(retain::LogFormat format) {
 
 // What the words of the caller mean, files left alone.
 Outcome<retain::ImportOptions> options_of(const LogImport& asked, retain::LogFormat format) {
-  if (!(asked.period_s >= 1e-6 && asked.period_s <= 1.0))
-    return wrong_usage("the period of " + shortest(asked.period_s) + " s is none", "1e-6 to 1 s");
+  if (!(asked.period_s >= kLeastPeriodS && asked.period_s <= kMostPeriodS))
+    return wrong_usage("the period of " + shortest(asked.period_s) + " s is none",
+                       shortest(kLeastPeriodS) + " to " + shortest(kMostPeriodS) + " s");
   retain::ImportOptions options{.columns = asked.columns, .period_s = asked.period_s};
   if (asked.unit == "inch") {
     options.units = inches(format);
@@ -73,7 +74,7 @@ Outcome<retain::ImportOptions> options_of(const LogImport& asked, retain::LogFor
   for (const std::string& text : asked.triggers) {
     const auto trigger = retain::trigger_of(text);
     if (!trigger)
-      return wrong_usage("--trigger " + text + " is none", "e.g. lag_mm>0.05 or load_percent>90:0.5");
+      return wrong_usage("'" + text + "' is no trigger", "e.g. lag_mm>0.05 or load_percent>90:0.5");
     options.triggers.push_back(*trigger);
   }
   return options;
@@ -86,10 +87,11 @@ Outcome<ImportedLogs> import_logs(const std::string& base, const std::vector<std
   const auto format = retain::log_format_of(asked.format);
   if (!format)
     return wrong_usage("'" + asked.format + "' is no format of a log", std::string(retain::kLogFormats));
+  if (logs.empty()) return wrong_usage("no log is named", "one log or more");
   if (!asked.parts.empty() && asked.parts.size() != logs.size()) {
     return wrong_usage(
         counted(asked.parts.size(), "part", "parts") + " for " + counted(logs.size(), "log", "logs"),
-        "--part once per log, or not at all");
+        "a part for each log, or none");
   }
   auto options = options_of(asked, *format);
   if (!options) return tl::unexpected(options.error());

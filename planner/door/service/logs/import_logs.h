@@ -14,6 +14,9 @@
 /// Logs of machines kept as cases, for every caller: the command and the library.
 namespace capstan::service {
 
+/// What the period of a log may be, s.
+inline constexpr double kLeastPeriodS = 1e-6, kMostPeriodS = 1.0;
+
 /// What is known of logs beside the logs.
 struct LogImport {
   std::string format, plan, program, inspection;  ///< a word (retain::kLogFormats); files
@@ -22,7 +25,7 @@ struct LogImport {
   std::string unit;                   ///< mm or inch, where a log does not say; empty: its format's
   std::vector<std::string> triggers;  ///< "lag_mm>0.05:0.2"
   std::vector<std::string> columns;
-  double period_s = 0.001;  ///< of LinuxCNC's servo thread, 1e-6 to 1
+  double period_s = 0.001;  ///< of LinuxCNC's servo thread, kLeastPeriodS to kMostPeriodS
 };
 
 /// The steps of a plan's file, or of a sheet (`casebase::retain::read_sheet`); the plan, where it is one.
@@ -44,7 +47,8 @@ struct ImportedLogs {
 
 /// Keeps what logs show of a plan's workingsteps as cases of a base (file or URI; made where there is none):
 /// all cases of all logs, or none.
-/// Fails   USAGE-IMPORT for a wrong word, kUsage; as the readers (retain/join/import.h), kUnreadable; as
+/// Fails   USAGE-IMPORT for a wrong word or no log, kUsage; as the readers (retain/join/import.h),
+/// kUnreadable; as
 ///         `CaseBase::add`, kImpossible.
 [[nodiscard]] Outcome<ImportedLogs> import_logs(const std::string& base, const std::vector<std::string>& logs,
                                                 const LogImport& asked, Job& job);

@@ -244,6 +244,14 @@ std::vector<model::Provenance> tell_expected(const model::Plan& plan, const case
   tell_step_times(steps, timed, rows);
   const std::string material = casebase::material_group_of(plan.material);
   tell_bores(plan, steps, measured(*cases, material, plan.machine.id), rows, job);
+  if (!rows.empty() && !cases->whole()) {
+    job.report({.code = "CASE-LOST",
+                .severity = Severity::kWarning,
+                .message = "times and bores by cases are those of the cases that are left, and may be off by "
+                           "more than is told",
+                .file = plan.file_name,
+                .hint = "restore the case base from a copy"});
+  }
   return rows;
 }
 

@@ -174,6 +174,20 @@ TEST(Import, NameOfTwoStepsThatTheLogDoesNotTellApartMakesNoCase) {
   EXPECT_EQ(cases("DRILL"), 1U);
 }
 
+TEST(Import, OneStayAtANameOfTwoStepsMayBeAtBothThatFollowEachOther) {
+  std::vector<Step> steps = two_steps();
+  steps.push_back(steps.front());
+  steps.back().id = steps.back().planned.from.workingstep = "DRILL~2";
+  Job job;
+  std::istringstream in(
+      "time_s,workingstep,feed_mm_min,spindle_rpm\n0,DRILL,600,3000\n10,DRILL,600,3000\n"
+      "20,BORE,300,3000\n29,,0,0\n");
+  const auto cases = import_log(in, LogFormat::kCsv, steps, {.part = "1", .file = "log"}, {}, job);
+  ASSERT_TRUE(cases) << to_text(cases.error());
+  ASSERT_EQ(cases->size(), 1U);
+  EXPECT_EQ(cases->front().from.workingstep, "BORE");
+}
+
 // A complete log in each format; `cut` rows of it are left at its beginning.
 struct Log {
   LogFormat format;

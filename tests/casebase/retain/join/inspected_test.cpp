@@ -112,5 +112,35 @@ TEST(InspectedStep, TellsByNameAndLineWhatNoCaseKeeps) {
   EXPECT_EQ(j.pocket.observed, Observed{});
 }
 
+TEST(InspectedStep, IsBadWhereWhatNoCaseKeepsIsBeyondItsLimits) {
+  const std::string width = "7,POCKET/w,Width,20,0.1,-0.1,20.0,mm\n";
+  for (const std::string row :
+       {"7,POCKET/r,Radius,5,0.05,-0.05,5.4,mm", "7,POCKET/a,Angle,90,0.1,-0.1,89.8,deg",
+        "7,POCKET/d,Distance,1,0.01,-0.01,1.02,in", "7,POCKET/s,Perpendicularity,,0.05,,0.06,mm"}) {
+    const Joined j = join(width + row + "\n");
+    EXPECT_EQ(j.pocket.observed.verdict, Verdict::kBad) << row;
+    EXPECT_NEAR(j.pocket.observed.size_deviation_mm.value().value, 0.0, 1e-12) << row;
+    EXPECT_EQ(j.pocket.id, id_of(j.pocket)) << row;
+    EXPECT_THAT(j.said, HasSubstr("a case keeps nothing of these"));
+  }
+  // Within them, and without limits, it says nothing.
+  EXPECT_EQ(join(width + "7,POCKET/r,Radius,5,0.05,-0.05,5.04,mm\n").pocket.observed.verdict, Verdict::kGood);
+  EXPECT_EQ(join("7,POCKET/r,Radius,5,0.05,-0.05,5.04,mm\n").pocket.observed.verdict, Verdict::kUnknown);
+  EXPECT_EQ(join(width + "7,POCKET/f,Flatness,,,,9,mm\n").pocket.observed.verdict, Verdict::kGood);
+}
+
+TEST(InspectedStep, IsJudgedByAPlaceOfWhichAnUpperLimitAloneIsStated) {
+  EXPECT_EQ(join("7,POCKET/p,Position,,0.05,,0.06,mm\n").pocket.observed.verdict, Verdict::kBad);
+  EXPECT_EQ(join("7,POCKET/p,Position,,0.05,,0.04,mm\n").pocket.observed.verdict, Verdict::kGood);
+}
+
+TEST(InspectedStep, KeepsThePlaceAsADistanceWhereItComesOutShortOfItsNominal) {
+  const Joined j = join("7,POCKET/p,Position,50,0.05,-0.05,49.97,mm\n");
+  EXPECT_NEAR(j.pocket.observed.position_deviation_mm.value().value, 0.03, 1e-12);
+  EXPECT_EQ(j.pocket.observed.verdict, Verdict::kGood);
+  EXPECT_FALSE(fault_of(j.pocket));
+  EXPECT_EQ(join("7,POCKET/p,Position,50,0.05,,49.94,mm\n").pocket.observed.verdict, Verdict::kBad);
+}
+
 }  // namespace
 }  // namespace capstan::casebase::retain

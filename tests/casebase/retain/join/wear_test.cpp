@@ -65,10 +65,11 @@ TEST(WearCases, HoldTheReadingsOfAnEdgeOverItsCuttingTime) {
 }
 
 TEST(WearCases, SayWhatOfTheCutWasMeasuredAndWhatTheSheetStates) {
-  const Case stated = import("case,VB,time,feed,rpm\n1,0.2,4,0.5,826\n").cases.value().front();
+  // 200 m/min at 70 mm are 200000 / (70 pi) = 909.457 1/min.
+  const Case stated = import("case,VB,time,feed,rpm\n1,0.2,4,0.5,909.457\n").cases.value().front();
   EXPECT_NEAR(stated.observed.executed_fz_mm.value().value, 0.5 / 6.0, 1e-12);
   EXPECT_EQ(stated.observed.executed_fz_mm->origin, Origin::kMeasured);
-  EXPECT_NEAR(stated.observed.executed_vc_m_min.value().value, 181.6469, 1e-3);  // 70 mm at 826 1/min
+  EXPECT_NEAR(stated.observed.executed_vc_m_min.value().value, 200.0, 1e-3);
   const Case bare = import("case,VB,time\n1,0.2,4\n").cases.value().front();
   EXPECT_EQ(bare.observed.executed_fz_mm.value().origin, Origin::kEntered);
   EXPECT_DOUBLE_EQ(bare.observed.executed_vc_m_min.value().value, 200.0);
@@ -103,6 +104,34 @@ TEST(WearCases, AreNotMadeWhereTheTableStatesAnotherCutThanTheSheet) {
   ASSERT_FALSE(fast.cases);
   EXPECT_EQ(fast.cases.error().code, "LOG-JOIN");
   EXPECT_THAT(fast.said, HasSubstr("the feed per turn is 0.25 mm in the table and 0.5 mm in the step"));
+  // 300 m/min at 70 mm.
+  const Imported turned = import("case,VB,time,rpm\n1,0.2,4,1364.185\n");
+  ASSERT_FALSE(turned.cases);
+  EXPECT_THAT(turned.said, HasSubstr("the speed is 300 m/min in the table and 200 m/min in the step"));
+}
+
+TEST(WearCases, TellNothingOfTheTimeOfTheStepThatTheirEdgeCut) {
+  std::string sheet = kSheet;
+  sheet.replace(sheet.find("ap_mm\n"), 6, "ap_mm,path_length_mm,path_blocks,predicted_time_s\n");
+  sheet.replace(sheet.find(",1.5\n"), 5, ",1.5,1000,10,40\n");
+  sheet.replace(sheet.find(",0.75\n"), 6, ",0.75,1000,10,40\n");
+  const Imported i = import("case,VB,time\n1,0.2,60\n", sheet);
+  ASSERT_TRUE(i.cases) << to_text(i.cases.error());
+  EXPECT_TRUE(tune::times_of(*i.cases).empty());  // an hour of the edge is no hour of the step
+  tune::PlannedStep planned;
+  planned.step = read_sheet(sheet, "sheet.csv").value().front().planned;
+  planned.step.from.plan_hash = "abc";
+  Case of_plan = i.cases->front();
+  of_plan.from.plan_hash = "abc";
+  EXPECT_FALSE(tune::evidence_of(of_plan, planned).ln_time);
+}
+
+TEST(WearCases, OfRowsThatNameNoPartAreOfThePartThatIsNamed) {
+  const Imported i = import("edge,VB,time\nE7,0.1,2\nE7,0.2,4\n", kSheet, "3");
+  ASSERT_TRUE(i.cases) << to_text(i.cases.error());
+  ASSERT_EQ(i.cases->size(), 1U);
+  EXPECT_EQ(i.cases->front().from.part, "3");
+  EXPECT_EQ(i.cases->front().from.workingstep, "FLAT");
 }
 
 TEST(WearCases, AreThoseOfAPartWhereOneIsNamed) {

@@ -12,7 +12,8 @@ using casebase::Field;
 bool report_faults(Session& s, const casebase::CaseBase& base) {
   bool whole = base.whole();
   for (Diagnostic& d : base.take_faults()) {
-    whole = whole && d.code != "CASE-ROW";
+    // A row that was altered, or cases that could not be read now.
+    whole = whole && d.code != "CASE-ROW" && d.severity != Severity::kError;
     s.job.report(std::move(d));
   }
   return whole;

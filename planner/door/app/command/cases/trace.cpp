@@ -145,7 +145,11 @@ Status write_to(const Destinations& to, const std::vector<Traced>& rows, Job& jo
     if (auto ok = add_to_base(to.base, cases, job); !ok) return ok;
   }
   for (StagedFile& f : files) {
-    if (auto ok = f.put(); !ok) return ok;
+    if (auto ok = f.put(); !ok) {
+      Diagnostic d = ok.error();
+      if (!to.base.empty()) d.message += "; " + casebase::name_of(to.base) + " has taken the cases already";
+      return fail(std::move(d));
+    }
   }
   return {};
 }
@@ -174,12 +178,12 @@ int run_cases_trace(Session& s) {
   std::vector<Traced> rows;
   for (const Case& c : cases) {
     if (c.origin == casebase::Origin::kSimulated || !wanted(c, s.options.words)) continue;
+    if (!parts.empty() && std::find(parts.begin(), parts.end(), c.from.part) == parts.end()) continue;
     if (!is_of(c, *planned, hash)) {
       of_another +=
           planned->plan && !c.from.plan_hash.empty() && names_step(*planned, c.from.workingstep) ? 1 : 0;
       continue;
     }
-    if (!parts.empty() && std::find(parts.begin(), parts.end(), c.from.part) == parts.end()) continue;
     const auto at = lines.find(c.from.workingstep);
     rows.push_back({&c, at == lines.end() ? Lines{} : at->second});
   }

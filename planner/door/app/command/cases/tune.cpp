@@ -178,6 +178,7 @@ std::string all_json(const std::vector<StepAdvice>& steps, const std::vector<Mat
     t["days"] = s.advice.days;
     t["why"] = s.advice.why;
     t["lowered"] = s.advice.lowered;
+    t["another_cut"] = s.advice.another_cut;
     if (!s.advice.binding.empty()) t["binding"] = s.advice.binding;
     t["handbook"] = view_json(s, s.advice.handbook);
     t["proven"] = view_json(s, s.advice.proven);

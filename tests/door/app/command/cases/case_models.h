@@ -99,9 +99,8 @@ class CaseModels : public CommandTest {
     }
     return out;
   }
-  /// The bores that the plan mills, on four parts, so far from the size asked; with so many edges in turn, 0:
-  /// nobody says with which.
-  std::vector<Case> bored(double off_mm, int edges = 0) const {
+  /// The bores that the plan mills, on four parts, so far from the size asked; nobody says with which edges.
+  std::vector<Case> bored(double off_mm) const {
     std::vector<Case> out;
     for (int part = 0; part < 4; ++part) {
       for (Case c : planned_) {
@@ -110,7 +109,6 @@ class CaseModels : public CommandTest {
         c.observed = {};
         c.observed.size_deviation_mm = casebase::Figure{.value = off_mm + 0.001 * part};
         c.from.part = std::to_string(part);
-        if (edges > 0) c.from.tool_instance = "E" + std::to_string(part % edges);
         c.from.source = "gauge " + std::to_string(off_mm);
         out.push_back(c);
       }

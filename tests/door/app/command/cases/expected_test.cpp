@@ -9,6 +9,7 @@
 #include "casebase/casebase.h"
 #include "planner/making/step/record/expected_by_cases.h"
 #include "planner/physics/motion/time.h"
+#include "tests/casebase/sample.h"
 #include "tests/door/app/command/cases/case_models.h"
 
 // What measured cases say of the times of steps and of bores, and which cases: through the whole command.
@@ -66,6 +67,13 @@ TEST_F(CaseExpected, StepsUnlikeThoseMeasuredHaveNoTimeByCases) {
   const model::Plan tuned = plan("tuned.json");
   EXPECT_EQ(step::row_of(tuned, step::time_row_of("POCKET area_rough")), nullptr);
   EXPECT_THAT(run("explain tuned.json 'POCKET area_rough'").out, Not(HasSubstr("time_by_cases")));
+}
+
+TEST_F(CaseExpected, TimesOfABaseThatLostCasesAreToldWithAWarning) {
+  ASSERT_THAT(planned_with(timed(5, 1.25)).err, Not(HasSubstr("CASE-LOST")));
+  casebase::tamper((folder_ / "base.db").string(), "DELETE FROM capstan_head WHERE number = 2");
+  EXPECT_THAT(run("plan '" + part() + "' --reopen all --cases base.db -o tuned.json").err,
+              HasSubstr("times and bores by cases are those of the cases that are left"));
 }
 
 TEST_F(CaseExpected, ABoreIsToldWithTheCasesAndWhatIsWithoutThem) {
