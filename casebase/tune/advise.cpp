@@ -285,9 +285,10 @@ std::string reason_of(const Advice& a, const TuneOptions& o) {
         fmt::format("{}: nothing faster within {:.0f} % keeps its limits in {:.3g} of 100 parts{}", base,
                     100.0 * (std::exp(o.step) - 1.0), 100.0 * (1.0 - o.probability),
                     a.binding.empty() ? "" : " (" + a.binding + ")");
-    if (a.trial.probability <= o.probability) return words;
+    // Of fewer cases than prove a value the probability says how little is known, not how often it fails.
+    if (a.trial.probability <= o.probability || a.heard < o.repeats) return words;
     // The handbook's own, which no evidence made worse than they were thought to be.
-    return fmt::format("{}; of the present values {:.0f} of 100 are expected beyond a limit", words,
+    return fmt::format("{}; of the present values up to {:.0f} of 100 are expected beyond a limit", words,
                        100.0 * std::min(1.0, a.trial.probability));
   }
   return fmt::format(
