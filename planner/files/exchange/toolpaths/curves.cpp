@@ -288,8 +288,13 @@ class StepBuilder {
       from = 0;
     } else if (const double gap = norm(part.point(0) - path.point(path.size() - 1)); gap > o_.gap_mm) {
       if (!bridge_)
-        return bad(at, "a toolpath begins " + trimmed(gap, 3) + " mm from where the last one ended",
-                   "EXC-GAP");
+        // Coordinates whose square no number holds: the reader takes them, an edit may make them.
+        return bad(
+            at,
+            "a toolpath begins " +
+                (std::isfinite(gap) ? trimmed(gap, 3) + " mm" : std::string("too far to be measured")) +
+                " from where the last one ended",
+            "EXC-GAP");
       path.line(part.point(0), MoveRole::kLink);
     }
     bridge_ = false;
