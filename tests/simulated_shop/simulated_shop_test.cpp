@@ -65,7 +65,9 @@ TEST(SimulatedShopProperty, PartsOfEachKindExceedThemNoMoreOftenThanTheTunerSaid
         << kept.over << " of " << kept.parts;
     EXPECT_LE(own.stated, TuneOptions{}.probability * own.parts);
     const Tally against = arm_of(arm).of(Said::kAgainst);
-    if (against.parts > 0) EXPECT_GT(against.stated, TuneOptions{}.probability * against.parts);
+    if (against.parts > 0) {
+      EXPECT_GT(against.stated, TuneOptions{}.probability * against.parts);
+    }
   }
 }
 
