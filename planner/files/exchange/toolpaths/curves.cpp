@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/files/exchange/toolpaths/distance_text.h"
 #include "planner/files/exchange/toolpaths/schedules.h"
 #include "planner/files/exchange/toolpaths/section_points.h"
 #include "planner/files/exchange/toolpaths/segments.h"
@@ -288,13 +289,8 @@ class StepBuilder {
       from = 0;
     } else if (const double gap = norm(part.point(0) - path.point(path.size() - 1)); gap > o_.gap_mm) {
       if (!bridge_)
-        // Coordinates whose square no number holds: the reader takes them, an edit may make them.
-        return bad(
-            at,
-            "a toolpath begins " +
-                (std::isfinite(gap) ? trimmed(gap, 3) + " mm" : std::string("too far to be measured")) +
-                " from where the last one ended",
-            "EXC-GAP");
+        return bad(at, "a toolpath begins " + distance_text(gap, 3) + " from where the last one ended",
+                   "EXC-GAP");
       path.line(part.point(0), MoveRole::kLink);
     }
     bridge_ = false;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "planner/files/exchange/toolpaths/distance_text.h"
 #include "planner/files/exchange/toolpaths/left_helix.h"
 #include "planner/files/exchange/toolpaths/via.h"
 #include "planner/ground/base/number.h"
@@ -139,9 +140,9 @@ class Walker {
       if (s != nullptr && !s->same_sense.value_or(true)) reverse(*part);
       follow_on(out, *part);
       if (!out.empty() && norm(part->front().from - out.back().to) > o_.gap_mm) {
-        return bad(m_, item,
-                   "a COMPOSITE_CURVE has a gap of " +
-                       trimmed_text(norm(part->front().from - out.back().to)) + " mm");
+        return bad(
+            m_, item,
+            "a COMPOSITE_CURVE has a gap of " + distance_text(norm(part->front().from - out.back().to), 4));
       }
       out.insert(out.end(), part->begin(), part->end());
       if (out.size() > o_.max_moves) return bad(m_, at, "a curve has too many pieces");
@@ -165,7 +166,6 @@ class Walker {
       s.u_to += offset;
     }
   }
-  static std::string trimmed_text(double v) { return capstan::trimmed(v, 4); }
 
   Result<Trim> trim(AnyRef at, const model::SelectList& list) {
     Trim out;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/files/exchange/toolpaths/distance_text.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 #include "planner/model/features/resolve.h"
@@ -87,7 +88,7 @@ class Through {
       const Vec3 p = flats[i];
       const double out = std::hypot(norm(p - r.centre) - r.radius, dot(p - r.centre, r.axis));
       if (out > o_.radius_mm)
-        return bad("one is " + trimmed(out, 4) + " mm off the circle through the others");
+        return bad("one is " + distance_text(out, 4) + " off the circle through the others");
       const double w = r.angle(a, p);
       if (w <= last || w >= sweep) return bad("they are not in order along the arc");
       last = w;
@@ -124,7 +125,8 @@ class Through {
     if (!o_.helix) return {};
     const double rise = dot(to_ - from_, o_.axis), here = dot(via_[i] - from_, o_.axis);
     if (std::abs(here - t * rise) <= o_.radius_mm) return {};
-    return bad("a helix does not rise evenly: one is " + trimmed(here - t * rise, 4) + " mm off its height");
+    return bad("a helix does not rise evenly: one is " + distance_text(here - t * rise, 4) +
+               " off its height");
   }
 
   const ViaOptions& o_;
