@@ -13,6 +13,7 @@
 #include "planner/physics/motion/time.h"
 #include "tests/removal/drawing.h"
 #include "tests/support/shop.h"
+#include "tests/sweep/sweep.h"
 
 // What a good programmer would do with a part, where the rules alone would do otherwise.
 
@@ -133,9 +134,7 @@ TEST(Productive, TheNextChainIsTakenWhereTheFirstHasNoTool) {
 /// Share of the time at feed in which the step's cutter meets nothing.
 double air_of(const model::StepResult& s) {
   const model::FeedSchedule schedule = motion::schedule_of(s);
-  std::vector<bool> cuts(s.path->size());
-  for (std::size_t k = 0; k < s.sections->size(); ++k)
-    if (s.sections->csa_mm2[k] > 0.0) cuts[s.sections->move[k]] = true;
+  const std::vector<bool> cuts = cutting_moves(s);
   double air = 0.0, all = 0.0;
   for (std::size_t i = 1; i < s.path->size(); ++i) {
     if (s.path->kind[i] == model::MoveKind::kRapid || !(schedule.feed_mm_min[i] > 0.0)) continue;

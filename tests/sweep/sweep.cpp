@@ -46,9 +46,7 @@ std::pair<double, double> rubbed(const model::StepResult& s, const model::Cutter
   double way = 0.0, thinnest = least_mm;
   if (s.path == nullptr || s.sections == nullptr) return {way, thinnest};
   const model::FeedSchedule schedule = motion::schedule_of(s);
-  std::vector<bool> cuts(s.path->size());
-  for (std::size_t k = 0; k < s.sections->size(); ++k)
-    if (s.sections->csa_mm2[k] > 0.0) cuts[s.sections->move[k]] = true;
+  const std::vector<bool> cuts = cutting_moves(s);
   for (std::size_t i = 1; i < s.path->size(); ++i) {
     const bool sideways = s.path->x[i] != s.path->x[i - 1] || s.path->y[i] != s.path->y[i - 1];
     if (!cuts[i] || !sideways || s.path->kind[i] == model::MoveKind::kRapid) continue;
@@ -61,6 +59,13 @@ std::pair<double, double> rubbed(const model::StepResult& s, const model::Cutter
 }
 
 }  // namespace
+
+std::vector<bool> cutting_moves(const model::StepResult& s) {
+  std::vector<bool> out(s.path->size());
+  for (std::size_t k = 0; k < s.sections->size(); ++k)
+    if (s.sections->csa_mm2[k] > 0.0) out[s.sections->move[k]] = true;
+  return out;
+}
 
 std::string Case::name() const {
   std::string out = features().at(feature).name + "," + kMaterials[material].name + "," + kMachines[machine];

@@ -68,4 +68,7 @@ class Sweep {
 /// option.
 [[nodiscard]] bool helps(const std::string& reason);
 
+/// Which moves of a step that has a path and sections meet material.
+[[nodiscard]] std::vector<bool> cutting_moves(const model::StepResult& s);
+
 }  // namespace capstan::testing::sweep
