@@ -227,7 +227,7 @@ std::vector<Option> table() {
             "(19 of 20 cuts stay below), usual (5 of 6; the default), bold (7 of 10), or a number of "
             "standard deviations, e.g. 1.28 (9 of 10)"),
        &set_margin,
-       {}},
+       mechanics::margin_names()},
       {"revenue",
        Value::kText,
        both("what a piece brings less its material, in the currency of the machine's cost per hour"),

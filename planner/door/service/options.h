@@ -37,7 +37,7 @@ struct Option {
   std::array<const char*, kVerbs> help = {};
   /// Sets it in the request. Gives what is wrong with the text, or nothing. A flag takes "yes" or "no".
   std::string (*set)(Request& request, const std::string& text) = nullptr;
-  std::vector<std::string> words = {};  ///< Value::kWord: those it takes
+  std::vector<std::string> words = {};  ///< Value::kWord: those it takes; kText: names among what it takes
   unsigned least = 0, most = 0;         ///< Value::kWhole
   std::string_view excludes = {};       ///< the option that excludes this one
   bool of_all_commands = false;         ///< the command line takes it in front of any command

@@ -52,12 +52,13 @@ OptionText text_of(const CLI::Option& o) {
   for (const std::string& name : o.get_snames()) out.names.push_back("-" + name);
   for (const std::string& name : o.get_lnames()) out.names.push_back("--" + name);
   if (out.positional) out.names = {o.get_name(true)};
-  // "TYPE", "TYPE:{choice,choice}" or "TYPE:limits"; a flag takes no item.
+  // "TYPE", "TYPE:{choice,choice}", "TYPE:{choice,choice} or another" or "TYPE:limits"; a flag takes no item.
   const std::string type = o.get_items_expected_max() == 0 ? "" : o.get_type_name();
   out.value = type.substr(0, type.find(':'));
   if (out.value.size() < type.size()) out.limits = type.substr(out.value.size() + 1);
-  if (out.limits.starts_with("{") && out.limits.ends_with("}")) {
-    std::istringstream words(out.limits.substr(1, out.limits.size() - 2));
+  if (const std::size_t end = out.limits.find('}'); out.limits.starts_with("{") && end != std::string::npos) {
+    std::istringstream words(out.limits.substr(1, end - 1));
+    out.open = end + 1 < out.limits.size();
     for (std::string word; std::getline(words, word, ',');) out.choices.push_back(word);
     out.limits.clear();
   }
@@ -75,6 +76,13 @@ CommandText text_of(const CLI::App& app) {
   for (const CLI::Option* o : app.get_options({})) out.options.push_back(text_of(*o));
   for (const CLI::App* sub : app.get_subcommands({})) out.commands.push_back(text_of(*sub));
   return out;
+}
+
+/// Names the words of an option that takes others, too: --help and completion list them, `set` judges.
+CLI::Validator named(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "{" : ",") + word;
+  return CLI::Validator([](std::string&) { return std::string(); }, list + "} or another");
 }
 
 class CommandLine {
@@ -191,6 +199,7 @@ class CommandLine {
       added = sub->add_option(name, raw_.of[o.name], std::string(o.help_of(verb)));
     }
     if (o.value == service::Value::kWord) added->check(CLI::IsMember(o.words));
+    if (o.value == service::Value::kText && !o.words.empty()) added->check(named(o.words));
     if (o.value == service::Value::kWhole) added->type_name("UINT")->check(CLI::Range(o.least, o.most));
     if (!o.excludes.empty()) added->excludes(sub->get_option("--" + std::string(o.excludes)));
   }

@@ -10,7 +10,8 @@ struct OptionText {
   std::vector<std::string> names;     ///< with their dashes; a positional has one, without
   std::string value;                  ///< what kind of value, e.g. "TEXT"; empty: a flag
   std::string limits;                 ///< of the value, e.g. "UINT in [1 - 256]"; empty: any
-  std::vector<std::string> choices;   ///< all values that are taken; empty: any
+  std::vector<std::string> choices;   ///< values that are taken; empty: any
+  bool open = false;                  ///< other values are taken beside the choices
   std::vector<std::string> excludes;  ///< options that exclude this one
   std::string help;
   bool positional = false, required = false, repeatable = false;

@@ -38,7 +38,7 @@ std::string joined(const std::vector<std::string>& words, const char* between, O
 /// The value of an option, as shown behind its name.
 std::string value_of(const OptionText& o) {
   if (o.choices.empty()) return italic(o.value);
-  return joined(o.choices, "|", bold);
+  return joined(o.choices, "|", bold) + (o.open ? "|" + italic(o.value) : "");
 }
 
 std::string synopsis(const std::string& called, const CommandText& command) {

@@ -32,7 +32,7 @@ const OptionText* find_option(const Place& at, std::string_view name, std::vecto
 }
 
 std::optional<Diagnostic> wrong_choice(const Place& at, const OptionText& o, std::string_view value) {
-  if (o.choices.empty() || std::find(o.choices.begin(), o.choices.end(), value) != o.choices.end())
+  if (o.choices.empty() || o.open || std::find(o.choices.begin(), o.choices.end(), value) != o.choices.end())
     return std::nullopt;
   Diagnostic d = unknown_name("value of " + o.names.back(), value, o.choices, at.help());
   for (const std::string& c : o.choices) d.expected += (d.expected.empty() ? "" : ", ") + c;
