@@ -31,8 +31,10 @@ bool finishes(model::TypeId op) { return order_rank(op) == kFinishingRank; }
 
 double speed_by_arc(double width_ratio, const std::string& group) {
   constexpr double kWidth[] = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5};
-  constexpr double kSpeed[] = {1.48, 1.35, 1.27, 1.22, 1.19, 1.16, 1.11, 1.0};
-  if (group != "P" && group != "M" && group != "K") return 1.0;
+  constexpr double kOthers[] = {1.48, 1.35, 1.27, 1.22, 1.19, 1.16, 1.11, 1.0};
+  constexpr double kAlloys[] = {1.48, 1.35, 1.27, 1.22, 1.189, 1.136, 1.057, 1.0};
+  const double* kSpeed = group == "S" ? kAlloys : kOthers;
+  if (group != "P" && group != "M" && group != "K" && group != "S" && group != "H") return 1.0;
   double speed = 1.0;
   for (int i = 0; i + 1 < 8; ++i) {
     if (width_ratio < kWidth[i] || width_ratio >= kWidth[i + 1]) continue;
