@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/region/area/crossing.h"
 #include "planner/making/toolpath/region/patterns.h"
 
 namespace capstan::toolpath {
@@ -248,7 +249,9 @@ class Contours {
 
   Status ring(std::size_t i, Loops which) {
     const bool wall = all_[i].depth == 0;
-    std::vector<Track> tracks = tracks_of(all_[i].piece, which, natural(), wall);
+    // A spiral melts one ring into the next by their corners.
+    std::vector<Track> tracks =
+        tracks_of(o_.spiral ? all_[i].piece : all_[i].followed, which, natural(), wall);
     if (o_.spiral && !inwards_ && beside(i) && tracks.size() == 1 && all_[i].children.size() == 1 &&
         done_[last_].size() == 1 && spiral_onto(tracks.front())) {
       done_[i] = {pending_};
@@ -300,6 +303,32 @@ class Contours {
     done_[i].push_back(t);
   }
 
+  /// From the end of the ring beside it by arcs: there, or a little farther along that ring, where it is cut
+  /// already.
+  bool cross_onto(std::size_t i, const Track& t) {
+    if (done_[last_].empty() || !c_.writer.begun()) return false;
+    const Track& ring = done_[last_].back();
+    const geometry::Vec3 at = c_.writer.at();
+    if (ring.segments.empty() || std::abs(at.z - level_.z_mm) > 1e-9 ||
+        norm(xy(at) - ring.start) > kSmallestArc)
+      return false;
+    const double length = length_of(ring);
+    for (const double further : {0.0, 1.0, 2.0}) {
+      const double s = further * step_;
+      if (s > 0.5 * length) break;
+      const Spot leaves = at_length(ring, s);
+      const Vec2 from = leaves.segment == 0 ? ring.start : ring.segments[leaves.segment - 1].to;
+      const auto over = crossing(leaves.point, direction_at(from, ring.segments[leaves.segment], leaves.t), t,
+                                 level_.inside);
+      if (!over) continue;
+      if (s > 0.0) c_.writer.follow(part_of(ring, 0.0, s), level_.z_mm, MoveRole::kCut);
+      c_.writer.follow(over->way, level_.z_mm, MoveRole::kCut);
+      cut(i, begun_at(t, over->onto));
+      return true;
+    }
+    return false;
+  }
+
   /// One loop of a ring: from where the cutter is, from a neighbour that is cut already, or into the solid.
   Status one(std::size_t i, const Track& t, const std::vector<std::size_t>& neighbours, bool entered,
              bool wall) {
@@ -308,6 +337,7 @@ class Contours {
       done_[i].push_back(t);
       return {};
     }
+    if (!entered && beside(i) && cross_onto(i, t)) return {};
     if (entered || beside(i)) {
       const Spot spot = nearest(t, xy(c_.writer.at()));
       if (c_.cut_to(level_, spot.point)) {

@@ -21,11 +21,6 @@ namespace {
 
 /// Lift of the cutter over a floor that it moves across without cutting, mm; default, unsourced.
 constexpr double kLift = 0.3;
-/// Inner corners of the centres are rounded by this part of the cutter's radius: a front of radius p that
-/// advances by k makes an arc of contact of about sqrt(2 k (r + p) / (r p)), which for the layer left to the
-/// last pass (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square
-/// corner is at most a twentieth of the radius deep. In a narrower place a cutter does not turn.
-constexpr double kLeastTurn = 0.125;
 /// More than this part of the radius is slotting, not clearing.
 constexpr double kMostRadial = 0.95;
 constexpr double kSameHeight = 1e-9;

@@ -54,19 +54,39 @@ Region next_inset(const Region& piece, double step_mm, double cover_mm) {
   return inset(piece, std::min(step_mm, cover_mm), kInnerChord);
 }
 
+/// The piece with its inner corners rounded by kLeastTurn; as it is where it would fall apart or where what
+/// the ring around it does not reach would stay uncut.
+Region rounded(const Region& piece, const Region& around, double cover_mm) {
+  const Region reached = geometry::intersect(inset(around, cover_mm, kInnerChord),
+                                             geometry::offset(piece, cover_mm, kInnerChord));
+  for (const double part : {1.0, 0.5}) {
+    const double radius = part * kLeastTurn * cover_mm;
+    Region out = geometry::offset(inset(piece, radius, kInnerChord), radius, kInnerChord);
+    if (out.loops.size() != piece.loops.size()) continue;
+    const Region left = geometry::subtract(reached, geometry::offset(out, cover_mm, kInnerChord));
+    if (geometry::area(left) <= kCrumb) return out;
+  }
+  return piece;
+}
+
 }  // namespace
 
 std::vector<Ring> rings(const Region& centres, double step_mm, double cover_mm) {
   std::vector<Ring> out;
-  for (Region& piece : geometry::pieces(centres)) {
-    out.push_back({.piece = std::move(piece), .depth = 0, .parent = out.size(), .children = {}});
+  for (const Region& piece : geometry::pieces(centres)) {
+    out.push_back({.piece = piece, .followed = piece, .depth = 0, .parent = out.size(), .children = {}});
   }
   for (std::size_t i = 0; i < out.size(); ++i) {  // out grows while it is walked
     for (Region& piece : geometry::pieces(next_inset(out[i].piece, step_mm, cover_mm))) {
       // Crumbs of rounding are no rings.
       if (geometry::area(piece) < 1e-6) continue;
       out[i].children.push_back(out.size());
-      out.push_back({.piece = std::move(piece), .depth = out[i].depth + 1, .parent = i, .children = {}});
+      Region followed = rounded(piece, out[i].piece, cover_mm);
+      out.push_back({.piece = std::move(piece),
+                     .followed = std::move(followed),
+                     .depth = out[i].depth + 1,
+                     .parent = i,
+                     .children = {}});
     }
   }
   return out;

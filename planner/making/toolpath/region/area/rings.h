@@ -12,6 +12,9 @@ namespace capstan::toolpath {
 /// One connected piece of the n-th inset of a region: its loops are one ring of a contour-parallel pattern.
 struct Ring {
   geometry::Region piece;
+  /// What the cutter follows: the piece, its inner corners rounded where that leaves nothing; at the wall as
+  /// it is.
+  geometry::Region followed;
   int depth = 0;                      ///< insets made so far; 0 is the wall
   std::size_t parent = 0;             ///< the ring around this one; its own index at depth 0
   std::vector<std::size_t> children;  ///< what became of it one inset later

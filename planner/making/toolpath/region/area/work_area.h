@@ -29,6 +29,12 @@ struct WorkArea {
 [[nodiscard]] geometry::Region inset(const geometry::Region& r, double d_mm, double chord_mm);
 inline constexpr double kWallChord = 0.0005;  ///< mm
 inline constexpr double kInnerChord = 0.003;  ///< mm, of rings that touch no wall
+/// Inner corners of paths that make no wall are rounded by this part of the cutter's radius, so that the
+/// machine turns without a stop. Where fronts are followed at a constant arc of contact, one of radius p that
+/// advances by k makes an arc of about sqrt(2 k (r + p) / (r p)), which for the layer left to the last pass
+/// (clearing.cpp: an eighth of ae) is then 1.06 of the straight cut's. What stays in a square corner is at
+/// most a twentieth of the radius deep. In a narrower place a cutter does not turn.
+inline constexpr double kLeastTurn = 0.125;
 
 /// Where the cutter's centre may be when its tip is at z and walls keep an allowance.
 [[nodiscard]] geometry::Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_mm,
