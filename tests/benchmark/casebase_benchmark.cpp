@@ -250,7 +250,14 @@ void import_million(benchmark::State& state) {
     std::ifstream in(csv, std::ios::binary);
     const auto cases = retain::import_log(in, retain::LogFormat::kTimes, steps, {.file = csv}, {}, job);
     auto base = CaseBase::open_or_create(uri, job);
-    if (!cases || !base || !base->add(*cases)) std::abort();
+    if (!cases || !base) {
+      state.SkipWithError((cases ? base.error() : cases.error()).message.c_str());
+      break;
+    }
+    if (const auto kept = base->add(*cases); !kept) {
+      state.SkipWithError(kept.error().message.c_str());
+      break;
+    }
     if (base->size() != std::size_t{kParts} * kToolsOfTimes) state.SkipWithError("not all rows are cases");
   }
   rusage used{};

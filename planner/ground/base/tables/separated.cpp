@@ -6,7 +6,7 @@
 namespace capstan {
 namespace {
 
-constexpr std::size_t kRowsCap = 1'000'000;
+constexpr std::size_t kRowsCap = 1'000'001;  // a million and their head
 constexpr std::size_t kCellsCap = 20'000'000;
 constexpr std::size_t kColumnsCap = 10'000;
 
@@ -110,7 +110,8 @@ Result<std::vector<SeparatedRow>> separated_rows(std::string_view text, char sep
     if (!filled) return fault(code, filled.error(), line, "mend that row, or write the table again");
     cells += row.cells.size();
     if (cells > kCellsCap || out.size() >= kRowsCap)
-      return fault("FILE-TOO-LARGE", "more than 1,000,000 rows or 20,000,000 cells", line, "split the table");
+      return fault("FILE-TOO-LARGE", "more than 1,000,000 rows below the head, or 20,000,000 cells", line,
+                   "split the table");
     if (*filled) out.push_back(std::move(row));
   }
   return out;
