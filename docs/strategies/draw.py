@@ -14,8 +14,13 @@ import subprocess
 import sys
 import tempfile
 
+import meshes
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+# What is planned. {folder} holds the meshes of meshes.py and THROUGH, the generic machining centre with coolant through
+# its spindle.
+THROUGH = "through_coolant.yaml"
 PARTS = {
     "strategies": ["docs/strategies/strategies.p21"],
     "outside": ["docs/strategies/outside.p21"],
@@ -28,8 +33,21 @@ PARTS = {
     "far": ["tests/door/pipeline/parts/far_ends.p21"],
     "leaning": ["docs/strategies/leaning.p21", "--tools", "docs/strategies/leaning_tools.yaml"],
     "surface": ["examples/surface.stl", "--material", "EN AW-6061"],
+    "boss": ["{folder}/boss.stl", "--material", "EN AW-6061"],
+    "ridge": ["{folder}/ridge.stl", "--material", "EN AW-6061"],
+    "bowl": ["{folder}/bowl.stl", "--material", "EN AW-6061"],
+    "one_profile": ["docs/strategies/thread.p21", "--forbid", "tool=generic/thread_mill_rows*"],
+    "vee": ["docs/strategies/vee.p21", "--tools", "docs/strategies/vee_tools.yaml"],
+    "profiles": ["docs/strategies/profiles.p21"],
+    "holes": ["docs/strategies/holes.p21"],
+    "batch": ["docs/strategies/holes.p21", "--batch", "500"],
+    "thin": ["docs/strategies/thin.p21"],
+    "slot": ["docs/strategies/slot.p21", "--machine", "small_router"],
+    "gun": ["docs/strategies/gun.p21", "--machine", "{folder}/" + THROUGH],
+    "open_outside": ["docs/strategies/open_outside.p21"],
+    "through": ["docs/strategies/through.p21"],
 }
-# name of the picture, part, step, left panel ("above" or "time")
+# name of the picture, part, step, left panel ("above", "time", or "end": above, about where the path leaves the wall)
 PICTURES = [
     ("rings", "strategies", "RINGS", "above"),
     ("spiral", "strategies", "SPIRAL", "above"),
@@ -65,9 +83,60 @@ PICTURES = [
     ("freeform_rough", "surface", "surface freeform_rough", "above"),
     ("freeform_semi_finish", "surface", "surface freeform_finish", "above"),
     ("freeform_finish", "surface", "surface freeform_finish~2", "above"),
+    ("lead_out", "bracket", "POCKET area_finish", "end"),
+    ("thin_floor", "thin", "THIN floor_finish", "above"),
+    ("thin_wall", "thin", "THIN thin_wall_finish", "above"),
+    ("slot_constant_engagement", "slot", "SLOT area_rough", "above"),
+    ("open_outside", "open_outside", "OPEN OUTSIDE area_rough", "above"),
+    ("wall_rough", "through", "CONTOUR wall_rough", "above"),
+    ("wall_finish", "through", "CONTOUR wall_finish", "above"),
+    ("vee_rough", "vee", "VEE vee_rough", "above"),
+    ("vee_finish", "vee", "VEE vee_finish", "above"),
+    ("section_rough", "profiles", "ROUNDED VEE section_rough", "above"),
+    ("section_finish", "profiles", "ROUNDED VEE section_finish", "above"),
+    ("round_slot", "profiles", "ROUND ball_slot", "above"),
+    ("dovetail_rough", "dovetails", "DRAWN dovetail_rough", "above"),
+    ("gun_pilot", "gun", "LONG gun_pilot", "time"),
+    ("gun_drill", "gun", "LONG gun_drill", "time"),
+    ("ball_bottom", "holes", "BALL ball_bottom", "time"),
+    ("countersink", "holes", "SUNK[1] countersink", "time"),
+    ("countersink_mill", "holes", "SUNK WIDE[1] countersink_mill", "above"),
+    ("counterbore", "batch", "BORED[1] counterbore", "time"),
+    ("shoulder", "holes", "BORED[1] mill_finish", "above"),
+    ("taper_rough", "holes", "TAPERED taper_rough", "above"),
+    ("taper_levels", "holes", "TAPERED taper_levels", "above"),
+    ("taper_finish", "holes", "TAPERED taper_finish", "above"),
+    ("back_chamfer", "far", "COUNTERSUNK[2] back_chamfer", "above"),
+    ("thread_mill_one_profile", "one_profile", "THREAD thread_mill", "above"),
+    ("freeform_rest", "ridge", "surface freeform_rest", "above"),
+    ("freeform_levels", "boss", "surface freeform_levels", "above"),
+    ("freeform_heights", "bowl", "surface freeform_finish~2", "above"),
 ]
+# Actions of the rules (rules/strategy/) without a picture of their own, and why.
+NOT_DRAWN = {
+    "spring_pass": "the path of area_finish, with less left for it",
+    "wall_spring_pass": "the path of wall_finish, with less left for it",
+    "rest_finish": "the path of rest_rough, to the finished size",
+    "break_edge": "the path of chamfer",
+    "probe_feature": "a probe cuts nothing",
+    "measure": "a probe cuts nothing",
+    "back_open": "the path of drill",
+    "pilot": "the path of drill",
+    "taper_drill": "the path of drill",
+    "peck_drill": "the path of drill, deep: picture peck",
+    "t_slot_rough": "the path of dovetail_rough",
+}
+# What a file may state and a rule may ask for (StrategyKind): the picture that shows it.
+STRATEGIES = {
+    "kBidirectional": "to_and_fro",
+    "kUnidirectional": "one_way",
+    "kContourParallel": "rings",
+    "kContourSpiral": "spiral",
+    "kContourBidirectional": "contour_then_passes",
+    "kCenterMilling": "round_slot",
+}
 # A picture that shows a choice of the planner: the reason that must stand in the plan, else the old one stays.
-CHOSEN = {"constant_engagement": "path.constant_engagement"}
+CHOSEN = {"constant_engagement": "path.constant_engagement", "slot_constant_engagement": "path.constant_engagement"}
 COLOURS = {  # kind of move: colour, width, dashes
     "rapid": ("#c33", 0.7, "4 3"),
     "way": ("#777", 0.9, ""),  # approach, retract
@@ -202,33 +271,45 @@ def cabinet(p, _t):
     return (p[0] + 0.5 * p[1] * math.cos(a), p[2] + 0.5 * p[1] * math.sin(a))
 
 
-def panel(step, point, left, same_scale, swept_mm, out, widest_mm=0.0):
-    """Draws the runs, fitted into the panel; gives the kinds that it has and where its scale bar goes."""
+def panel(step, point, left, same_scale, swept_mm, out, widest_mm=0.0, window=None, name=""):
+    """Draws the runs, fitted into the panel; gives its scale and width. `window`: lowest and highest corner of what is
+    shown, else all of it; `name`: of the picture, in the ids of its lines."""
     widest_mm = max(widest_mm, swept_mm)
     runs = step.runs(point)
     xs = [p[0] for _, pts in runs for p in pts]
     ys = [p[1] for _, pts in runs for p in pts]
     grow = widest_mm / 2.0
     lo, hi = (min(xs) - grow, min(ys) - grow), (max(xs) + grow, max(ys) + grow)
+    if window:
+        lo, hi = window
     w, h = max(hi[0] - lo[0], 1e-3), max(hi[1] - lo[1], 1e-3)
     sx, sy = (PANEL - 2 * MARGIN) / w, (HEIGHT - 2 * MARGIN) / h
     if same_scale:
         sx = sy = min(sx, sy)
     ox, oy = left + (PANEL - sx * w) / 2, (HEIGHT - sy * h) / 2
     at = lambda p: (ox + sx * (p[0] - lo[0]), HEIGHT - oy - sy * (p[1] - lo[1]))
-    if swept_mm > 0.0:
-        d = " ".join(line_of([at(p) for p in pts]) for kind, pts in runs if kind not in ("rapid", "way"))
-        for wide, grey in ((widest_mm, "#eceef1"), (swept_mm, "#d9dde2")):
-            if grey == "#d9dde2" or wide > swept_mm:
-                out.append('<path d="%s" stroke="%s" stroke-width="%s" stroke-linecap="round"/>' %
-                           (d, grey, number(sx * wide)))
+    if window:  # a viewport of its own cuts off what lies outside
+        out.append('<svg x="%s" y="0" width="%s" height="%s" viewBox="%s 0 %s %s">' %
+                   (*(number(v) for v in (left, PANEL, HEIGHT, left, PANEL, HEIGHT)),))
+    drawn = {}  # of each kind its lines, and what draws them once more
     for kind in ("rapid", "way", "cut", "link", "down", "air"):
         lines = [line_of([at(p) for p in pts]) for k, pts in runs if k == kind]
-        if not lines:
-            continue
+        if lines:
+            drawn[kind] = 'path d="%s"' % " ".join(lines)
+    if swept_mm > 0.0:
+        swept = [kind for kind in drawn if kind not in ("rapid", "way")]
+        out.append("<defs>%s</defs>" % "".join('<path id="%s-%s" %s/>' % (name, k, drawn[k][len("path "):]) for k in swept))
+        drawn.update({kind: 'use href="#%s-%s"' % (name, kind) for kind in swept})
+        for wide, grey in ((widest_mm, "#eceef1"), (swept_mm, "#d9dde2")):
+            if grey == "#d9dde2" or wide > swept_mm:
+                out += ['<%s stroke="%s" stroke-width="%s" stroke-linecap="round"/>' % (drawn[k], grey, number(sx * wide))
+                        for k in swept]
+    for kind, lines in drawn.items():
         colour, width, dashes = COLOURS[kind]
-        out.append('<path d="%s" stroke="%s" stroke-width="%s"%s/>' %
-                   (" ".join(lines), colour, width, ' stroke-dasharray="%s"' % dashes if dashes else ""))
+        out.append('<%s stroke="%s" stroke-width="%s"%s/>' %
+                   (lines, colour, width, ' stroke-dasharray="%s"' % dashes if dashes else ""))
+    if window:
+        out.append("</svg>")
     return sx, w
 
 
@@ -248,7 +329,14 @@ def widest(step):
     return step.cutter["cutting_diameter_mm"] + 2.0 * step.step["axial_depth_mm"] * math.tan(lean)
 
 
-def draw(step, view):
+def about_its_end(step):
+    """The corners of a square about the last arc of the path, 0.8 diameters to either side."""
+    last = max(i for i in range(1, len(step.path["x"])) if step.path["kind"][i] in "WC")
+    at, room = (step.path["x"][last - 1], step.path["y"][last - 1]), 0.8 * step.cutter["cutting_diameter_mm"]
+    return (at[0] - room, at[1] - room), (at[0] + room, at[1] + room)
+
+
+def draw(name, step, view):
     out, kinds = [], [k for k in COLOURS if k in step.kinds]
     diameter = step.cutter["cutting_diameter_mm"]
     if view == "time":
@@ -256,7 +344,8 @@ def draw(step, view):
         total = sum(step.seconds(i) for i in range(1, len(step.path["x"])))
         out.append('<text x="%s" y="%s">height of the tip over %.1f s</text>' % (number(MARGIN), number(HEIGHT + 10), total))
     else:
-        scale, _ = panel(step, lambda p, t: (p[0], p[1]), 0.0, True, diameter, out, widest(step))
+        scale, _ = panel(step, lambda p, t: (p[0], p[1]), 0.0, True, diameter, out, widest(step),
+                         about_its_end(step) if view == "end" else None, name)
         bar(0.0, scale, out)
     scale, _ = panel(step, cabinet, PANEL + 10, True, 0.0, out)
     bar(PANEL + 10, scale, out)
@@ -285,10 +374,19 @@ def main():
     pictures = [p for p in PICTURES if not wanted or p[0] in wanted]
     plans, status = {}, 0
     with tempfile.TemporaryDirectory() as folder:
+        meshes.write(folder)
+        machine = subprocess.run([os.path.abspath(command), "machines", "show", "generic_vmc"], check=True,
+                                 capture_output=True, encoding="utf-8").stdout
+        with open(os.path.join(folder, THROUGH), "w", encoding="utf-8") as f:
+            f.write(machine.replace("through: false", "through: true"))
         for part in sorted({p[1] for p in pictures}):
             name = os.path.join(folder, part + ".json")
-            subprocess.run([os.path.abspath(command), "plan", *PARTS[part], "-o", name], cwd=ROOT,
+            subprocess.run([os.path.abspath(command), "plan", *(a.format(folder=folder) for a in PARTS[part]), "-o", name], cwd=ROOT,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            if not os.path.exists(name):
+                print("%s: no plan is made of it" % part, file=sys.stderr)
+                plans[part] = {"steps": []}
+                continue
             with open(name, encoding="utf-8") as f:
                 plans[part] = json.load(f)
     for name, part, wanted_step, view in pictures:
@@ -301,7 +399,7 @@ def main():
             print("%s: not chosen for %s now; its picture stays" % (name, part), file=sys.stderr)
             continue
         step = Step(plans[part], found[0])
-        text = draw(step, view)
+        text = draw(name, step, view)
         with open(os.path.join(HERE, name + ".svg"), "w", encoding="utf-8") as f:
             f.write(text)
         air = [i for i in range(1, len(step.kinds)) if step.kinds[i] == "air"]

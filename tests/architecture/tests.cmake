@@ -21,6 +21,8 @@ set_tests_properties(Architecture.EveryFunctionIsCalled PROPERTIES SKIP_RETURN_C
 capstan_python_test(PlantedFunctionsAreNamed unused_functions_test.py)
 capstan_python_test(CutterClassesStandInTheTable class_lists.py ${CMAKE_SOURCE_DIR})
 capstan_python_test(PlantedClassListsAreNamed class_lists_test.py)
+capstan_python_test(StrategiesAreDrawn pictures/strategies_drawn.py ${CMAKE_SOURCE_DIR})
+capstan_python_test(PlantedStrategiesAreNamed pictures/strategies_drawn_test.py)
 capstan_python_test(BuildRunsOnEveryProcessor portable.py ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
 capstan_python_test(PlantedProcessorOptionsAreNamed portable_test.py)
 capstan_python_test(KernelsCompileForArm64 portable.py --arm64 ${CMAKE_SOURCE_DIR})
