@@ -33,6 +33,7 @@ from program import Refused
 
 SOCKET = 'capstan.socket'
 LOADED = 'loaded.tbl'
+TOLD = 'told.state'  # the states of tools that the planner is given
 SO_FAR = 'so_far.json'  # the plan with the paths that were cut
 SHOWN_S = 5.0  # within which the control shows an input: its periods are milliseconds, a busy machine holds them up. Default, unsourced
 SCREEN = 220  # characters of a message that LinuxCNC's screen takes (256 with its own words)
@@ -157,6 +158,21 @@ def written(path, text):
         raise Refused(f'{path} cannot be written: {error.strerror}') from error
 
 
+class ToolStates:
+    """What the shop tells of its tools beside the table: broken, worn, life left (docs/late_binding.md); the planner reads it."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def text(self):
+        if not self.path:
+            return ''
+        try:
+            return pathlib.Path(self.path).read_text()
+        except OSError as error:
+            raise Refused(f'{self.path} cannot be read: {error.strerror}') from error
+
+
 class Journal:
     """What was bound, cut and refused, one line each; what was cut survives a restart."""
 
@@ -189,7 +205,12 @@ class Adapter:
         self.planner = Planner(options.planner)
         self.journal = Journal(options.journal)
         self.measured, self.material = {}, options.material
+        self.tool_states = ToolStates(options.tool_state)
         self.bound = {}  # n -> (program, state, hash, plan)
+
+    def state(self):
+        """The machine as it is, with what is told of its tools."""
+        return {**self.machine.state(self.measured), 'told': self.tool_states.text()}
 
     def next(self):
         """The first workingstep that was not cut."""
@@ -204,6 +225,9 @@ class Adapter:
         options = {'machine': self.options.machine, 'tools': LOADED}
         if self.material:
             options['material'] = self.material
+        if self.options.tool_state:
+            written(TOLD, state['told'])
+            options['tool-state'] = TOLD
         request = {'plan': SO_FAR if self.journal.cut else self.options.plan, 'from': n, 'options': options,
                    'deadline_ms': int(1000 * self.options.deadline)}
         answer = self.planner.ask(request, self.options.deadline + self.options.grace)
@@ -211,12 +235,12 @@ class Adapter:
 
     def bind(self, n):
         self.machine.standing()
-        state = self.machine.state(self.measured)
+        state = self.state()
         step, steps, plan = self.plan(n, state)
         self.machine.tell_program(first=self.next(), steps=steps)
         if n == 0:
             return
-        programs.check_tools(step, state['tools'])
+        programs.check_tools(step, state['tools'], programs.wear_of(state['told']))
         programs.check_travel(step, state['offset'], state['tools'][step.tool]['z'], state['limits'])
         text = step.subroutine(self.binding(state))
         written(f'{programs.FIRST + n}.ngc', text)
@@ -238,7 +262,10 @@ class Adapter:
             programs.check_text(pathlib.Path(name).read_text(), expected)
         except Refused as error:
             raise Refused(f'{name}: {error}') from error
-        if self.machine.state(self.measured) != state:
+        now = self.state()
+        if now['told'] != state['told']:
+            raise Refused(f'{name}: what is told of the tools changed since it was bound')
+        if now != state:
             raise Refused(f'{name}: tool table or work offset changed since it was bound')
 
     def done(self, n):
@@ -311,6 +338,7 @@ def main():
     parser.add_argument('--machine', required=True, help="Capstan's machine: a file or the id of a built-in one")
     parser.add_argument('--library', default='libcapstan_late.so.0')
     parser.add_argument('--material', help="instead of the plan's")
+    parser.add_argument('--tool-state', help='file in which the shop tells which tools broke, wore, or have how much life')
     parser.add_argument('--deadline', type=float, default=10.0, help='seconds for one binding')
     parser.add_argument('--grace', type=float, default=2.0, help='seconds after it until the planner is killed')
     parser.add_argument('--memory', help='MB that planning may take')

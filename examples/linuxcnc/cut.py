@@ -2,7 +2,7 @@
 """Cuts a plan on a machine that LinuxCNC simulates, each workingstep bound when its turn comes.
 
     cut.py --library build/dev/planner/door/transport/libcapstan_late.so [--plan PLAN] [--machine FILE] [--tools TABLE]
-           [--offset G54:X,Y,Z] [--material NAME] [--clock libcapstan_fast_clock.so --rate 16]
+           [--offset G54:X,Y,Z] [--material NAME] [--tool-state FILE] [--clock libcapstan_fast_clock.so --rate 16]
 
 Prints the journal: what was bound with which tools and offsets, and where the machine stood when it was cut. Without
 --plan it is the reference pocket with everything open. --keep has the whole journal, journal.jsonl.
@@ -72,6 +72,7 @@ def main():
     parser.add_argument('--tools', default=HERE / 'tools.tbl')
     parser.add_argument('--offset', action='append', help='a work offset, by default G54:0,0,-50')
     parser.add_argument('--material', help="instead of the plan's")
+    parser.add_argument('--tool-state', help='what is told of the tools beside the table')
     parser.add_argument('--clock', help='makes the simulation faster (tests/linuxcnc/fast_clock.c)')
     parser.add_argument('--rate', type=float, default=16.0, help='how much faster')
     parser.add_argument('--keep', help='a folder for all that the run left')
@@ -79,7 +80,8 @@ def main():
 
     def work(operator):
         adapter = start_adapter(['--plan', 'plan', '--machine', 'machine.yaml', '--library', './libcapstan_late.so',
-                                 *(['--material', options.material] if options.material else [])])
+                                 *(['--material', options.material] if options.material else []),
+                                 *(['--tool-state', 'tool.state'] if options.tool_state else [])])
         try:
             operator.execute('part.ngc', 3600.0)
         finally:
@@ -87,7 +89,8 @@ def main():
             adapter.wait()
             tell('journal.jsonl')
 
-    more = {'plan': options.plan, 'machine.yaml': options.machine, 'libcapstan_late.so': options.library}
+    more = {'plan': options.plan, 'machine.yaml': options.machine, 'libcapstan_late.so': options.library,
+            **({'tool.state': options.tool_state} if options.tool_state else {})}
     return simulated.session(work, {**files(options.tools, options.clock), **more},
                              offsets=options.offset or ['G54:0,0,-50'], clock_rate=options.rate, keep=options.keep)
 

@@ -73,8 +73,22 @@ def check_text(text, expected):
         raise Refused('it was not bound now: it is stale')
 
 
-def check_tools(step, table):
-    """Fails unless a workingstep uses one tool, loaded, with its own offset, as long and wide as the table says."""
+def wear_of(told):
+    """Wear of edges by tool number, mm, radial, that the states of tools tell and that a table may still have."""
+    wear = {}
+    for line in told.splitlines():
+        words = re.split('[;#]', line)[0].split()
+        if 'wear' in words and 'in-table' not in words:
+            wear[int(words[0].lstrip('T'))] = float(words[words.index('wear') + 1])
+    return wear
+
+
+def check_tools(step, table, wear=None):
+    """Fails unless a workingstep uses one tool, loaded, with its own offset, as long and wide as the table says.
+
+    It may be less wide by the wear of its edge (wear_of), which the path follows; what a length wears has to be in the table,
+    which is what the control offsets by.
+    """
     numbers = set()
     for line in step.lines:
         if not line.startswith('('):
@@ -85,9 +99,10 @@ def check_tools(step, table):
             raise Refused(f'workingstep {step.n} is of T{step.tool}, but names {number}')
         if loaded is None:
             raise Refused(f'T{number} is not in the tool table')
-        for what, is_mm in (('length', loaded['z']), ('diameter', loaded['d'])):
-            if abs(float(stated[what]) - is_mm) > TABLE_DECIMALS_MM:
-                raise Refused(f'T{number} has {what} {is_mm} mm, the program takes it for {stated[what]} mm')
+        less = 2.0 * (wear or {}).get(number, 0.0)
+        for what, may_mm in (('length', [loaded['z']]), ('diameter', [loaded['d'], round(loaded['d'] - less, 6)])):
+            if all(abs(float(stated[what]) - mm) > TABLE_DECIMALS_MM for mm in may_mm):
+                raise Refused(f'T{number} has {what} {may_mm[-1]} mm, the program takes it for {stated[what]} mm')
 
 
 def reach(step):

@@ -286,6 +286,12 @@ Result<Measured> parse_measured(const std::string& text) {
   return out;
 }
 
+bool has_branches(const Plan& plan) {
+  const auto has = [&](model::TypeId type) { return plan.model.count(type) > 0; };
+  return has(model::TypeId::kIfStatement) || has(model::TypeId::kWhileStatement) ||
+         has(model::TypeId::kSelective);
+}
+
 Result<std::vector<std::string>> take_branches(Plan& plan, const Measured& measured,
                                                const std::vector<model::Cutter>& magazine, Decisions may,
                                                std::size_t bound) {

@@ -18,6 +18,9 @@ using Measured = std::map<std::string, double>;
 /// "wall=0.04,floor=-0.01". Fails  OPTION-VALUE.
 [[nodiscard]] Result<Measured> parse_measured(const std::string& text);
 
+/// Whether a plan has statements or alternatives that `take_branches` could decide.
+[[nodiscard]] bool has_branches(const model::Plan& plan);
+
 /// Takes the ways of a plan that are the machine's to choose, in the order of execution. In the workplan
 /// stands then what is executed, in place of
 ///  - an if statement: its branch, by what was measured; nothing where that is the false one and there is

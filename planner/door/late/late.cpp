@@ -272,8 +272,9 @@ void improve_in_time(LateOutcome& out, const Case& c, pipeline::Reopen reopen, c
       nothing_more);
 }
 
-/// `bind`; `why`: what was decided of the plan before.
-Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const Call& call,
+/// `bind`; `why`: what was decided of the plan before. Of a large plan a copy costs more than a workingstep:
+/// it is made where something of the plan is changed.
+Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inputs, const Call& call,
                               std::vector<std::string> why, Job& job) {
   const LatePolicy& policy = call.policy;
   const TimePoint began = call.began;
@@ -283,46 +284,56 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const C
   if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
   if (!inputs.proofs) inputs.proofs = std::make_shared<memo::Memo>();
   poll();
-  const std::size_t bound = policy.next && policy.next->from ? *policy.next->from - 1 : plan.steps.size();
-  const auto ways = once_more ? Result<std::vector<std::string>>(std::vector<std::string>{})
-                              : take_branches(plan, policy.measured, magazine, policy.may, bound);
-  if (!ways) return tl::unexpected(ways.error());
-  why.insert(why.end(), ways->begin(), ways->end());
-  // Results of steps behind a way that was taken are of other places in the workplan.
-  if (!ways->empty() && plan.steps.size() > bound) plan.steps.resize(bound);
+  std::optional<model::Plan> changed, reopened;
+  const auto as_it_came = [&]() -> const model::Plan& { return changed ? *changed : as_given; };
+  const auto to_change = [&]() -> model::Plan& { return changed ? *changed : changed.emplace(as_given); };
+  if (!once_more && has_branches(as_given)) {
+    model::Plan& plan = to_change();
+    const std::size_t bound = policy.next && policy.next->from ? *policy.next->from - 1 : plan.steps.size();
+    const auto ways = take_branches(plan, policy.measured, magazine, policy.may, bound);
+    if (!ways) return tl::unexpected(ways.error());
+    why.insert(why.end(), ways->begin(), ways->end());
+    // Results of steps behind a way that was taken are of other places in the workplan.
+    if (!ways->empty() && plan.steps.size() > bound) plan.steps.resize(bound);
+  }
   std::optional<pipeline::Window> window;
   std::set<model::AnyRef> operations;
   poll();
   if (policy.next) {
-    std::vector<model::AnyRef> steps = given::steps_in_order(plan);
-    if (operations_open(plan, steps)) {
-      auto chosen = with_operations(plan, inputs, policy, pipeline::Reopen::kNothing, job);
+    std::vector<model::AnyRef> steps = given::steps_in_order(as_it_came());
+    if (operations_open(as_it_came(), steps)) {
+      auto chosen = with_operations(as_it_came(), inputs, policy, pipeline::Reopen::kNothing, job);
       if (!chosen) return tl::unexpected(as_stopped(chosen.error(), policy, began, job));
-      plan = *std::move(chosen);
-      steps = given::steps_in_order(plan);
+      changed = *std::move(chosen);
+      steps = given::steps_in_order(*changed);
     }
     poll();
-    auto meant = window_of(plan, *policy.next, steps);
+    auto meant = window_of(as_it_came(), *policy.next, steps);
     if (!meant) return tl::unexpected(meant.error());
     window = *meant;
-    if (auto ok = cut_as_bound(plan, *policy.next, *window, steps); !ok) return tl::unexpected(ok.error());
-    operations = operations_of(plan, *window, steps);
+    if (auto ok = cut_as_bound(as_it_came(), *policy.next, *window, steps); !ok)
+      return tl::unexpected(ok.error());
+    operations = operations_of(as_it_came(), *window, steps);
   }
   poll();
-  model::settle_edits(plan.model, plan.ledger);
+  if (!model::fresh_edits(as_it_came().ledger).empty()) {
+    model::Plan& plan = to_change();
+    model::settle_edits(plan.model, plan.ledger);
+  }
   poll();
-  // Of a large plan a copy costs more than a workingstep: it is made where a tool will be re-opened.
-  std::optional<model::Plan> as_it_came;
-  const auto missing = [&](model::AnyRef op) { return given::missing_tool(plan, op, magazine).has_value(); };
-  if (!window || std::any_of(operations.begin(), operations.end(), missing)) as_it_came = plan;
+  auto matched = given::match_loaded(as_it_came(), inputs.library, job, window ? &operations : nullptr,
+                                     call.told.out_of_use);
+  if (!matched) return tl::unexpected(matched.error());
   poll();
-  auto reopened =
-      given::match_loaded(plan, inputs.library, job, window ? &operations : nullptr, call.told.out_of_use);
-  if (!reopened) return tl::unexpected(reopened.error());
-  poll();
-  if (call.brought != nullptr && !once_more) *call.brought = as_it_came ? *as_it_came : plan;
-  const model::Plan& brought = call.brought != nullptr ? **call.brought : as_it_came ? *as_it_came : plan;
-  why.insert(why.end(), reopened->begin(), reopened->end());
+  if (call.brought != nullptr && !once_more) *call.brought = as_it_came();
+  const model::Plan& brought = call.brought != nullptr ? **call.brought : as_it_came();
+  if (!matched->open.empty()) {
+    reopened = as_it_came();
+    for (const model::DecisionKey& key : matched->open) reopened->ledger.reopen(key);
+    poll();
+  }
+  const model::Plan& plan = reopened ? *reopened : as_it_came();
+  why.insert(why.end(), matched->why.begin(), matched->why.end());
   const Case c{plan,
                inputs,
                policy,
@@ -345,7 +356,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const C
   };
   const EarlierDiagnostics before(job);
   const auto as_brought = [&]() -> std::optional<LateOutcome> {
-    if (!reopened->empty()) return std::nullopt;
+    if (!matched->why.empty()) return std::nullopt;
     return stoppable(
         job, [&] { return still_holds(c, spent.checking, job); },
         [] { return std::optional<LateOutcome>(); });
@@ -360,7 +371,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const C
   auto out = fallen_back();
   const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
   const bool nothing_cut = !window || window->first == 0;
-  if (nothing_fits && nothing_cut && !reopened->empty() && planning_chose_all(plan)) {
+  if (nothing_fits && nothing_cut && !matched->why.empty() && planning_chose_all(plan)) {
     const std::string anew_for = "with the loaded tools alone the plan's operations cannot be made (" +
                                  out.error().message + "); all of them were chosen anew";
     auto said = job.take_diagnostics();
@@ -372,7 +383,7 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const C
       why.push_back(anew_for);
       inputs.library = magazine;
       if (call.brought != nullptr) call.brought->reset();
-      return bind_case(*std::move(chosen), inputs, call, std::move(why), job);
+      return bind_case(*chosen, inputs, call, std::move(why), job);
     }
     auto anew = fallen_back();
     if (anew) {
@@ -392,12 +403,13 @@ Result<LateOutcome> bind_case(model::Plan plan, pipeline::Inputs inputs, const C
 }
 
 /// `bind`, as often as the lives of tools ask for it.
-Result<LateOutcome> bind_within_lives(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
-                                      TimePoint began, const ToldTools& told, Job& job) {
+Result<LateOutcome> bind_within_lives(const model::Plan& plan, pipeline::Inputs inputs,
+                                      const LatePolicy& policy, TimePoint began, const ToldTools& told,
+                                      Job& job) {
   if (!inputs.memo) inputs.memo = std::make_shared<memo::Memo>();
   if (!inputs.proofs) inputs.proofs = std::make_shared<memo::Memo>();
   const std::vector<Diagnostic> said = job.diagnostics();
-  std::optional<model::Plan> brought;
+  std::optional<model::Plan> brought, relieved_of_some;
   LatePolicy now = policy;
   const Call call{now, began, told, &brought};
   std::vector<std::string> why;
@@ -410,7 +422,7 @@ Result<LateOutcome> bind_within_lives(model::Plan plan, pipeline::Inputs inputs,
     return fail(std::move(d));
   };
   for (int more = 0;; ++more) {
-    auto out = bind_case(std::move(plan), inputs, call, std::move(why), job);
+    auto out = bind_case(relieved_of_some ? *relieved_of_some : plan, inputs, call, std::move(why), job);
     const auto of_tools = [](const std::string& c) {
       return c == "LATE-OPEN" || c == "LATE-UNSAFE" || c == "LATE-TOOL";
     };
@@ -427,19 +439,19 @@ Result<LateOutcome> bind_within_lives(model::Plan plan, pipeline::Inputs inputs,
     why = std::move(out->reopened);
     why.insert(why.end(), relieved->why.begin(), relieved->why.end());
     inputs.kept_off.insert(inputs.kept_off.end(), relieved->kept_off.begin(), relieved->kept_off.end());
-    plan = std::move(relieved->plan);
+    relieved_of_some = std::move(relieved->plan);
     if (now.next) now.next->from = out->first;
   }
 }
 
 /// `bind`, with what the control tells of its tools.
-Result<LateOutcome> bind_told(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
+Result<LateOutcome> bind_told(const model::Plan& plan, pipeline::Inputs inputs, const LatePolicy& policy,
                               TimePoint began, Job& job) {
   const auto told = take_tool_states(policy.tools, plan, inputs.library, job);
   if (!told) return tl::unexpected(told.error());
   auto out = told->life_left_min.empty()
-                 ? bind_case(std::move(plan), std::move(inputs), {policy, began, *told}, {}, job)
-                 : bind_within_lives(std::move(plan), std::move(inputs), policy, began, *told, job);
+                 ? bind_case(plan, std::move(inputs), {policy, began, *told}, {}, job)
+                 : bind_within_lives(plan, std::move(inputs), policy, began, *told, job);
   if (out || out.error().code == "LATE-NONE") return out;
   Diagnostic d = out.error();
   d.message += told->words();
@@ -458,12 +470,13 @@ std::optional<Diagnostic> none_in_time(bool stops, std::optional<std::chrono::mi
       .hint = "retract and stop; give it more time, or bind fewer workingsteps at once"};
 }
 
-Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy, Job& job) {
+Result<LateOutcome> bind(const model::Plan& plan, pipeline::Inputs inputs, const LatePolicy& policy,
+                         Job& job) {
   const TimePoint began = policy.began.value_or(job.now());
   if (policy.stop_at_deadline && policy.deadline) job.set_deadline(began + *policy.deadline);
   const Diagnostic none = pipeline::stopped_planning(plan);
   return stoppable(
-      job, [&] { return bind_told(std::move(plan), std::move(inputs), policy, began, job); },
+      job, [&] { return bind_told(plan, std::move(inputs), policy, began, job); },
       [&]() -> Result<LateOutcome> { return tl::unexpected(as_stopped(none, policy, began, job)); });
 }
 

@@ -98,8 +98,8 @@ struct LateOutcome {
 ///         LATE-TOOL-STATE for states that cannot be,
 ///         LATE-POLICY for a decision that may not be taken here, LATE-PINNED where a pinned value would
 ///         change, PIP-... when nothing can be planned.
-[[nodiscard]] Result<LateOutcome> bind(model::Plan plan, pipeline::Inputs inputs, const LatePolicy& policy,
-                                       Job& job);
+[[nodiscard]] Result<LateOutcome> bind(const model::Plan& plan, pipeline::Inputs inputs,
+                                       const LatePolicy& policy, Job& job);
 
 /// What there is instead of a workingstep where a call is given up at its deadline (LATE-NONE); nothing where
 /// the deadline `stops` no call, or has not come.

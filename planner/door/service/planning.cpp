@@ -205,26 +205,29 @@ std::optional<Diagnostic> sets_more(const model::Plan& plan, const std::vector<m
   return std::nullopt;
 }
 
-/// Sets the operator's edits into a plan before it is bound, and opens what they do not allow.
-Status edit(const Request& request, model::Plan& plan, pipeline::Inputs& inputs, Job& job) {
+/// Sets the operator's edits into a plan before it is bound, and opens what they do not allow: into
+/// `edited`, which is left empty where there is nothing to set.
+Status edit(const Request& request, const model::Plan& plan, pipeline::Inputs& inputs,
+            std::optional<model::Plan>& edited, Job& job) {
   const bool all = model::edits_are_all(inputs.provenance);
   if (inputs.edits.empty() && !all) return {};
   if (request.next || request.from) {
     if (auto wrong = sets_more(plan, inputs.edits, all)) return fail(*std::move(wrong));
     return {};  // limits and prohibitions hold for those that are bound
   }
-  auto taken = given::take_edits(plan, inputs.edits, inputs.library, inputs.machine, all, job);
+  edited = plan;
+  auto taken = given::take_edits(*edited, inputs.edits, inputs.library, inputs.machine, all, job);
   if (!taken) return tl::unexpected(taken.error());
   inputs.edits = std::move(taken->edits);
-  std::erase_if(plan.provenance, model::is_edit);
-  for (const model::Edit& e : inputs.edits) plan.provenance.push_back(model::provenance_of(e));
-  return given::open_beyond_edits(plan, inputs.edits, inputs.library, 0, job);
+  std::erase_if(edited->provenance, model::is_edit);
+  for (const model::Edit& e : inputs.edits) edited->provenance.push_back(model::provenance_of(e));
+  return given::open_beyond_edits(*edited, inputs.edits, inputs.library, 0, job);
 }
 
 /// Closes a plan that was read, in a shop whose choices are taken.
-Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Inputs inputs,
+Outcome<Planned> bound(const Request& request, const model::Plan& brought, pipeline::Inputs inputs,
                        std::chrono::steady_clock::time_point began, Job& job) {
-  if (!request.tools) take_tools_of_plan(request, plan, inputs, job);
+  if (!request.tools) take_tools_of_plan(request, brought, inputs, job);
   // A catalogue says nothing of what is loaded.
   const bool any = std::any_of(inputs.library.begin(), inputs.library.end(),
                                [](const model::Cutter& c) { return c.loaded; });
@@ -236,8 +239,10 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
                                     "numbers; or a plan that holds its cutters"},
         Code::kUsage);
   }
-  if (auto ok = edit(request, plan, inputs, job); !ok)
+  std::optional<model::Plan> edited;
+  if (auto ok = edit(request, brought, inputs, edited, job); !ok)
     return failed(ok.error(), code_of(ok.error(), Code::kImpossible));
+  const model::Plan& plan = edited ? *edited : brought;
   if (!request.state.tools.empty() && !request.tools)
     return failed(
         {.code = "APP-TOOL-STATE",
@@ -261,7 +266,7 @@ Outcome<Planned> bound(const Request& request, model::Plan plan, pipeline::Input
     policy.measured = *std::move(measured);
   }
   if (request.next || request.from) policy.next = late::Next{request.next.value_or(1), request.from};
-  auto outcome = late::bind(std::move(plan), std::move(inputs), policy, job);
+  auto outcome = late::bind(plan, std::move(inputs), policy, job);
   if (!outcome) return failed(outcome.error(), code_of(outcome.error(), Code::kImpossible));
   if (auto left = leaves_limits(request.state, outcome->part ? *outcome->part : outcome->plan,
                                 outcome->program.text, outcome->program.tool_table))
@@ -287,7 +292,7 @@ Outcome<Planned> bind(const Request& request, Source source, std::chrono::steady
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
     auto inputs = gather(request, *read_part, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
-    return bound(request, *std::move(read_part), *std::move(inputs), began, job);
+    return bound(request, *read_part, *std::move(inputs), began, job);
   });
 }
 
@@ -299,9 +304,8 @@ Outcome<Planned> bind_in(const pipeline::Inputs& shop, const Request& request, c
     poll();
     if (auto ok = take_choices(request, plan, inputs, job); !ok)
       return failed(ok.error(), code_of(ok.error(), Code::kUnreadable));
-    model::Plan mine = plan;
     poll();
-    return bound(request, std::move(mine), std::move(inputs), began, job);
+    return bound(request, plan, std::move(inputs), began, job);
   };
   return stoppable(job, all, [&]() -> Outcome<Planned> {
     return failed(stopped_bind(request, began, plan.file_name, job), Code::kImpossible);

@@ -24,17 +24,23 @@ using model::AnyRef;
 using model::Ref;
 using model::TypeId;
 
+/// A step that is executed. A draft of it, which has a cutter's sizes, is made where it is worked on.
+struct FoundStep {
+  AnyRef step;
+  std::size_t setup = 0;  ///< index into Found::setups
+  AnyRef feature, operation;
+};
+
 /// Set-ups and steps, as the walk finds them.
 struct Found {
   std::vector<SetupDraft> setups;
-  std::vector<StepDraft> steps;
+  std::vector<FoundStep> steps;
 };
 
 /// Walks program structure in order of execution, without recursion.
 class Walker {
  public:
-  Walker(const model::Plan& plan, const std::map<AnyRef, std::string>& unreadable, Found& out, Job& job)
-      : plan_(plan), unreadable_(unreadable), out_(out), job_(job) {}
+  Walker(const model::Plan& plan, Found& out, Job& job) : plan_(plan), out_(out), job_(job) {}
 
   /// From the project's workplan on.
   void walk() {
@@ -107,23 +113,17 @@ class Walker {
   void step(Item at) {
     const auto* e = plan_.model.get<model::Executable>(at.executable);
     if (!e->enabled.value_or(true)) return say("PIP-DISABLED", at.executable, "is disabled; not executed");
-    StepDraft work;
-    work.step = Ref<model::Executable>(at.executable);
-    work.setup = setup_index(at.setup);
+    FoundStep found{at.executable, setup_index(at.setup), {}, {}};
     if (const auto* ws = plan_.model.get<model::MachiningWorkingstep>(at.executable)) {
       const AnyRef feature = ws->its_feature.set() ? AnyRef(ws->its_feature) : at.executable;
       if (plan_.model.holds<model::KeptInstance>(ws->its_operation) ||
           plan_.model.holds<model::ExtendedOperation>(ws->its_operation)) {
         return refuse(at.executable, ws->its_operation, feature);
       }
-      work.feature = ws->its_feature;
-      work.operation = ws->its_operation;
-      for (const AnyRef of : {at.executable, AnyRef(ws->its_feature)}) {
-        const auto wrong = of.set() ? unreadable_.find(of) : unreadable_.end();
-        if (wrong != unreadable_.end() && work.unreadable.empty()) work.unreadable = wrong->second;
-      }
+      found.feature = ws->its_feature;
+      found.operation = ws->its_operation;
     }
-    out_.steps.push_back(std::move(work));
+    out_.steps.push_back(found);
   }
 
   // Keeps entities without a noun as they are: turning (ISO 14649-12, and its forms in AP238), additive,
@@ -174,13 +174,27 @@ class Walker {
   }
 
   const model::Plan& plan_;
-  const std::map<AnyRef, std::string>& unreadable_;
   std::vector<model::Unplanned> not_done_;
   Found& out_;
   Job& job_;
   std::vector<Item> pending_;
   std::set<AnyRef> entered_;
 };
+
+/// The draft of a step, with what its file states wrongly of it or its feature.
+StepDraft draft_of(const FoundStep& found, const std::map<AnyRef, std::string>& unreadable) {
+  StepDraft out;
+  out.step = Ref<model::Executable>(found.step);
+  out.feature = found.feature;
+  out.operation = found.operation;
+  out.setup = found.setup;
+  if (!model::is_a(found.step.type, TypeId::kMachiningWorkingstep)) return out;
+  for (const AnyRef of : {found.step, found.feature}) {
+    const auto wrong = of.set() ? unreadable.find(of) : unreadable.end();
+    if (wrong != unreadable.end() && out.unreadable.empty()) out.unreadable = wrong->second;
+  }
+  return out;
+}
 
 /// A step on a compound or a pattern is for the members that its name begins with ('HOLE[2] drill'), and all
 /// that are like them; without such a name, for all.
@@ -243,7 +257,7 @@ void say_assumptions(const model::Plan& plan, const std::vector<StepDraft>& step
 Result<Listed> list_steps(model::Plan plan, Reopen reopen, const std::map<AnyRef, std::string>& unreadable,
                           double grown_mm, Job& job, std::size_t most) {
   Found out;
-  Walker walker(plan, unreadable, out, job);
+  Walker walker(plan, out, job);
   walker.walk();
   if (out.steps.size() > most) out.steps.resize(most);
   plan.unplanned.insert(plan.unplanned.end(), walker.not_done().begin(), walker.not_done().end());
@@ -269,7 +283,8 @@ Result<Listed> list_steps(model::Plan plan, Reopen reopen, const std::map<AnyRef
   const piece::Shapes none;  // shapes are known when the requirements are
   const piece::Piece piece{plan, none, grown_mm};
   std::vector<StepDraft> kept;
-  for (StepDraft& step : out.steps) {
+  for (const FoundStep& found : out.steps) {
+    StepDraft step = draft_of(found, unreadable);
     if (step.feature.set() && plan.model.holds<model::ManufacturingFeature>(step.feature)) {
       auto shapes = piece::shapes_in_piece(piece, step.feature);
       if (shapes) {
@@ -290,17 +305,16 @@ Result<Listed> list_steps(model::Plan plan, Reopen reopen, const std::map<AnyRef
     change_for_safety(plan, step, job);
     kept.push_back(std::move(step));
   }
-  out.steps = std::move(kept);
-  say_assumptions(plan, out.steps, job);
-  return Listed{std::move(plan), std::move(out.setups), std::move(out.steps)};
+  say_assumptions(plan, kept, job);
+  return Listed{std::move(plan), std::move(out.setups), std::move(kept)};
 }
 
 std::vector<AnyRef> steps_in_order(const model::Plan& plan) {
   Found listed;
   Job silent;
-  Walker(plan, {}, listed, silent).walk();
+  Walker(plan, listed, silent).walk();
   std::vector<AnyRef> out;
-  for (const StepDraft& s : listed.steps) out.push_back(s.step);
+  for (const FoundStep& s : listed.steps) out.push_back(s.step);
   return out;
 }
 

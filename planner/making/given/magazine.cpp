@@ -217,10 +217,10 @@ void take_length(const Cutter& loaded, Cutter& into) {
   model::take_measured_length(into, loaded.functional_length_mm, "derived: as long as the loaded tool");
 }
 
-Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cutter>& library, Job& job,
-                                              const std::set<AnyRef>* of, const std::vector<OutOfUse>& gone) {
+Result<Matched> match_loaded(const model::Plan& plan, std::vector<Cutter>& library, Job& job,
+                             const std::set<AnyRef>* of, const std::vector<OutOfUse>& gone) {
   const auto assumed = model::assumed_tool_materials(plan);
-  std::vector<std::string> reopened;
+  Matched out;
   std::vector<Cutter> merged;
   std::set<std::string> seen;
   const std::vector<AnyRef> roots = {plan.project};
@@ -236,15 +236,15 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
     const Cutter* there = loaded_like(library, *wanted);
     const bool has_worn = there == nullptr && (there = worn(library, *wanted)) != nullptr;
     if (there == nullptr || has_worn) {
-      plan.ledger.reopen({r, "its_tool"});
+      out.open.push_back({r, "its_tool"});
       const std::string what =
           there == nullptr
               ? " " + out_of_use(gone, *wanted).value_or(missing_as(library, *wanted)) + "; re-opened"
               : " measures " + trimmed(there->cutting_diameter_mm, 3) + " mm as T" +
                     std::to_string(there->pocket) + "; its path is made anew";
-      reopened.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
-                         std::string(model::to_text(wanted->cutter_class)) + " " +
-                         trimmed(wanted->cutting_diameter_mm, 3) + " mm)" + what);
+      out.why.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
+                        std::string(model::to_text(wanted->cutter_class)) + " " +
+                        trimmed(wanted->cutting_diameter_mm, 3) + " mm)" + what);
     }
     if (there == nullptr || !seen.insert(wanted->id).second) continue;
     const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
@@ -288,7 +288,7 @@ Result<std::vector<std::string>> match_loaded(model::Plan& plan, std::vector<Cut
       merged.back().id = c.id + "~" + std::to_string(n);
   }
   library = std::move(merged);
-  return reopened;
+  return out;
 }
 
 }  // namespace capstan::given

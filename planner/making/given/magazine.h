@@ -20,19 +20,24 @@ struct OutOfUse {
 /// The source of a size that is less by the wear that a control tells.
 inline constexpr const char* kLessWear = "stated: less the wear that the control tells";
 
+/// What is open since the tools of a plan are held against those that are loaded.
+struct Matched {
+  std::vector<std::string> why;          ///< one sentence each, in the order of the plan
+  std::vector<model::DecisionKey> open;  ///< to be re-opened (Ledger::reopen), in that order
+};
+
 /// Holds the tools of a plan against what is in the magazine (of `library`, Cutter::pocket > 0).
 ///
 /// A tool that is there (same class and diameter, or the same id) keeps its decisions and takes pocket and
-/// length from the table; one that is not is re-opened, and with it, by the ledger, what depends on it.
+/// length from the table; one that is not is to be re-opened, and with it, by the ledger, what depends on it.
 /// `library` then has the plan's tools as they are loaded, and the loaded ones that it does not name.
-/// Gives what was re-opened, one sentence each, in the order of the plan. `of`: of these operations only.
+/// `of`: of these operations only.
 /// `gone`: tools that `library` has not, for they may not be called; it says why one of them is re-opened.
 /// Fails  LATE-TOOL for a tool of the plan that is loaded but has no length in the table
 ///        (model::offset_fault). Such a tool that the plan does not name is not used.
-[[nodiscard]] Result<std::vector<std::string>> match_loaded(model::Plan& plan,
-                                                            std::vector<model::Cutter>& library, Job& job,
-                                                            const std::set<model::AnyRef>* of = nullptr,
-                                                            const std::vector<OutOfUse>& gone = {});
+[[nodiscard]] Result<Matched> match_loaded(const model::Plan& plan, std::vector<model::Cutter>& library,
+                                           Job& job, const std::set<model::AnyRef>* of = nullptr,
+                                           const std::vector<OutOfUse>& gone = {});
 
 /// The name of an operation's given tool, where none like it is loaded; nothing where one is, or the tool is
 /// open.

@@ -118,8 +118,11 @@ Shapes shapes_of_all(const model::Plan& plan, StatedShapes stated, double grown_
     std::copy_if(out.all.begin(), out.all.end(), std::back_inserter(out.whole),
                  [&](const FeatureShape& s) { return !parts.contains(s.feature); });
   };
-  take_whole();  // stop_at_walls needs these
-  for (FeatureShape& s : out.all) stop_at_walls({plan, out, grown_mm}, s);
+  const auto is_face = [](const FeatureShape& s) { return s.kind == model::ShapeKind::kFace; };
+  if (std::any_of(out.all.begin(), out.all.end(), is_face)) {
+    take_whole();  // stop_at_walls needs these, and changes nothing but faces
+    for (FeatureShape& s : out.all) stop_at_walls({plan, out, grown_mm}, s);
+  }
   take_whole();
   out.near_all = Neighbours(out.all);
   out.near_whole = Neighbours(out.whole);

@@ -374,14 +374,15 @@ TEST(Late, AWornMillKeepsWhatIsKnownOfItAndItsPathTakesTheMeasuredDiameter) {
 }
 
 TEST(Late, ReopensAToolThatIsNotInTheMagazine) {
-  model::Plan plan = plate();
+  const model::Plan plan = plate();
   pipeline::Inputs in = shop(kMagazine);
   std::erase_if(in.library, [](const auto& c) { return c.pocket == 7; });
   Job job;
-  const auto reopened = given::match_loaded(plan, in.library, job);
-  ASSERT_TRUE(reopened);
-  ASSERT_FALSE(reopened->empty());
-  EXPECT_NE(reopened->front().find("END MILL 12"), std::string::npos) << reopened->front();
+  const auto matched = given::match_loaded(plan, in.library, job);
+  ASSERT_TRUE(matched);
+  ASSERT_FALSE(matched->why.empty());
+  EXPECT_EQ(matched->open.size(), matched->why.size());
+  EXPECT_NE(matched->why.front().find("END MILL 12"), std::string::npos) << matched->why.front();
 }
 
 TEST(Late, FeedsOfAGivenPathComeFromTheSectionsThatItsFileStates) {

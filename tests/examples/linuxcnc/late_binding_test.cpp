@@ -96,6 +96,18 @@ TEST_F(LateBindingAtTheControl, CutsTheSamePocketWithAToolWornAndShorter) {
   expect_pocket(block("worn", {{1, kWornAndShorter}}));
 }
 
+TEST_F(LateBindingAtTheControl, CutsTheSamePocketWithTheWearThatIsToldOfATool) {
+  expect_whole_program("worn_told");
+  EXPECT_EQ(of("worn_told").tool, 1);
+  expect_pocket(block("worn_told", {{1, kThinner}}));
+}
+
+TEST_F(LateBindingAtTheControl, ChoosesAnotherToolForOneThatIsToldToBeBroken) {
+  expect_whole_program("broken_told");
+  EXPECT_EQ(of("broken_told").tool, 3);
+  expect_pocket(block("broken_told", {{3, kMill10}}));
+}
+
 TEST_F(LateBindingAtTheControl, BelievesAMeasuredDiameterAndNotTheTable) {
   expect_whole_program("measured");
   expect_pocket(block("measured", {{1, kThinner}}));
@@ -184,6 +196,7 @@ TEST_F(LateBindingAtTheControl, RefusesASubroutineThatIsNotTheOneBound) {
   expect_refused("altered", "it was altered");
   expect_refused("cut_short", "it is cut short");
   expect_refused("stale", "it is stale");
+  expect_refused("told_since", "what is told of the tools changed since it was bound");
   expect_refused("offset_moved", "tool table or work offset changed since it was bound");
 }
 

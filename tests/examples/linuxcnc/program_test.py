@@ -104,6 +104,18 @@ class Machines(unittest.TestCase):
             with self.assertRaisesRegex(program.Refused, why):
                 program.check_tools(self.rough, table)
 
+    def test_a_tool_may_be_less_wide_by_the_wear_that_is_told_of_it_and_no_table_has(self):
+        new = {1: {'z': 80.0, 'd': 8.1}}
+        told = 'T2 wear 0.3\nT1 wear 0.05 life-left 3 ; of the second edge'
+        self.assertEqual(program.wear_of(told), {1: 0.05, 2: 0.3})
+        program.check_tools(self.rough, new, program.wear_of(told))
+        program.check_tools(self.rough, TABLE, program.wear_of(told))  # the table has it by now
+        for states in ('', 'T2 wear 0.05', 'T1 wear 0.05 in-table', 'T1 broken', 'T1 wear 0.04', 'T1 length-wear 0.05'):
+            with self.assertRaisesRegex(program.Refused, 'diameter 8'):
+                program.check_tools(self.rough, new, program.wear_of(states))
+        with self.assertRaisesRegex(program.Refused, 'length 80.05'):
+            program.check_tools(self.rough, {1: {'z': 80.05, 'd': 8.0}}, program.wear_of('T1 wear 0.05 length-wear 0.05'))
+
     def test_a_length_offset_of_another_tool_is_refused(self):
         other = program.Program(TEXT.replace('T1 M6\nG43 H1', 'T1 M6\nG43 H2'), 1)
         with self.assertRaisesRegex(program.Refused, 'names 2'):

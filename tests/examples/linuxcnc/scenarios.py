@@ -27,6 +27,7 @@ MILL_8 = 'T1 P1 Z+80 D+8 ;8 mm carbide end mill, 3 flutes\n'
 MILL_10 = 'T3 P3 Z+90 D+10 ;10 mm carbide end mill, 3 flutes\n'
 WORN = 'T1 P1 Z+78.5 D+7.9 ;8 mm carbide end mill, 3 flutes\n'
 MILL_16 = 'T4 P4 Z+95 D+16 ;16 mm carbide end mill, 3 flutes\n'
+STATES = 'tool.state'  # what is told of the tools beside the table
 PROBE = 'T9 P9 Z+100 D+6 ;touch probe\n'
 OFFSET_Z = -50.0
 SURFACE_Z = -49.3  # of the piece in the scenario `probed_surface`, machine coordinates, mm
@@ -238,6 +239,11 @@ def work(operator, options):
         shop.scenario('missing', table=MILL_10)
         shop.scenario('worn', table=WORN)
         shop.scenario('measured', program=plan.replace(FIRST, 'M104 P1 Q7.9\n' + FIRST))
+        for name, told in (('worn_told', 'T1 wear 0.05\n'), ('broken_told', 'T1 broken\n')):
+            pathlib.Path(STATES).write_text(told)
+            shop.scenario(name, adapter=('--tool-state', STATES))
+        shop.scenario('told_since', adapter=('--tool-state', STATES), program=plan.replace(BIND, BIND + '  M112\n'),
+                      table=MILL_10)
         shop.scenario('harder', ask=('material', 'mild_steel'))
         subprocess.run(['halcmd', 'setp', 'probe-at.in1', str(SURFACE_Z + 100.0)], check=True)
         shop.scenario('probed_surface', table=MILL_8 + PROBE, program=plan.replace(FIRST, TOUCH + FIRST))
@@ -289,7 +295,7 @@ def main():
     # Read by ask.py below the control: the watchdog over the adapter.
     os.environ['CAPSTAN_PATIENCE'] = '8'
     files = {**cut.files(cut.HERE / 'tools.tbl', options.clock), 'plan': options.plan, 'machine.yaml': options.machine,
-             'libcapstan_late.so': options.library, **{name: HERE / name for name in ('M110', 'M111', 'faulty_planner.py')}}
+             'libcapstan_late.so': options.library, **{name: HERE / name for name in ('M110', 'M111', 'M112', 'faulty_planner.py')}}
 
     def collect(folder):
         for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json'):

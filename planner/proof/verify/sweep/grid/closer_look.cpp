@@ -79,16 +79,8 @@ struct EarlierCuts::Point {
 };
 
 void EarlierCuts::begin(const Grid& grid) {
-  constexpr std::size_t kAtOnce = 1 << 16;  // a new page costs more than its numbers
-  for (const auto& [from, to] : {std::pair(&grid.stock, &stock_), std::pair(&grid.base, &base_)}) {
-    to->clear();
-    to->reserve(from->size());
-    for (std::size_t i = 0; i < from->size(); i += kAtOnce) {
-      const auto at = from->begin() + static_cast<std::ptrdiff_t>(i);
-      to->insert(to->end(), at, at + static_cast<std::ptrdiff_t>(std::min(kAtOnce, from->size() - i)));
-      poll();
-    }
-  }
+  stock_.keep(grid.stock);
+  base_.keep(grid.base);
   cuts_.clear();
   squares_.assign(std::size_t{kSquares} * kSquares, {});
   indexed_ = 0;
@@ -265,7 +257,7 @@ Chip EarlierCuts::look(const Grid& grid, const Move& m, const std::shared_ptr<co
                        double advance_mm, double least_mm, int& pieces) {
   Chip worst;
   Cut before{m, cutter, {}};  // what of the way lies before a piece
-  if (stock_.size() != grid.stock.size()) return worst;
+  if (stock_.cells() != grid.stock.size()) return worst;
   const int n = pieces_of_way(m, cutter->radius());
   for (int i = 0; i < n && pieces > 0; ++i) {
     const Place place(m, i, n, cutter->radius(), grid.cell());
@@ -296,7 +288,7 @@ bool EarlierCuts::takes(const Grid& grid, const std::vector<Move>& moves, const 
   int looks = kLooks;
   for (const Move& m : moves) {
     if (m.kind == model::MoveKind::kRapid || m.kind == model::MoveKind::kDwell) continue;
-    if (stock_.size() != grid.stock.size()) return true;  // not known
+    if (stock_.cells() != grid.stock.size()) return true;  // not known
     const int n = pieces_of_way(m, cutter.radius());
     for (int i = 0; i < n; ++i) {
       if (looks-- <= 0) return false;  // so many places, and nothing in any of them

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/proof/verify/sweep/grid/grid.h"
+#include "planner/proof/verify/sweep/grid/heights_before.h"
 
 namespace capstan::verify {
 
@@ -63,7 +64,7 @@ class EarlierCuts {
                                         const Front* front, double least_mm,
                                         const std::vector<const Cut*>& cuts) const;
 
-  std::vector<double> stock_, base_;
+  HeightsBefore stock_, base_;
   std::vector<Cut> cuts_;
   /// The cuts by the squares of the set-up's area that they reach, `indexed_` of them so far.
   static constexpr int kSquares = 32;
