@@ -131,12 +131,12 @@ Result<LateOutcome> judged(pipeline::Checked made, const Case& c, bool allow_fin
   checking = made.checking + (job.now() - check_start);
   out.condemned = model::condemned(made.plan, out.findings);
   if (!out.condemned.empty() && (!allow_findings || model::never_written(out.condemned))) {
-    return fail(
-        {.code = "LATE-UNSAFE",
-         .message = "the plan does not pass the check: " + model::text_of(made.plan, out.condemned.front()),
-         .file = made.plan.file_name,
-         .path = out.condemned.front().step,
-         .hint = "retract and stop; nothing may be cut from this plan"});
+    const model::Condemnation& told = model::foremost(out.condemned);
+    return fail({.code = "LATE-UNSAFE",
+                 .message = "the plan does not pass the check: " + model::text_of(made.plan, told),
+                 .file = made.plan.file_name,
+                 .path = told.step,
+                 .hint = "retract and stop; nothing may be cut from this plan"});
   }
   out.of_plan = std::move(made.findings);
   out.plan = std::move(made.plan);

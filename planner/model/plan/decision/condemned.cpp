@@ -105,10 +105,14 @@ std::string text_of(const Plan& plan, const Condemnation& reason) {
   return "step " + reason.step + ": " + reason.text;
 }
 
-std::string text_of(const Plan& plan, const std::vector<Condemnation>& reasons) {
+const Condemnation& foremost(const std::vector<Condemnation>& reasons) {
   const auto of_step =
       std::find_if(reasons.begin(), reasons.end(), [](const Condemnation& c) { return !c.step.empty(); });
-  std::string out = text_of(plan, of_step == reasons.end() ? reasons.front() : *of_step);
+  return of_step == reasons.end() ? reasons.front() : *of_step;
+}
+
+std::string text_of(const Plan& plan, const std::vector<Condemnation>& reasons) {
+  std::string out = text_of(plan, foremost(reasons));
   if (reasons.size() > 1) out += " (and " + std::to_string(reasons.size() - 1) + " more)";
   return out;
 }
