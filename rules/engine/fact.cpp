@@ -84,6 +84,9 @@ const std::vector<FactType>& fact_types() {
       number("corner_radius_mm", 0.0, 10001.0, "concave corners of the walls; 10000: sharp, none or unknown"),
       number("corner_ratio", 0.0, 1001.0,
              "cutter that the corners admit by the one the passage admits; 1000: corners limit nothing"),
+      number("slenderness", 0.0, 10001.0,
+             "depth by the diameter of the widest cutter that passages and corners admit; 0: they limit "
+             "nothing"),
       number("wall_thickness_mm", 0.0, 10001.0, "thinnest wall that stays beside; 10000: not known"),
       number("floor_thickness_mm", 0.0, 10001.0, "what stays below; 10000: not known"),
       number("wall_ratio", 0.0, 10001.0, "depth by the thickness of that wall; 0: not known"),

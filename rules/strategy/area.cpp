@@ -193,7 +193,7 @@ Made finish(const Making& m) {
   ProposedStep s = begin(m);
   s.allowance_side_mm = m.number("allowance_side_mm");
   s.allowance_bottom_mm = m.shape.through ? 0.0 : m.number("allowance_bottom_mm");
-  Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm);
+  Limit limit = widest_cutter(m, m.number("of_passage"), s.allowance_side_mm, true, 1.0, m.number("corners"));
   if (m.number("corners") == 0.0) {
     const auto wide = before_rest(m, m.number("of_passage"), s.allowance_side_mm, s.tool);
     if (!wide) return no(wide.error());
@@ -357,7 +357,7 @@ std::vector<Action> area_actions() {
   const ActionParameter finish_passage{"of_passage", 0.95, "largest cutter by the narrowest passage"};
   const ActionParameter corners{"corners", 1.0,
                                 "0: corners do not limit the cutter, a rest step follows; above 1, of "
-                                "roughing and of a rest: corners may keep that many times their radius "
+                                "a step before another: corners may keep that many times their radius "
                                 "until the finish, or the next rest"};
   const ActionParameter of_corner{"of_corner", 0.9, "largest cutter by the diameter of the corners"};
   const ActionParameter of_area{

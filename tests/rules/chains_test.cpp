@@ -144,6 +144,30 @@ TEST(TightCorners, AreRestMachinedWhereThePassageIsMuchWider) {
   EXPECT_EQ(row(area(ShapeKind::kPocket, 10.0, 8.0), steel()), "pocket.finish");
 }
 
+// The widest mill in corners of R5 is 10 mm: three times that is 30 mm.
+TEST(DeepPocket, InSteelOrIronGetsASpringPassWhereAToleranceAsks) {
+  const auto of = [](double depth, double corner, int grade) {
+    FeatureShape s = area(ShapeKind::kPocket, depth, corner);
+    s.width = {40.0, 0.0, standard_tolerance_mm(grade, 40.0), true};
+    return s;
+  };
+  for (const double corner : {5.0, 8.0}) {
+    const auto deep = actions(of(6.0 * corner, corner, 10), steel());
+    EXPECT_EQ(deep.back(), "spring_pass") << corner;
+    EXPECT_EQ(actions(of(5.9 * corner, corner, 10), steel()).back(), "area_finish") << corner;
+    EXPECT_EQ(actions(of(6.0 * corner, corner, 12), steel()).back(), "area_finish") << corner;
+  }
+  Context soft;
+  soft.material.iso_group = "N";
+  EXPECT_EQ(actions(of(30.0, 5.0, 10), soft).back(), "area_finish");
+  // The step before may leave its own radius in the corners, so that it is not more slender than the last.
+  const auto chain = propose(shipped(), of(48.0, 8.0, 10), steel()).chains.at(0);
+  ASSERT_GE(chain.size(), 3U);
+  const auto& before = chain[chain.size() - 2];
+  EXPECT_EQ(before.allowance_side_mm, 0.15);
+  EXPECT_GE(before.tool.diameter_max_mm, chain.back().tool.diameter_max_mm);
+}
+
 TEST(ThinWall, IsFinishedInShallowLevelsAndRefusedWhereItBendsAway) {
   for (const ShapeKind kind : {ShapeKind::kPocket, ShapeKind::kStep, ShapeKind::kOutside, ShapeKind::kSlot}) {
     Context c = steel();

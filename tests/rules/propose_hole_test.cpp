@@ -24,6 +24,16 @@ using testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+// A shop's spot of 25 mm would else not do for a hole of 31 mm.
+TEST(Hole, AsksOfItsSpotTheReachOfTheSpotAlone) {
+  const auto chain = proposed(h(hole(8, 31), 12)).chains.at(0);
+  ASSERT_EQ(chain.size(), 2U);
+  const auto &spot = chain[0], &drill = chain[1];
+  EXPECT_LE(spot.depth_mm, 4.0) << "half the hole's diameter, at a point of 90 degrees";
+  EXPECT_LE(spot.tool.reach_mm - spot.depth_mm, drill.tool.reach_mm - drill.depth_mm) << "clearance alone";
+  EXPECT_GE(drill.tool.reach_mm, 31.0);
+}
+
 TEST(Hole, WithATighterToleranceGetsAnotherChainAndCitesItsRow) {
   const FeatureShape s = hole(20, 30);
   const Proposal it12 = proposed(h(s, 12));

@@ -74,5 +74,102 @@ TEST(BesideThePiece, PassesOfAStepMeetThePieceAndRunAlongItsWallOnce) {
   }
 }
 
+/// Length of the moves of a role at the depth of a level, mm.
+double length_at(const GeneratedPath& g, double z_mm, model::MoveRole role) {
+  double out = 0.0;
+  for (std::size_t i = 1; i < g.path.size(); ++i)
+    if (std::abs(g.path.z[i] - z_mm) < 1e-6 && g.path.role[i] == role) out += model::move_length(g.path, i);
+  return out;
+}
+
+// A pocket whose floor is made: rings over it would be air. 40 x 30 mm less the mill, its centre round the
+// wall 30 x 20; with a tenth of the diameter and two arcs it is a little more.
+TEST(BesideThePiece, ALastPassGoesRoundTheWallsAloneWhereTheFloorIsMade) {
+  PathJob t = area_job(geometry::rectangle({0, 0}, {40, 30}), 6.0, 10.0);
+  t.operation = model::TypeId::kBottomAndSideFinishMilling;
+  t.left_on_side_mm = 0.1;
+  const auto cut = [&](double left_on_floor_mm) {
+    t.left_on_bottom_mm = left_on_floor_mm;
+    Job job;
+    const auto g = generate(t, job);
+    EXPECT_TRUE(g);
+    return g ? length_at(*g, -6.0, model::MoveRole::kCut) : 0.0;
+  };
+  EXPECT_GT(cut(0.2), 100.0 + 20.0);
+  EXPECT_GT(cut(0.0), 100.0);
+  EXPECT_LT(cut(0.0), 100.0 + 20.0);
+}
+
+// 100 mm by passes of 45 mm at most: three of 33 mm and a tenth of a radius, not 45, 45 and 10.
+TEST(BesideThePiece, PassesOverAFaceAreEquallyWideUnlessTheirDistanceIsGiven) {
+  for (const bool given : {false, true}) {
+    PathJob t = area_job(geometry::rectangle({0, 0}, {160, 100}), 2.0, 50.0);
+    t.shape.kind = model::ShapeKind::kFace;
+    t.shape.open = true;
+    t.shape.reach = geometry::offset_sharp(t.shape.area, 100.0);
+    t.stock = t.shape.area;
+    t.operation = model::TypeId::kPlaneFinishMilling;
+    t.strategy = StrategyKind::kBidirectional;
+    t.radial_depth_mm = given ? 0.0 : 45.0;
+    if (given) t.overlap = 0.1;
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    std::vector<double> at;
+    for (std::size_t i = 1; i < g->path.size(); ++i) {
+      if (g->path.role[i] == model::MoveRole::kCut) at.push_back(g->path.y[i]);
+    }
+    ASSERT_EQ(at.size(), 3U);
+    const double apart = given ? 45.0 : (100.0 + 0.1 * 25.0) / 3.0;
+    EXPECT_NEAR(at[0] + 25.0, apart, 1e-6) << "width of the first";
+    EXPECT_NEAR(at[1] - at[0], apart, 1e-6);
+    EXPECT_NEAR(at[2] - at[1], apart, 1e-6);
+    EXPECT_GE(at[2] + 25.0, 100.0);
+  }
+}
+
+// Passes of a mill of 50 mm over 160 x 80 mm in two levels, to and fro and one way. The rear of the cutter
+// runs out at the feed of the cut on the last level alone, where it leaves the pattern that stays.
+TEST(BesideThePiece, AFaceIsMetFromALittleMoreThanTheRadiusAndLeftAtTheFeedOfAir) {
+  for (const auto strategy : {StrategyKind::kBidirectional, StrategyKind::kUnidirectional}) {
+    for (const double left_mm : {0.0, 0.3}) {
+      PathJob t = area_job(geometry::rectangle({0, 0}, {160, 80}), 4.0, 50.0);
+      t.shape.kind = model::ShapeKind::kFace;
+      t.shape.open = true;
+      t.shape.reach = geometry::offset_sharp(t.shape.area, 100.0);
+      t.stock = t.shape.area;
+      t.operation = model::TypeId::kPlaneRoughMilling;
+      t.strategy = strategy;
+      t.axial_depth_mm = 2.0;
+      t.radial_depth_mm = 35.0;
+      t.allowance_bottom_mm = left_mm;
+      Job job;
+      const auto g = generate(t, job);
+      ASSERT_TRUE(g) << g.error().message;
+      EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+      HeightMap map({-5, -5}, {165, 85}, 0.5, 0.0);
+      map.only(t.stock);
+      EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+      EXPECT_NEAR(map.highest(geometry::rectangle({0.5, 0.5}, {159.5, 79.5})), left_mm - 4.0, 1e-4);
+      const double last_z = left_mm - 4.0;
+      double cut = 0.0;
+      std::size_t passes = 0;
+      for (std::size_t i = 1; i < g->path.size(); ++i) {
+        if (g->path.role[i] != model::MoveRole::kCut) continue;
+        EXPECT_EQ(g->path.y[i], g->path.y[i - 1]) << "ways between passes are no cuts";
+        for (const std::size_t k : {i - 1, i}) {
+          EXPECT_GE(g->path.x[k], -25.0 - kAirBeyond - 1e-9);
+          EXPECT_LE(g->path.x[k], 185.0 + kAirBeyond + 1e-9);
+        }
+        const bool pattern = left_mm == 0.0 && g->path.z[i] < last_z + 1e-6;
+        cut = std::max(cut, model::move_length(g->path, i) - (pattern ? 25.0 : 0.0));
+        ++passes;
+      }
+      EXPECT_EQ(passes, 6U) << "80 mm in three of 35 mm at most, twice";
+      EXPECT_LE(cut, 160.0 + 25.0 + 2.0 * kAirBeyond + 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace capstan::toolpath

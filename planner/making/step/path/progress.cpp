@@ -75,19 +75,20 @@ void Progress::prepare(const StepDraft& step, const stock::HeightMap& map, toolp
 }
 
 /// Sets whether the step cuts the rest of an earlier step, and whether a later step will cut its rest. A
-/// proposed step carries this flag, and roughing's rest is also cut by a finish with a smaller cutter; for a
-/// step from the file it is read from the nouns.
+/// proposed step carries this flag, and roughing's rest is also cut by a finish with a smaller cutter, that
+/// in an allowance by one with an equal cutter; for a step from the file it is read from the nouns.
 void Progress::take_rest(const StepDraft& step, toolpath::PathJob& job) const {
   const bool area = job.shape.kind == ShapeKind::kPocket || job.shape.kind == ShapeKind::kSlot;
   if (!area || !model::has(job.cutter.cutter_class, model::CutterTrait::kEndMill)) return;
   if (step.proposed) {
     const bool roughs = model::has(step.operation.type, model::OperationTrait::kRoughs);
+    const bool leaves = job.allowance_side_mm > 0.0;
     const auto after = [&](const StepDraft& s) {
       if (s.feature != step.feature) return false;
       const bool finishes = s.member == step.member && s.in_chain > step.in_chain &&
-                            model::has(s.operation.type, model::OperationTrait::kFinishes) &&
-                            s.cutter.cutting_diameter_mm < step.cutter.cutting_diameter_mm;
-      return (roughs && finishes) ||
+                            model::has(s.operation.type, model::OperationTrait::kFinishes);
+      const double narrower = step.cutter.cutting_diameter_mm - s.cutter.cutting_diameter_mm;
+      return (finishes && ((roughs && narrower > 0.0) || (leaves && narrower >= 0.0))) ||
              (s.proposal.rest_of_diameter_mm > 0.0 && s.operation.type == step.operation.type);
     };
     job.rest_follows =

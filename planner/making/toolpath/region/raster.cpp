@@ -32,7 +32,12 @@ struct Pass {
 class Raster {
  public:
   Raster(LevelCutter& cutter, const Level& level, const RasterOptions& options)
-      : c_(cutter), level_(level), o_(options), e_(options.direction), n_{-e_.y, e_.x} {
+      : c_(cutter),
+        level_(level),
+        o_(options),
+        e_(options.direction),
+        n_{-e_.y, e_.x},
+        lined_(level.centres) {
     if (!o_.step_left) n_ = -1.0 * n_;
   }
 
@@ -40,6 +45,10 @@ class Raster {
     if (level_.centres.empty()) return {};
     if (o_.walls && o_.walls_first) {
       if (auto ok = walls(); !ok) return ok;
+      // The ring has cut a radius to either side of it. What lies between two lines and no pass meets is
+      // nearer than half a step to the boundary of where passes run.
+      lined_ = inset(level_.centres, std::max(0.0, c_.radius_mm - 0.5 * step()), kWallChord);
+      if (lined_.empty()) return {};
     }
     scan();
     for (std::size_t i = 0; i < passes_.size(); ++i) {
@@ -55,10 +64,13 @@ class Raster {
   [[nodiscard]] double v(Vec2 p) const { return dot(p, n_); }
   [[nodiscard]] Vec2 xy_of(double uu, double vv) const { return uu * e_ + vv * n_; }
 
+  /// The most that lines are apart.
+  [[nodiscard]] double step() const { return std::min(c_.step_mm, 1.98 * c_.radius_mm); }
+
   void scan() {
     double lo = 1e300;
     double hi = -1e300;
-    for (const Loop& loop : level_.centres.loops) {
+    for (const Loop& loop : lined_.loops) {
       for (const Vec2 p : loop) {
         lo = std::min(lo, v(p));
         hi = std::max(hi, v(p));
@@ -68,21 +80,20 @@ class Raster {
     const double margin = std::min(0.0005, 0.25 * (hi - lo));
     lo += margin;
     hi -= margin;
-    const double step = std::min(c_.step_mm, 1.98 * c_.radius_mm);
     // Beyond an open side the first line is where the pass would only touch the piece; it is not cut.
     const auto [from, to] = met_by_passes(lo, hi);
     const bool air_before = from > lo, air_behind = to < hi;
     lo = from;
     hi = to;
-    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil((hi - lo) / step - 1e-9)));
+    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil((hi - lo) / step() - 1e-9)));
     const std::size_t first = air_before && n > 0 ? 1 : 0;
     const std::size_t last = air_behind && n > first ? n - 1 : n;
     std::vector<std::vector<Crossing>> met(n + 1);
     const auto height = [&](std::size_t k) {
       return lo + (hi - lo) * static_cast<double>(k) / static_cast<double>(n);
     };
-    for (std::size_t l = 0; l < level_.centres.loops.size(); ++l) {
-      const Loop& loop = level_.centres.loops[l];
+    for (std::size_t l = 0; l < lined_.loops.size(); ++l) {
+      const Loop& loop = lined_.loops[l];
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const Vec2 a = loop[i];
         const Vec2 b = loop[(i + 1) % loop.size()];
@@ -113,7 +124,7 @@ class Raster {
   [[nodiscard]] std::pair<double, double> met_by_passes(double lo, double hi) const {
     if (!c_.area.open || c_.task.stock.empty()) return {lo, hi};
     const geometry::Region there =
-        geometry::intersect(c_.area.material, geometry::offset(level_.centres, c_.radius_mm));
+        geometry::intersect(c_.area.material, geometry::offset(lined_, c_.radius_mm));
     double near = 1e300, far = -1e300;
     for (const Loop& loop : there.loops) {
       for (const Vec2 p : loop) {
@@ -150,7 +161,7 @@ class Raster {
   [[nodiscard]] std::vector<Vec2> along_wall(const Crossing& from, const Crossing& to, Vec2 start,
                                              Vec2 end) const {
     if (from.loop != to.loop) return {};
-    const Loop& loop = level_.centres.loops[from.loop];
+    const Loop& loop = lined_.loops[from.loop];
     const std::size_t n = loop.size();
     const double most = 6.0 * c_.radius_mm + 4.0 * c_.step_mm;
     std::vector<Vec2> best;
@@ -177,6 +188,20 @@ class Raster {
     return best;
   }
 
+  /// The place on the rings along the walls that is nearest.
+  [[nodiscard]] Vec2 on_ring(Vec2 p) const {
+    Vec2 best = p;
+    double least = 1e300;
+    for (const Loop& loop : level_.centres.loops) {
+      const Vec2 q = nearest(track_of(loop), p).point;
+      if (norm(q - p) < least) {
+        least = norm(q - p);
+        best = q;
+      }
+    }
+    return best;
+  }
+
   /// Begins a pass: from a neighbouring line that is cut already, or into the solid along the pass.
   Status begin(std::size_t i, bool from_b) {
     const Pass& p = passes_[i];
@@ -191,9 +216,9 @@ class Raster {
       c_.go_cleared(level_, anchor);
       if (c_.cut_to(level_, start)) return {};
     }
-    if (o_.walls_first) {  // the wall ring passes through both ends
-      c_.go_cleared(level_, start);
-      return {};
+    if (o_.walls_first) {  // from the ring along the wall
+      c_.go_cleared(level_, on_ring(start));
+      if (c_.cut_to(level_, start)) return {};
     }
     Track t{
         .start = start, .segments = {{.to = end, .centre = {}, .bend = Bend::kStraight}}, .closed = false};
@@ -291,6 +316,7 @@ class Raster {
   const Level& level_;
   RasterOptions o_;
   Vec2 e_, n_;
+  geometry::Region lined_;  ///< where passes run: the centres, or inside the ring along their walls
   std::vector<Pass> passes_;
 };
 

@@ -62,12 +62,12 @@ double cut_length(const model::StepResult& s) {
 
 TEST(Bracket, IsFacedOnceInWholePasses) {
   // Nothing asks for a surface of the top face: its millimetre is one cut. The face is 80 mm wide: in
-  // aluminium one pass of 120 mm and three fourths of a cutter of 100 mm at either end; in stainless steel
-  // the torque of the spindle makes two passes of a smaller cutter as quick.
+  // aluminium one pass of 120 mm and the radius of a cutter of 100 mm and a millimetre at either end; in
+  // stainless steel the torque of the spindle makes two passes of a smaller cutter as quick.
   const model::Plan soft = bracket_of("EN AW-6061"), tough = bracket_of("304");
   const model::StepResult& one = step_of(soft, "TOP FACE plane_finish");
   EXPECT_EQ(one.cutter_id, "generic/face_mill_45/100");
-  EXPECT_NEAR(cut_length(one), 120.0 + 2.0 * 75.0, 1e-6);
+  EXPECT_NEAR(cut_length(one), 120.0 + 2.0 * 51.0, 1e-6);
   const model::StepResult& two = step_of(tough, "TOP FACE plane_finish");
   EXPECT_EQ(two.cutter_id, "generic/face_mill_45/63");
   EXPECT_GT(cut_length(two), 2.0 * 120.0);

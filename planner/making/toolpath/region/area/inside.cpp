@@ -7,6 +7,27 @@ namespace capstan::toolpath {
 
 using geometry::Vec2;
 
+namespace {
+
+/// Whether p lies nearer than a distance to the straight line from a to b.
+bool within(Vec2 p, Vec2 a, Vec2 b, double distance_mm) {
+  const Vec2 d = b - a;
+  const double l2 = dot(d, d);
+  const double t = l2 > 0.0 ? std::clamp(dot(p - a, d) / l2, 0.0, 1.0) : 0.0;
+  const Vec2 q = p - (a + t * d);
+  return dot(q, q) < distance_mm * distance_mm;
+}
+
+bool cross_each_other(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const double a1 = cross(b - a, c - a);
+  const double a2 = cross(b - a, d - a);
+  const double b1 = cross(d - c, a - c);
+  const double b2 = cross(d - c, b - c);
+  return ((a1 > 0.0) != (a2 > 0.0)) && ((b1 > 0.0) != (b2 > 0.0));
+}
+
+}  // namespace
+
 Inside::Inside(const geometry::Region& region) {
   std::size_t n = 0;
   for (const auto& loop : region.loops) n += loop.size();
@@ -54,11 +75,21 @@ bool Inside::contains(Vec2 a, Vec2 b) const {
   for (int s = from; s <= to; ++s) {
     for (const Edge& e : strips_[static_cast<std::size_t>(s)]) {
       if (std::max(e.a.x, e.b.x) < xlo || std::min(e.a.x, e.b.x) > xhi) continue;
-      const double a1 = cross(b - a, e.a - a);
-      const double a2 = cross(b - a, e.b - a);
-      const double b1 = cross(e.b - e.a, a - e.a);
-      const double b2 = cross(e.b - e.a, b - e.a);
-      if (((a1 > 0.0) != (a2 > 0.0)) && ((b1 > 0.0) != (b2 > 0.0))) return false;
+      if (cross_each_other(a, b, e.a, e.b)) return false;
+    }
+  }
+  return true;
+}
+
+bool Inside::clear_along(Vec2 a, Vec2 b, double radius_mm) const {
+  if (!clear_of(a, radius_mm) || !clear_of(b, radius_mm)) return false;
+  if (strips_.empty()) return true;
+  // Besides the ends only the edges' corners can be nearest to the way, unless an edge crosses it.
+  const int from = strip(std::min(a.y, b.y) - radius_mm);
+  const int to = strip(std::max(a.y, b.y) + radius_mm);
+  for (int s = from; s <= to; ++s) {
+    for (const Edge& e : strips_[static_cast<std::size_t>(s)]) {
+      if (within(e.a, a, b, radius_mm) || cross_each_other(a, b, e.a, e.b)) return false;
     }
   }
   return true;
@@ -70,11 +101,7 @@ bool Inside::boundary_within(Vec2 p, double radius_mm) const {
   const int to = strip(p.y + radius_mm);
   for (int s = from; s <= to; ++s) {
     for (const Edge& e : strips_[static_cast<std::size_t>(s)]) {
-      const Vec2 d = e.b - e.a;
-      const double l2 = dot(d, d);
-      const double t = l2 > 0.0 ? std::clamp(dot(p - e.a, d) / l2, 0.0, 1.0) : 0.0;
-      const Vec2 q = p - (e.a + t * d);
-      if (dot(q, q) < radius_mm * radius_mm) return true;
+      if (within(p, e.a, e.b, radius_mm)) return true;
     }
   }
   return false;

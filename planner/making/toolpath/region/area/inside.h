@@ -20,6 +20,8 @@ class Inside {
   [[nodiscard]] bool clear_of(geometry::Vec2 centre, double radius_mm) const {
     return !contains(centre) && !boundary_within(centre, radius_mm);
   }
+  /// Whether the disc does so all the way as its centre goes straight from a to b.
+  [[nodiscard]] bool clear_along(geometry::Vec2 a, geometry::Vec2 b, double radius_mm) const;
 
  private:
   struct Edge {

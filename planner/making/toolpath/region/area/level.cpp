@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/operation.h"
 #include "planner/making/toolpath/defaults.h"
 
 namespace capstan::toolpath {
@@ -186,16 +187,24 @@ bool LevelCutter::follow(const Level& level, const Track& track) {
   }
   const int n = static_cast<int>(pieces);
   const double apart = length / n;
+  // An arc is no farther from its chord than half its length.
   const auto beside = [&](int k) {
-    return level.material.clear_of(at_length(track, k * apart).point, radius_mm + kAirBeyond + 0.5 * apart);
+    const Spot from = at_length(track, k * apart), to = at_length(track, (k + 1) * apart);
+    Vec2 last = from.point;
+    for (std::size_t s = from.segment; s <= to.segment; ++s) {
+      const Vec2 next = s == to.segment ? to.point : track.segments[s].to;
+      const double off = track.segments[s].bend == Bend::kStraight ? 0.0 : 0.5 * apart;
+      if (!level.material.clear_along(last, next, radius_mm + kAirBeyond + off)) return false;
+      last = next;
+    }
+    return true;
   };
-  // Stretches between pieces of which both ends are beside the piece, long enough to be told apart.
+  // Stretches of such ways, long enough to be told apart.
   std::vector<std::pair<double, double>> air;
-  for (int k = 0; k <= n; ++k) {
+  for (int k = 0; k < n; ++k) {
     const int from = k;
-    while (k <= n && beside(k)) ++k;
-    if ((k - 1 - from) * apart > 2.0 * radius_mm)
-      air.emplace_back(from * apart, k > n ? length : (k - 1) * apart);
+    while (k < n && beside(k)) ++k;
+    if ((k - from) * apart > 2.0 * radius_mm) air.emplace_back(from * apart, k == n ? length : k * apart);
   }
   double written = 0.0;
   for (const auto& [from, to] : air) {
@@ -224,7 +233,11 @@ std::optional<Track> LevelCutter::from_outside(const Level& level, const Track& 
     const bool there = norm(a - spot.point) < 2.0 * kInsideSlack;
     writer.over(there ? spot.point : a);
     writer.descend(level.z_mm, level.z_mm);
-    if (!there) writer.line({spot.point.x, spot.point.y, level.z_mm}, MoveRole::kCut);
+    // Roughing goes faster through air than a link does.
+    const bool link = model::has(task.operation, model::OperationTrait::kFinishes) &&
+                      level.material.clear_along(a, spot.point, radius_mm + kAirBeyond);
+    if (!there)
+      writer.line({spot.point.x, spot.point.y, level.z_mm}, link ? MoveRole::kLink : MoveRole::kCut);
     return track.closed ? begun_at(track, spot) : track;
   }
   return std::nullopt;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/toolpath/defaults.h"
 #include "planner/making/toolpath/region/patterns.h"
 #include "planner/making/toolpath/region/region_paths.h"
 
@@ -20,9 +21,6 @@ double flat_of(const model::Cutter& c) {
   return std::max(c.cutting_diameter_mm - 2.0 * c.corner_radius_mm, 0.1 * c.cutting_diameter_mm);
 }
 
-/// Overrun of a pass past the edge of the face, in cutter radii: the cutter then is half a radius clear of
-/// it. Default, unsourced; as NIST's interpreter of ISO 14649 does.
-constexpr double kOverrun = 1.5;
 /// Overhang of a single pass over the edge at which it ends, in cutter radii. Default, unsourced.
 constexpr double kOverhang = 0.1;
 constexpr double kSomeArea = 0.1;  // mm2: less is chords of arcs
@@ -32,8 +30,11 @@ geometry::Loop oriented(geometry::Loop loop) {
   return loop;
 }
 
+constexpr double kRounding = 1e-6;  // mm
+
 struct Stroke {
   Vec2 from, to;
+  Vec2 first, last;  ///< the cutter's middle where all before and all behind it is cut
 };
 
 class Face {
@@ -85,11 +86,11 @@ class Face {
     return geometry::area(geometry::intersect(geometry::offset(c, radius_), w_.area));
   }
 
-  /// Extent along the passes of what lies within a cutter's radius of the line at v.
-  bool extent(double v, double& lo, double& hi) const {
+  /// Extent along the passes of what of the region lies within a cutter's radius of the line at v.
+  bool extent(const Region& of, double v, double& lo, double& hi) const {
     lo = 1e300;
     hi = -1e300;
-    for (const auto& loop : w_.area.loops) {
+    for (const auto& loop : of.loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const Vec2 a = loop[i];
         const Vec2 d = loop[(i + 1) % loop.size()] - a;
@@ -115,6 +116,17 @@ class Face {
     return lo <= hi;
   }
 
+  /// Distance of passes over a face of this width: what may be, less where as many passes are equally wide
+  /// with it. A distance that a file gives is kept.
+  [[nodiscard]] double equal_step(double width) const {
+    const double flat = flat_of(task_.cutter), most = std::min({stepover_of(task_), 1.98 * radius_, flat});
+    if (task_.overlap || !(task_.radial_depth_mm > 0.0)) return most;
+    // The flat end of the last pass reaches the edge, and over it as a single pass does.
+    const double to_cover = width + radius_ - 0.5 * flat;
+    const double passes = std::max(1.0, std::ceil(to_cover / most - kRounding));
+    return passes > 1.0 ? std::min(most, (to_cover + kOverhang * radius_) / passes) : most;
+  }
+
   [[nodiscard]] std::vector<Stroke> strokes() const {
     double lo = 1e300;
     double hi = -1e300;
@@ -124,7 +136,7 @@ class Face {
         hi = std::max(hi, dot(p, n_));
       }
     }
-    const double step = std::min({stepover_of(task_), 1.98 * radius_, flat_of(task_.cutter)});
+    const double step = equal_step(hi - lo);
     // The first pass overhangs the edge by what passes overlap, so that it is as wide as the others.
     double first = std::min(lo + step - radius_, 0.5 * (lo + hi));
     // A single pass overhangs both edges: a rim exactly on an edge would leave slivers there.
@@ -136,10 +148,14 @@ class Face {
       const double v = first + k * step;
       double a = 0.0;
       double b = 0.0;
-      if (extent(v, a, b)) {
-        const double over = kOverrun * radius_;
-        out.push_back({(a - over) * e_ + v * n_, (b + over) * e_ + v * n_});
-        free_start(material, out.back());
+      if (extent(w_.area, v, a, b)) {
+        const double over = radius_ + kAirBeyond;
+        Stroke s{.from = (a - over) * e_ + v * n_, .to = (b + over) * e_ + v * n_, .first = {}, .last = {}};
+        free_start(material, s);
+        extent(w_.material, v, a, b);
+        s.first = std::max(a - kAirBeyond, dot(s.from, e_)) * e_ + v * n_;
+        s.last = std::min(b + kAirBeyond, dot(s.to, e_)) * e_ + v * n_;
+        out.push_back(s);
       }
       // The flat end must reach the edge: beyond it a corner radius would leave a ridge.
       if (v + 0.5 * flat_of(task_.cutter) >= hi - 1e-6) break;
@@ -147,11 +163,11 @@ class Face {
     return out;
   }
 
-  /// Moves the start of a pass out of raw material that is larger than the face.
+  /// Moves the ends of a pass out of raw material that is larger than the face.
   void free_start(const Inside& material, Stroke& s) const {
-    for (int i = 0; i < 20 && !material.clear_of(s.from, radius_ + 0.2); ++i)
-      s.from = s.from - 0.25 * radius_ * e_;
-    for (int i = 0; i < 20 && !material.clear_of(s.to, radius_ + 0.2); ++i) s.to = s.to + 0.25 * radius_ * e_;
+    const double room = radius_ + kAirBeyond - kRounding;
+    for (int i = 0; i < 20 && !material.clear_of(s.from, room); ++i) s.from = s.from - 0.25 * radius_ * e_;
+    for (int i = 0; i < 20 && !material.clear_of(s.to, room); ++i) s.to = s.to + 0.25 * radius_ * e_;
   }
 
   Status level(double z, double from) {
@@ -167,7 +183,6 @@ class Face {
     bool forward = true;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Vec2 a = forward ? all[i].from : all[i].to;
-      const Vec2 b = forward ? all[i].to : all[i].from;
       if (i == 0 || one_way) {
         if (!material.clear_of(a, radius_) && i == 0) {
           return fail(
@@ -178,13 +193,23 @@ class Face {
         writer_.over(a);
         writer_.descend(z, z);
       } else {
-        writer_.line({a.x, a.y, z}, MoveRole::kCut);
+        const bool beside = material.clear_along(xy(writer_.at()), a, radius_);
+        writer_.line({a.x, a.y, z}, beside ? MoveRole::kLink : MoveRole::kCut);
       }
-      writer_.line({b.x, b.y, z}, MoveRole::kCut);
+      pass(all[i], forward, z);
       if (!one_way) forward = !forward;
     }
     writer_.retract();
     return {};
+  }
+
+  /// Cuts from one end of a stroke to the other. Behind the piece the edges of the cutter's rear run out at
+  /// the feed of the cut where they leave the face's pattern, at that of air where it is cut away later.
+  void pass(const Stroke& s, bool forward, double z) {
+    const bool stays = task_.allowance_bottom_mm <= 0.0 && z <= w_.bottom_z_mm + kRounding;
+    const Vec2 to = forward ? s.to : s.from, behind = forward ? s.last : s.first;
+    if (!stays) writer_.line({behind.x, behind.y, z}, MoveRole::kCut);
+    writer_.line({to.x, to.y, z}, stays ? MoveRole::kCut : MoveRole::kLink);
   }
 
   /// Straight passes over a face with islands: first the area between them, then along the islands.
@@ -201,7 +226,7 @@ class Face {
     const double far = 1e4;
     const geometry::Loop band = {first - far * e_, first + far * e_, first + far * e_ + across * n_,
                                  first - far * e_ + across * n_};
-    const Region out = geometry::offset_sharp(w_.area, kOverrun * radius_);
+    const Region out = geometry::offset_sharp(w_.area, radius_ + kAirBeyond);
     level.centres = geometry::subtract(geometry::intersect(out, geometry::clean({oriented(band)})), keep_off);
     // Between an island and the edge only a part of the cutter may fit: add passes further out.
     if (reached(out, keep_off) > reached(level.centres, {}) + kSomeArea)
