@@ -71,8 +71,14 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
       "before the schedule along the path; see feedrate of its_technology");
   add("fz", r->fz_mm, " mm", "feed per tooth: feed / (teeth n)");
   add("peak_force", r->loads.peak_force_n, " N", "largest cutting force along the path");
-  add("torque", r->loads.torque_nm, " Nm", "largest");
-  add("power", r->loads.power_w, " W", "largest");
+  const auto* cutting = model::find_cutter(plan, r->cutter_id);
+  const bool milled =
+      cutting != nullptr && v.operation.set() && mechanics::is_milled(v.operation.type, *cutting);
+  const char* any = milled ? "largest along the path; of a plunge by the area below the cutter's end, whose "
+                             "forces across the axis are not in peak_force"
+                           : "largest";
+  add("torque", r->loads.torque_nm, " Nm", any);
+  add("power", r->loads.power_w, " W", any);
   add("deflection", r->loads.deflection_mm, " mm", "of the tip, largest");
   add("chip_thickness", r->loads.chip_thickness_mm, " mm", "largest");
   const auto axes = [](const model::AxisForces& f) {
@@ -84,17 +90,14 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   forces("mean_forces", r->loads.mean_force,
          "along the feed, to its left, away from the work: largest means");
   forces("peak_forces", r->loads.peak_force, "the same, largest at any moment");
-  const auto* cutting = model::find_cutter(plan, r->cutter_id);
   if (cutting != nullptr && v.operation.set() && r->loads.force_margin > 0.0)
     out.push_back({"forces", "by coefficients",
-                   mechanics::force_source(plan.material, cutting->substrate,
-                                           mechanics::is_milled(v.operation.type, *cutting))});
+                   mechanics::force_source(plan.material, cutting->substrate, milled)});
   if (r->loads.force_margin > 0.0) {
     const char* what = "of a sharp edge with mean coefficients at the planned feed: what a load meter shows";
     add("expected_force", r->loads.peak_force_n / r->loads.force_margin, " N", what);
     // Where a measured set gives the forces, power may be the card's, whose margin is another.
-    if (cutting == nullptr || mechanics::measured_set(plan.material, cutting->substrate) == nullptr ||
-        !mechanics::is_milled(v.operation.type, *cutting))
+    if (!milled || mechanics::measured_set(plan.material, cutting->substrate) == nullptr)
       add("expected_power", r->loads.power_w / r->loads.force_margin, " W", what);
   }
   add("force_margin", r->loads.force_margin, "",
