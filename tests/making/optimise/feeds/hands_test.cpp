@@ -8,6 +8,7 @@
 
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/feeds.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -208,6 +209,23 @@ TEST(Feeds, OfAPlungeOntoASmallRestAreWithinASmallSpindle) {
       EXPECT_GT(a.worst_excess, 0.0);
     }
   }
+}
+
+// A ramp goes at half the feed of a slot with a cutter that states no angle (model::ramp_of): 400 of 800, not at
+// the three tenths of a plunge, and that is what is told.
+TEST(Feeds, TellOfARampTheFeedThatItsEndAllows) {
+  FeedQuestion q = question();
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({50, 0, -1}, MoveRole::kRamp);
+  cut_along(q, p, 1, 0.5, 2.0);
+  const auto a = feeds(q, p);
+  const double share = model::ramp_of(q.cut.cutter, q.cut.material).feed_share;
+  EXPECT_NEAR(a.schedule.feed_mm_min[1], share * q.feed_mm_min, 0.2);
+  const auto end = std::find_if(a.held_by.begin(), a.held_by.end(),
+                                [](const auto& l) { return l.name == "end_cutting"; });
+  ASSERT_NE(end, a.held_by.end());
+  EXPECT_NEAR(end->limit, share * q.feed_mm_min, 0.2);
 }
 
 TEST(Feeds, OfTheConstantKindKeepAMovesOwnFactor) {
