@@ -6,6 +6,7 @@
 
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/expected_by_cases.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -69,9 +70,14 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   add("vc", r->vc_m_min, " m/min", "pi D n / 1000, D the whole diameter");
   add("feed", r->feed_mm_min, " mm/min",
       "before the schedule along the path; see feedrate of its_technology");
-  add("fz", r->fz_mm, " mm", "feed per tooth: feed / (teeth n)");
-  add("peak_force", r->loads.peak_force_n, " N", "largest cutting force along the path");
   const auto* cutting = model::find_cutter(plan, r->cutter_id);
+  // Makers state that of the edge (mechanics/force/thread_cut.h).
+  add("fz", r->fz_mm, " mm",
+      cutting != nullptr && model::mills_threads(cutting->cutter_class)
+          ? "feed per tooth of the cutter's centre: feed / (teeth n); at the thread's diameter D the edge of a mill of "
+            "diameter d goes D / (D - d) times as fast"
+          : "feed per tooth: feed / (teeth n)");
+  add("peak_force", r->loads.peak_force_n, " N", "largest cutting force along the path");
   const bool milled =
       cutting != nullptr && v.operation.set() && mechanics::is_milled(v.operation.type, *cutting);
   const char* any = milled ? "largest along the path; of a plunge by the area below the cutter's end, whose "
