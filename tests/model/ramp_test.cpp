@@ -87,5 +87,22 @@ TEST(Ramp, ASlotIsNoDeeperThanABoreNorThanAnySlotIsMilled) {
   EXPECT_EQ(ramp_of(mill(5.0), of("H")).slot_depth_mm, 5.0);
 }
 
+// Above 50 HRC makers of mills name slots of a twentieth of the diameter, not of half of it.
+TEST(Ramp, ASlotInSteelAboveFiftyHrcIsShallow) {
+  WorkMaterial m = of("H");
+  for (const double hb : {0.0, 421.0, 481.0}) {  // not known, 45 HRC, 50 HRC
+    m.hardness_hb = hb;
+    EXPECT_EQ(ramp_of(mill(5.0), m).slot_depth_mm, 5.0) << hb;
+  }
+  for (const double hb : {560.0, 654.0}) {  // 55 HRC, 60 HRC
+    m.hardness_hb = hb;
+    EXPECT_NEAR(ramp_of(mill(5.0), m).slot_depth_mm, 0.5, 1e-12) << hb;
+    EXPECT_EQ(ramp_of(mill(5.0), m).bore_depth_mm, 5.0) << hb;
+  }
+  Cutter small = mill(5.0);
+  small.cutting_diameter_mm = 1.0;
+  EXPECT_EQ(ramp_of(small, m).slot_depth_mm, kThinnestHardMm);
+}
+
 }  // namespace
 }  // namespace capstan::model

@@ -155,6 +155,11 @@ TEST(Walls, GetASpringPassWhereTextureOrFormAsksForIt) {
   FeatureShape face = area(ShapeKind::kFace);
   EXPECT_THAT(actions(propose(shipped(), face, c)),
               ElementsAre("plane_rough", "plane_rough", "plane_finish"));
+  // Beside a wall, too: without it floor and wall are finished once.
+  face.open = true;
+  face.reach = face.area;
+  EXPECT_THAT(actions(propose(shipped(), face, c)), ElementsAre("area_rough", "area_finish", "spring_pass"));
+  EXPECT_THAT(actions(propose(shipped(), face, steel())), ElementsAre("area_rough", "area_finish"));
 }
 
 TEST(Facts, SayWhatIsNotAskedAndNotKnown) {

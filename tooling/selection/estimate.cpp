@@ -32,6 +32,9 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNominalVolumeMm3 = 2000.0;
 /// A mill's cut at most, as parts of its diameter; default, unsourced (the optimiser's own bounds are wider).
 constexpr double kWidthRatio = 0.5, kDepthRatio = 1.0;
+/// Of a face: as wide as a single pass may be, and as each of several; the planner's own bounds
+/// (planner/making/step/cut/cuts.cpp, optimise::kRoughWidthRatio).
+constexpr double kOnePassRatio = 0.8, kPassRatio = 0.65;
 /// The usual side allowance of roughing, mm; default, unsourced.
 constexpr double kAllowanceMm = 0.3;
 /// Bending of the tip that roughing may have, mm: what that allowance leaves over the thinnest pass that
@@ -149,12 +152,23 @@ std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Pre
   return p.depth_mm / (std::sin(ramp.angle_rad) * ramp.feed_share) + turn + in_and_out;
 }
 
+/// Passes over an open face of this width.
+double passes_over(const Cutter& c, double width_mm) {
+  constexpr double kSlack = 1e-9;
+  const double d = c.cutting_diameter_mm, flat = std::max(d - 2.0 * c.corner_radius_mm, 0.1 * d);
+  if (width_mm <= std::min(kOnePassRatio * d, flat) * (1.0 + kSlack)) return 1.0;
+  return std::ceil(width_mm / std::min(kPassRatio * d, flat) - kSlack);
+}
+
 double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,
                  const Turning& t, const Preferences& p, std::string& limited) {
   const double d = c.cutting_diameter_mm;
   const double volume = p.volume_mm3 > 0.0 ? p.volume_mm3 : kNominalVolumeMm3;
   double ae = kWidthRatio * d;
   if (p.width_mm > 0.0) ae = std::min(ae, p.width_mm);
+  const bool face = p.face_mm > 0.0 && p.width_mm > 0.0;
+  const double passes = face ? passes_over(c, p.width_mm) : 0.0;
+  if (face) ae = p.width_mm / passes;
   double ap = deepest_mm(c, w, t.machine, p, limited);
   // The speed is that of the widest circle that cuts, the start values are at the tip's.
   const double slower = d / widest_circle_mm(c, ap);
@@ -193,6 +207,9 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
   if (p.bore_mm > 0.0) {
     if (const auto helix = helix_mm(c, w, p, ap)) return 60.0 * *helix / feed;
   }
+  // The edges come into the face and leave it within a diameter of the cutter's way.
+  if (face && p.depth_mm > 0.0)
+    return 60.0 * std::ceil(p.depth_mm / ap - 1e-9) * passes * (p.face_mm + d) / feed;
   // Levels are whole.
   if (p.depth_mm > 0.0) ap = p.depth_mm / std::ceil(p.depth_mm / ap - 1e-9);
   double minutes = volume / (ap * ae * feed);

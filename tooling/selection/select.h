@@ -51,6 +51,7 @@ struct Preferences {
   double volume_mm3 = 0.0;         ///< milling: what is to be removed
   double depth_mm = 0.0;           ///< along the axis, in all
   double width_mm = 0.0;           ///< across the feed, at most
+  double face_mm = 0.0;            ///< open faces, with the width: length of a pass, without its ways in and out
   double passes_mm2 = 0.0;         ///< balls: the surface that parallel passes cover, as seen from above
   double ridges_mm = 0.0;          ///< with it: height of what stays between two passes
   double pre_hole_mm = 0.0;        ///< drilling, tapping: the hole that is there
@@ -85,6 +86,7 @@ inline void use(std::vector<std::string>& used, const std::string& id) {
 ///     (force
 ///                 coefficients with their uncertainty and a worn edge), in roughing also to the depth at
 ///                 which a slender cutter stays quiet and to that of a slot, and the ways down by its ramp;
+///                 of an open face whole passes, each longer by the cutter's diameter;
 ///                 drilling L / (f n), f cut back likewise
 ///     tool        minutes of cutting x price / life, as machine time; edges beyond the life left, sisters'
 ///     included readiness   a tool change when the plan does not use it yet; loading when the magazine is

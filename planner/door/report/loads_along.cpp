@@ -58,7 +58,7 @@ class Loads {
              std::max(out.deflection_mm, of(Limit::kToolDeflection))};
     };
     if (s.plunge) {
-      take(loads.plunging(feed));
+      take(loads.plunging(optimise::feed::plunged_mm2(s), feed));
       return out;
     }
     const optimise::feed::Cuts cuts = optimise::feed::cuts_of(s, question_.cut);

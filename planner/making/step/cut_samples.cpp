@@ -113,6 +113,16 @@ std::pair<double, double> mean_extents(const model::SectionSeries& s) {
   return all > 0.0 ? std::pair(ad / all, rd / all) : std::pair(0.0, 0.0);
 }
 
+/// The area below the cutter's end where a step of a plunge is deepest, mm2. What a step removes, it removes
+/// in the part of its length that is in contact. A round nose's area grows from nothing, ever slower, so that
+/// its mean over the last length c of a depth a is at least (1 - c / (2 a)) of the last (derived).
+double below_end(const engagement::Engagement& e, const model::Cutter& cutter) {
+  const double contact = std::min(e.ap_mm, e.step_mm);
+  if (!(contact > 0.0)) return 0.0;
+  const bool round = mechanics::tooth_of(cutter).corner_radius_mm > 0.0;
+  return e.removed_mm3 / contact / (round ? 1.0 - 0.5 * contact / e.ap_mm : 1.0);
+}
+
 /// The thickest chip over the feed of a sample and of its neighbours: cells tell of what a cutter meets next
 /// up to a step late.
 double chip_about(const engagement::Measurement& m, std::size_t i) {
@@ -207,6 +217,7 @@ std::vector<CutSample> samples_of(const engagement::Measurement& m, const model:
          .exit_rad = exit,
          .csa_mm2 = e.csa_mm2,
          .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i],
+         .end_mm2 = e.plunge ? below_end(e, cutter) : 0.0,
          .chip_over_feed = chip_about(m, i)},
         path, cutter, out);
   }

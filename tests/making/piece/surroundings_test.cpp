@@ -6,6 +6,8 @@
 #include <random>
 
 #include "planner/making/piece/demands.h"
+#include "planner/model/features/in_piece.h"
+#include "planner/model/nouns/all.h"
 
 namespace capstan::piece {
 namespace {
@@ -190,6 +192,47 @@ TEST(Around, HoldsTheAreaWhereverItLies) {
   const Around ball = around(s);
   EXPECT_DOUBLE_EQ(ball.radius_mm, 5.0) << "half the diagonal of 6 x 8";
   EXPECT_EQ(ball.centre, (Vec3{14, 25, -3}));
+}
+
+/// A plate with a face over all of what its file states as raw piece: x 10 .. 90, y 20 .. 80.
+struct FacedPlate : Plate {
+  FacedPlate() {
+    model::CartesianPoint corner;
+    corner.coordinates = {{10, 20, -20}, true};
+    model::Axis2Placement3d at;
+    at.location = plan.model.add(corner);
+    model::Block block;
+    block.position = plan.model.add(at);
+    block.x = 80.0;
+    block.y = 60.0;
+    block.z = 20.0;
+    model::Workpiece w;
+    w.its_bounding_geometry = plan.model.add(block);
+    plan.model.add(w);
+  }
+
+  /// Whether a face from y = 20 up, as wide as the file's piece, ends at a wall.
+  bool walled(double y) {
+    FeatureShape face = add(ShapeKind::kFace, {50, 20 + 0.5 * y, 0}, 80, y, 1);
+    face.open = true;
+    face.reach = geometry::rectangle({-500, -500}, {500, 500});
+    stop_at_walls(piece, face);
+    return model::stops_at_walls(face);
+  }
+};
+
+// Whoever saws a larger piece does not make a larger part: what stands beside the face is scrap, no wall.
+TEST(PartBox, IsTheRawPieceOfTheFileWhereALargerOneIsCut) {
+  FacedPlate p;
+  const geometry::Box3 part = part_box(p.piece);
+  EXPECT_DOUBLE_EQ(part.lo.x, 10.0);
+  EXPECT_DOUBLE_EQ(part.hi.y, 80.0);
+  EXPECT_FALSE(p.walled(60));
+}
+
+TEST(PartBox, StillHasTheWallsOfTheFilesOwnPiece) {
+  FacedPlate p;
+  EXPECT_TRUE(p.walled(40));
 }
 
 }  // namespace

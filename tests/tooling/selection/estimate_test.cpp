@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "tooling/library/cutters/generic.h"
 #include "tooling/selection/select.h"
@@ -59,6 +60,49 @@ TEST(Estimate, KnowsThatASlenderCutterRoughsInThinLevels) {
             1.5 * roughing_s("generic/endmill_4f_neck/2.5", false));
   EXPECT_EQ(roughing_s("generic/endmill_4f_short/12", true),
             roughing_s("generic/endmill_4f_short/12", false));
+}
+
+/// The generic face mills of 45 degrees on an open face in C45, the quickest first.
+std::vector<model::Candidate> faced(double length_mm, double width_mm) {
+  Job job;
+  std::vector<model::Cutter> mills = generic_library().value();
+  std::erase_if(mills, [](const auto& c) { return !c.id.starts_with("generic/face_mill_45/"); });
+  ToolRequirement r;
+  r.classes = {CutterClass::kFacemill};
+  Preferences p;
+  p.depth_mm = 0.5;
+  p.width_mm = width_mm;
+  p.face_mm = length_mm;
+  p.volume_mm3 = length_mm * width_mm * p.depth_mm;
+  return select(r, mills, find_material("C45", shipped_materials().value(), job).value(),
+                load_machine("generic_vmc", job).value(), p)
+      .ranked;
+}
+
+double seconds_of(const std::vector<model::Candidate>& ranked, const std::string& id) {
+  for (const auto& c : ranked) {
+    if (c.cutter.id == id) return c.estimated_s;
+  }
+  ADD_FAILURE() << id;
+  return 0.0;
+}
+
+// A pass begins and ends with the cutter beside the face: 14 + 40 mm are half of 68 + 40 mm.
+TEST(Estimate, CountsWhatAFaceMillGoesBesideTheFace) {
+  const std::string id = "generic/face_mill_45/40";
+  EXPECT_NEAR(2.0 * seconds_of(faced(14.0, 12.0), id), seconds_of(faced(68.0, 12.0), id), 1e-5);
+}
+
+TEST(Estimate, TakesTheSmallestFaceMillThatCoversANarrowFace) {
+  EXPECT_EQ(faced(14.0, 12.0).front().cutter.id, "generic/face_mill_45/40");
+  EXPECT_EQ(faced(100.0, 26.0).front().cutter.id, "generic/face_mill_45/40");
+}
+
+// 80 mm are one pass of 100 mm, and two or three of any smaller one.
+TEST(Estimate, TakesTheFaceMillThatCoversAWideFaceInOnePass) {
+  EXPECT_EQ(faced(120.0, 80.0).front().cutter.id, "generic/face_mill_45/100");
+  const auto ranked = faced(120.0, 80.0);
+  EXPECT_GT(seconds_of(ranked, "generic/face_mill_45/80"), seconds_of(ranked, "generic/face_mill_45/100"));
 }
 
 TEST(Estimate, CountsTheFloorThatAFinishGoesOver) {

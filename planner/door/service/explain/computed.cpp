@@ -6,6 +6,7 @@
 
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/thread_mill.h"
 #include "planner/making/piece/workpiece.h"
 #include "planner/making/step/record/expected_by_cases.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -69,10 +70,21 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   add("vc", r->vc_m_min, " m/min", "pi D n / 1000, D the whole diameter");
   add("feed", r->feed_mm_min, " mm/min",
       "before the schedule along the path; see feedrate of its_technology");
-  add("fz", r->fz_mm, " mm", "feed per tooth: feed / (teeth n)");
+  const auto* cutting = model::find_cutter(plan, r->cutter_id);
+  // Makers state that of the edge (mechanics/force/thread_cut.h).
+  add("fz", r->fz_mm, " mm",
+      cutting != nullptr && model::mills_threads(cutting->cutter_class)
+          ? "feed per tooth of the cutter's centre: feed / (teeth n); at the thread's diameter D the edge of a mill of "
+            "diameter d goes D / (D - d) times as fast"
+          : "feed per tooth: feed / (teeth n)");
   add("peak_force", r->loads.peak_force_n, " N", "largest cutting force along the path");
-  add("torque", r->loads.torque_nm, " Nm", "largest");
-  add("power", r->loads.power_w, " W", "largest");
+  const bool milled =
+      cutting != nullptr && v.operation.set() && mechanics::is_milled(v.operation.type, *cutting);
+  const char* any = milled ? "largest along the path; of a plunge by the area below the cutter's end, whose "
+                             "forces across the axis are not in peak_force"
+                           : "largest";
+  add("torque", r->loads.torque_nm, " Nm", any);
+  add("power", r->loads.power_w, " W", any);
   add("deflection", r->loads.deflection_mm, " mm", "of the tip, largest");
   add("chip_thickness", r->loads.chip_thickness_mm, " mm", "largest");
   const auto axes = [](const model::AxisForces& f) {
@@ -84,17 +96,14 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   forces("mean_forces", r->loads.mean_force,
          "along the feed, to its left, away from the work: largest means");
   forces("peak_forces", r->loads.peak_force, "the same, largest at any moment");
-  const auto* cutting = model::find_cutter(plan, r->cutter_id);
   if (cutting != nullptr && v.operation.set() && r->loads.force_margin > 0.0)
     out.push_back({"forces", "by coefficients",
-                   mechanics::force_source(plan.material, cutting->substrate,
-                                           mechanics::is_milled(v.operation.type, *cutting))});
+                   mechanics::force_source(plan.material, cutting->substrate, milled)});
   if (r->loads.force_margin > 0.0) {
     const char* what = "of a sharp edge with mean coefficients at the planned feed: what a load meter shows";
     add("expected_force", r->loads.peak_force_n / r->loads.force_margin, " N", what);
     // Where a measured set gives the forces, power may be the card's, whose margin is another.
-    if (cutting == nullptr || mechanics::measured_set(plan.material, cutting->substrate) == nullptr ||
-        !mechanics::is_milled(v.operation.type, *cutting))
+    if (!milled || mechanics::measured_set(plan.material, cutting->substrate) == nullptr)
       add("expected_power", r->loads.power_w / r->loads.force_margin, " W", what);
   }
   add("force_margin", r->loads.force_margin, "",

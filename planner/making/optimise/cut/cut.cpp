@@ -12,6 +12,7 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/cut/search.h"
 #include "planner/making/optimise/cut/stability.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/physics/mechanics/constants.h"
 
@@ -396,7 +397,9 @@ Result<CutQuestion> with_best_width(const CutQuestion& q, const Options& options
   std::optional<CutQuestion> best;
   bool feasible = false;
   double least = 0.0;
+  const bool hard = model::cuts_hard_steel(q.cutter, q.material);
   for (const double share : kWidths) {
+    if (hard && share > model::kHardCut.narrow_width) break;
     CutQuestion one = q;
     one.ae_mm = rounded(share * q.cutter.cutting_diameter_mm, 3);
     if (best && q.width_mm > 0.0 && *one.ae_mm > q.width_mm) break;

@@ -158,7 +158,9 @@ double deepest_level(const CutQuestion& q) {
                     : d;
   double level = most;
   if (q.kind == CutKind::kRough && !q.constant_engagement)
-    level = std::min(level, model::kDeepestSlotRatio * d);
+    level = std::min({level, model::kDeepestSlotRatio * d, model::hard_level_mm(q.cutter, q.material)});
+  if (q.constant_engagement && model::cuts_hard_steel(q.cutter, q.material))
+    level = std::min(level, model::kHardCut.narrow_depth * d);
   if (q.ap_most_mm > 0.0) level = std::min(level, q.ap_most_mm);
   level = std::min(level * ease_of(q, "level_depth"), slender_depth(q) * ease_of(q, "stable_depth"));
   return std::min(most, level);

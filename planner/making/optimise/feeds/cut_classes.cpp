@@ -115,15 +115,19 @@ CutClass& CutClasses::class_of(const Cut& cut, double n_rpm) {
   return *last_;
 }
 
-const CutClass& CutClasses::plunge(double n_rpm) {
-  const auto it = plunges_.find(n_rpm);
+const CutClass& CutClasses::plunge(double area_mm2, double n_rpm) {
+  const long area =
+      area_mm2 > 0.0 ? static_cast<long>(std::ceil(std::log(area_mm2) / kDepthStep - 1e-9)) : kNoArea;
+  const auto key = std::pair(n_rpm, area);
+  const auto it = plunges_.find(key);
   if (it != plunges_.end()) return it->second;
   const CutLoads& j = loads(n_rpm);
   CutClass p;
+  if (area != kNoArea) p.cut.csa_mm2 = std::exp(kDepthStep * static_cast<double>(area));
   double lo = j.floor_mm_min();
   double hi = std::max(lo, kPlungeFraction * q_.feed_mm_min);
   const auto ok = [&](double feed) {
-    const auto s = j.plunging(feed);
+    const auto s = j.plunging(p.cut.csa_mm2, feed);
     return s && within(s->load, j.limits());
   };
   if (ok(hi)) {
@@ -135,7 +139,7 @@ const CutClass& CutClasses::plunge(double n_rpm) {
     }
   }
   p.feed_mm_min = lo;
-  return plunges_.emplace(n_rpm, p).first->second;
+  return plunges_.emplace(key, p).first->second;
 }
 
 void CutClasses::fill(CutClass& kind, const CutLoads& loads) const {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "planner/making/optimise/feeds/cut_loads.h"
@@ -37,7 +38,8 @@ class CutClasses {
   [[nodiscard]] const CutLoads& loads(double n_rpm);
   /// The class of a cut, rounded to the heavier side: depth and area by 0.25 %, arc by 1 to 2 %.
   [[nodiscard]] CutClass& class_of(const Cut& cut, double n_rpm);
-  [[nodiscard]] const CutClass& plunge(double n_rpm);
+  /// The class of a plunge into this area, rounded up by 0.25 % at most; 0: into the solid.
+  [[nodiscard]] const CutClass& plunge(double area_mm2, double n_rpm);
 
   /// Each class once, in a fixed order.
   template <class F>
@@ -56,7 +58,7 @@ class CutClasses {
   KnownFeeds::Classes* known_;
   std::map<double, CutLoads> loads_;
   std::map<Key, CutClass> classes_;
-  std::map<double, CutClass> plunges_;
+  std::map<std::pair<double, long>, CutClass> plunges_;  ///< by speed and area
   std::size_t ready_ = 0;  ///< classes whose cut was kept ready
   Key last_key_{-1.0, 0, 0, 0, 0, 0, 0, 0};
   CutClass* last_ = nullptr;

@@ -256,7 +256,7 @@ std::optional<State> CutLoads::at(const ReadyCut& made, double feed) const {
   return s;
 }
 
-std::optional<State> CutLoads::plunging(double feed) const {
+std::optional<State> CutLoads::plunging(double area_mm2, double feed) const {
   mechanics::DrillingCut c;
   c.diameter_mm = q_.cutter.cutting_diameter_mm;
   c.feed_mm_per_rev = feed / n_;
@@ -265,7 +265,9 @@ std::optional<State> CutLoads::plunging(double feed) const {
   c.point_angle_rad = pi;
   const auto l = mechanics::drilling_loads(c, law_.kienzle);
   if (!l) return std::nullopt;
-  const double margin = drilling_margin_of(q_).factor();
+  const double disc = 0.25 * pi * c.diameter_mm * c.diameter_mm;
+  const double share = area_mm2 > 0.0 ? std::min(1.0, area_mm2 / disc) : 1.0;
+  const double margin = drilling_margin_of(q_).factor() * share;
   State s;
   s.load.of(Limit::kSpindleTorque) = l->torque_nm * margin;
   s.load.of(Limit::kSpindlePower) = l->power_w * margin;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -55,6 +56,11 @@ struct Cuts {
 };
 [[nodiscard]] Cuts cuts_of(const CutSample& sample, const CutQuestion& question);
 
+/// The area that a plunge cuts, seen along the axis, mm2; 0: not known.
+[[nodiscard]] inline double plunged_mm2(const CutSample& s) {
+  return s.end_mm2 > 0.0 ? s.end_mm2 : std::max(0.0, s.csa_mm2);
+}
+
 /// Loads of a cut, the margin included, and the forces by axis.
 struct State {
   Column load{};
@@ -82,8 +88,11 @@ class CutLoads {
 
   /// Loads at a feed of the cutter's centre; nothing outside the formulas' range.
   [[nodiscard]] std::optional<State> at(const Cut& cut, double feed_mm_min) const;
-  /// Motor torque and power of plunging into the solid; the other columns are 0.
-  [[nodiscard]] std::optional<State> plunging(double feed_mm_min) const;
+  /// Torque and power of plunging into material of this area, seen along the axis; 0, or more than the cutter's
+  /// disc: into the solid. The other columns are 0. Drilling's specific force times what is removed:
+  ///
+  ///     M = kc f A / (2 pi)      derived: of the disc, A = pi D^2 / 4, it is drilling.h's kc f D^2 / 8
+  [[nodiscard]] std::optional<State> plunging(double area_mm2, double feed_mm_min) const;
 
   [[nodiscard]] const Column& limits() const { return limits_; }
   /// Largest and smallest feed that the schedule may use, mm/min.

@@ -9,6 +9,7 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/making/optimise/cut/law/law.h"
 #include "planner/making/optimise/cut/limits.h"
+#include "planner/making/optimise/feeds/cut_loads.h"
 #include "planner/making/optimise/feeds/motion_limits.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/surface.h"
@@ -121,17 +122,20 @@ model::ExceededLimit worst_limit(const Column& load, const Column& limit) {
           .at_mm = std::nullopt};
 }
 
+/// Plunges that differ in their feed alone: speed and area.
+using Plunge = std::pair<double, double>;
+Plunge plunge_of(const FeedQuestion& q, const CutSample& s) { return {rpm_on(q, s.move), plunged_mm2(s)}; }
+
 /// Keeps the largest excess, what it is of, and the class it is of. No load known: more than any.
 class Worst {
  public:
   explicit Worst(FeedAnswer& a) : a_(a) {}
-  void of(const std::optional<State>& s, const Column& limits, const CutClass* kind,
-          double plunge_rpm = 0.0) {
+  void of(const std::optional<State>& s, const Column& limits, const CutClass* kind, Plunge plunge = {}) {
     const double excess = s ? ratio(s->load, limits) - 1.0 : std::numeric_limits<double>::infinity();
     if (!(excess > a_.worst_excess)) return;
     a_.worst_excess = excess;
     class_ = kind;
-    plunge_rpm_ = plunge_rpm;
+    plunge_ = plunge;
     if (excess > 0.0)
       a_.worst = s ? worst_limit(s->load, limits) : model::ExceededLimit{"load", 0.0, 0.0, "", std::nullopt};
   }
@@ -143,7 +147,7 @@ class Worst {
     for (const CutSample& s : q.samples) {
       if (s.move >= feeds.size() || s.move >= path.size() || !(feeds[s.move] > 0.0)) continue;
       tick();
-      bool here = s.plunge && class_ == nullptr && s.ap_mm > 0.0 && rpm_on(q, s.move) == plunge_rpm_;
+      bool here = s.plunge && class_ == nullptr && s.ap_mm > 0.0 && plunge_of(q, s) == plunge_;
       const Cuts cuts = cuts_of(s, q.cut);
       for (std::size_t c = 0; c < cuts.n && !s.plunge && class_ != nullptr; ++c) {
         const CutClass& kind = classes.class_of(cuts.cut[c], rpm_on(q, s.move));
@@ -160,7 +164,7 @@ class Worst {
  private:
   FeedAnswer& a_;
   const CutClass* class_ = nullptr;  // null: a plunge
-  double plunge_rpm_ = 0.0;
+  Plunge plunge_{};
 };
 
 /// Loads of every class of section at the largest feed it is cut with.
@@ -168,13 +172,14 @@ void measure_peaks(const FeedQuestion& q, const CutterPath& path, CutClasses& cl
   const model::FeedSchedule& schedule = a.schedule;
   Worst worst(a);
   double removal = 0.0;
-  std::map<double, double> plunging;  // largest feed by speed
+  std::map<Plunge, double> plunging;  // largest feed
   for (const CutSample& s : q.samples) {
     if (s.move >= schedule.feed_mm_min.size()) continue;
     const double feed = schedule.feed_mm_min[s.move];
     if (s.plunge) {
-      double& most = plunging[rpm_on(q, s.move)];
+      double& most = plunging[plunge_of(q, s)];
       if (s.ap_mm > 0.0) most = std::max(most, feed);
+      if (s.ap_mm > 0.0) removal = std::max(removal, feed * plunged_mm2(s));
       continue;
     }
     tick();
@@ -196,12 +201,13 @@ void measure_peaks(const FeedQuestion& q, const CutterPath& path, CutClasses& cl
     if (s) keep_peak(a.peak, *s, loads, q.cut.cutter);
     worst.of(s, loads.limits(), &kind);
   });
-  for (const auto& [n, feed] : plunging) {
+  for (const auto& [plunge, feed] : plunging) {
     if (!(feed > 0.0)) continue;
+    const auto& [n, area] = plunge;
     const CutLoads& loads = classes.loads(n);
-    const auto s = loads.plunging(feed);
+    const auto s = loads.plunging(area, feed);
     if (s) keep_peak(a.peak, *s, loads, q.cut.cutter);
-    worst.of(s, loads.limits(), nullptr, n);
+    worst.of(s, loads.limits(), nullptr, plunge);
   }
   worst.place(q, path, classes);
   a.peak.mrr_mm3_min = removal;

@@ -17,7 +17,17 @@ constexpr std::array<std::string_view, kNames - kLimits> kText = {
 constexpr std::array<std::string_view, kNames - kLimits> kUnit = {"mm/min", "mm/min", "mm/min", "mm/min",
                                                                   "mm/s2",  "mm/min", "mm",     "s"};
 
-double limit_value(const FeedQuestion& q, CutClasses& classes, std::size_t name) {
+/// The largest feed that a bound of its own allows somewhere: ramps go faster than plunges.
+double largest_by(const std::vector<Cap>& caps, FeedBound by) {
+  double out = 0.0;
+  for (const Cap& c : caps) {
+    if (c.by == by) out = std::max(out, c.feed_mm_min);
+  }
+  return out;
+}
+
+double limit_value(const FeedQuestion& q, const std::vector<Cap>& caps, CutClasses& classes,
+                   std::size_t name) {
   const CutLoads& loads = classes.loads(rpm_on(q, q.speed_factor.size()));
   const auto& axes = q.cut.machine.axes;
   if (name < kLimits) return stated(loads.limits()[name]) ? loads.limits()[name] : 0.0;
@@ -25,7 +35,7 @@ double limit_value(const FeedQuestion& q, CutClasses& classes, std::size_t name)
     case static_cast<std::size_t>(FeedBound::kStepFeed):
       return loads.ceiling_mm_min();
     case static_cast<std::size_t>(FeedBound::kEndCut):
-      return kPlungeFraction * q.feed_mm_min;
+      return largest_by(caps, FeedBound::kEndCut);
     case static_cast<std::size_t>(FeedBound::kAir):
       return kAirFeedMmMin;
     case static_cast<std::size_t>(FeedBound::kAxisFeed):
@@ -99,7 +109,7 @@ std::vector<model::LimitAlongPath> held_by(const FeedQuestion& q, const CutterPa
     model::LimitAlongPath l;
     l.name = k < kLimits ? row_of(model::kSectionLimits[k]).name : kText[k - kLimits];
     l.unit = k < kLimits ? row_of(model::kSectionLimits[k]).unit : kUnit[k - kLimits];
-    l.limit = limit_value(q, classes, k);
+    l.limit = limit_value(q, caps, classes, k);
     if (!std::isfinite(l.limit)) l.limit = 0.0;
     l.share = share;
     const double quicker = seconds_with_more(q, path, caps, k);

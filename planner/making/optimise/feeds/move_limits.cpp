@@ -18,6 +18,7 @@ constexpr double kAnyFeed = std::numeric_limits<double>::infinity();
 struct OnMove {
   bool cuts = false;  ///< sideways somewhere
   bool plunges = false;
+  double plunged_mm2 = 0.0;  ///< most that a plunge cuts; 0: one of them is not known
   bool known = true;  ///< all of its sections lie within the formulas' range
   Column at_limit{};
   std::array<double, kLimits> more{};
@@ -32,6 +33,9 @@ OnMove on_move(const FeedQuestion& q, CutClasses& classes, std::size_t move, std
     const CutSample& s = q.samples[next];
     if (s.move != move || !(s.ap_mm > 0.0)) continue;
     if (s.plunge) {
+      const double area = plunged_mm2(s);
+      const bool solid = !(area > 0.0) || (out.plunges && !(out.plunged_mm2 > 0.0));
+      out.plunged_mm2 = solid ? 0.0 : std::max(out.plunged_mm2, area);
       out.plunges = true;
       continue;
     }
@@ -119,7 +123,7 @@ Cap milled(const FeedQuestion& q, CutClasses& classes, const model::CutterPath& 
   // Take the direction from the samples if there are any: a given trajectory may call a plunge a cut.
   if (role == MoveRole::kPlunge || m.plunges || unmeasured_plunge(q, path, i)) {
     bound(cap, kPlungeFraction * given * q.feed_mm_min, FeedBound::kEndCut);
-    bound(cap, classes.plunge(rpm_on(q, i)).feed_mm_min, FeedBound::kEndCut);
+    bound(cap, classes.plunge(m.plunged_mm2, rpm_on(q, i)).feed_mm_min, FeedBound::kEndCut);
   } else if (role == MoveRole::kRamp) {
     const double meant = given * q.feed_mm_min;
     const double share = model::ramp_of(q.cut.cutter, q.cut.material).feed_share;

@@ -100,6 +100,12 @@ tooling::Preferences preferences_of(const piece::Piece& piece, int batch, const 
     p.bore_mm = s.diameter.middle() - 2.0 * step.allowance_side_mm;
     p.open_below_mm = s.through ? step.start_diameter_mm : hole_below_mm(piece, s);
   }
+  if (s.kind == ShapeKind::kFace && s.islands.empty() && !s.area.empty() &&
+      model::has(step.operation, model::OperationTrait::kPlane)) {
+    const auto b = geometry::bounds(s.area);
+    p.width_mm = std::min(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
+    if (p.width_mm > 0.0) p.face_mm = geometry::area(s.area) / p.width_mm;
+  }
   if (model::is_a(step.operation, TypeId::kPlaneFinishMilling)) {
     p.depth_mm = std::min(depth, kLeftOnWalls);
     p.volume_mm3 = geometry::area(s.area) * p.depth_mm;

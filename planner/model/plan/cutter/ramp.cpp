@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "planner/model/plan/cutter/stated.h"
@@ -50,10 +51,19 @@ const Row& row_of(const WorkMaterial& m) {
 
 }  // namespace
 
+bool cuts_hard_steel(const Cutter& c, const WorkMaterial& m) {
+  return m.iso_group == "H" && m.hardness_hb > kHardHb && c.cutter_class != CutterClass::kFacemill;
+}
+
+double hard_level_mm(const Cutter& c, const WorkMaterial& m) {
+  if (!cuts_hard_steel(c, m)) return std::numeric_limits<double>::infinity();
+  return std::max(kHardCut.level * c.cutting_diameter_mm, kThinnestHardMm);
+}
+
 Ramp ramp_of(const Cutter& c, const WorkMaterial& m) {
   const double most = c.maximum_ramp_angle_rad;
   const Row& row = row_of(m);
-  const double slot = row.slot_in_d() * c.cutting_diameter_mm, bore = row.bore_in_d * c.cutting_diameter_mm;
+  const double slot = std::min(row.slot_in_d() * c.cutting_diameter_mm, hard_level_mm(c, m)), bore = row.bore_in_d * c.cutting_diameter_mm;
   if (!(most > 0.0))
     return {.angle_rad = 0.0, .feed_share = kHalf, .slot_depth_mm = slot, .bore_depth_mm = bore};
   const double usual_rad = kDegree * (c.substrate == Substrate::kCarbide ? row.carbide_deg : row.hss_deg);

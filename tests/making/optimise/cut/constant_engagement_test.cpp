@@ -107,5 +107,30 @@ TEST_F(ConstantEngagement, IsOfTheWidthThatRemovesMost) {
   }
 }
 
+/// The 10 mm mill in hardened steel of this Brinell hardness: 481 are 50 HRC, 654 are 60.
+CutQuestion hardened(double hb, bool constant) {
+  CutQuestion q = questions::roughing();
+  q.material.iso_group = "H";
+  q.material.hardness_hb = hb;
+  q.material.kc11_n_mm2 = 4700.0;
+  q.material.mc = 0.24;
+  q.vc_start_m_min = 20.0;
+  q.fz_start_mm = 0.025;
+  q.constant_engagement = constant;
+  return q;
+}
+
+// Never half the diameter at a third of it deep: a level of 0.05 D, or D x 0.1 D (model::kHardCut).
+TEST_F(ConstantEngagement, InSteelAboveFiftyHrcIsNarrowAndLevelsAreThin) {
+  const CutAnswer level = answered(hardened(654.0, false)), narrow = answered(hardened(654.0, true));
+  EXPECT_TRUE(level.feasible);
+  EXPECT_LE(level.ap_mm, 0.5 + 1e-9);
+  EXPECT_TRUE(narrow.feasible);
+  EXPECT_LE(narrow.ae_mm, 1.0 + 1e-9);
+  EXPECT_LE(narrow.ap_mm, 10.0 + 1e-9);
+  EXPECT_GT(narrow.ap_mm * narrow.ae_mm * narrow.feed_mm_min, level.ap_mm * level.ae_mm * level.feed_mm_min);
+  EXPECT_GT(answered(hardened(481.0, false)).ap_mm, 0.5 + 1e-9);
+}
+
 }  // namespace
 }  // namespace capstan::optimise

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/feeds.h"
+#include "planner/model/plan/cutter/ramp.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -155,6 +157,75 @@ TEST(Feeds, TellAPlungeThatExceedsThePower) {
   EXPECT_LE(feeds(q, p).worst_excess, 1e-9);
   q.cut.machine.spindle.curve = {{60, 0, 0.001}, {1500, 0.15, 0}, {10000, 0.15, 0}};
   EXPECT_GT(feeds(q, p).worst_excess, 0.0);
+}
+
+/// `down`, measured: a plunge that leaves all but this area to others.
+FeedQuestion plunged(double area_mm2) {
+  FeedQuestion q = question();
+  q.samples = {{.move = 1,
+                .ap_mm = 5.0,
+                .ae_mm = 10.0,
+                .plunge = true,
+                .at_mm = 5.0,
+                .step_mm = 5.0,
+                .csa_mm2 = area_mm2}};
+  return q;
+}
+
+// A cutter that comes down on a small rest cuts that rest: drilling's specific force, kc1.1 (f / z)^-mc, times
+// the area times the feed, and no more torque than this power has at the speed.
+TEST(Feeds, OfAPlungeHaveThePowerOfTheAreaBelowTheCutter) {
+  constexpr double kArea = 5.0;
+  const FeedQuestion q = plunged(kArea);
+  const auto a = feeds(q, down(MoveRole::kPlunge));
+  const double feed = a.schedule.feed_mm_min[1];
+  const double kc = 1800.0 * std::pow(feed / 16000.0, -0.22);
+  const double margin = drilling_margin_of(q.cut).factor();
+  EXPECT_NEAR(a.peak.power_w, margin * kc * kArea * feed / 60000.0, 1e-6 * a.peak.power_w);
+  EXPECT_NEAR(a.peak.torque_nm, a.peak.power_w * 60.0 / (2.0 * pi * 4000.0), 1e-9);
+  EXPECT_NEAR(a.peak.mrr_mm3_min, kArea * feed, 1e-9);
+}
+
+TEST(Feeds, OfAPlungeIntoTheWholeDiscAreThoseOfTheSolid) {
+  const CutterPath p = down(MoveRole::kPlunge);
+  const auto solid = feeds(plunged(0.0), p);
+  for (const double area : {25.0 * pi, 100.0}) {  // a map knows the rim to a cell
+    const auto a = feeds(plunged(area), p);
+    EXPECT_NEAR(a.peak.power_w, solid.peak.power_w, 1e-9 * solid.peak.power_w);
+    EXPECT_EQ(a.schedule.feed_mm_min, solid.schedule.feed_mm_min);
+  }
+}
+
+// 30 W do not drill 10 mm into steel, but take 1 mm2 of it: 1800 (h)^-0.22 N/mm2, some 7000 at most.
+TEST(Feeds, OfAPlungeOntoASmallRestAreWithinASmallSpindle) {
+  const CutterPath p = down(MoveRole::kPlunge);
+  for (const double area : {0.0, 1.0}) {
+    FeedQuestion q = plunged(area);
+    q.cut.machine.spindle.curve = {{60, 0, 0.191}, {1500, 30, 0}, {10000, 30, 0}};
+    const auto a = feeds(q, p);
+    if (area > 0.0) {
+      EXPECT_LE(a.worst_excess, 1e-9);
+    } else {
+      EXPECT_GT(a.worst_excess, 0.0);
+    }
+  }
+}
+
+// A ramp goes at half the feed of a slot with a cutter that states no angle (model::ramp_of): 400 of 800, not at
+// the three tenths of a plunge, and that is what is told.
+TEST(Feeds, TellOfARampTheFeedThatItsEndAllows) {
+  FeedQuestion q = question();
+  CutterPath p;
+  p.start({0, 0, 0});
+  p.line({50, 0, -1}, MoveRole::kRamp);
+  cut_along(q, p, 1, 0.5, 2.0);
+  const auto a = feeds(q, p);
+  const double share = model::ramp_of(q.cut.cutter, q.cut.material).feed_share;
+  EXPECT_NEAR(a.schedule.feed_mm_min[1], share * q.feed_mm_min, 0.2);
+  const auto end = std::find_if(a.held_by.begin(), a.held_by.end(),
+                                [](const auto& l) { return l.name == "end_cutting"; });
+  ASSERT_NE(end, a.held_by.end());
+  EXPECT_NEAR(end->limit, share * q.feed_mm_min, 0.2);
 }
 
 TEST(Feeds, OfTheConstantKindKeepAMovesOwnFactor) {
