@@ -23,9 +23,17 @@ Diagnostic unknown(std::string_view id, std::string why) {
 }  // namespace
 
 struct CaseBase::Impl {
-  Impl(Log l, Job& job) : log(std::move(l)), search(log) {
-    search.weigh(log.metric());
-    for (Diagnostic& d : log.take_faults()) job.report(std::move(d));
+  explicit Impl(Log l) : log(std::move(l)), search(log) {}
+
+  /// The base of a log. Fails as the log does, and where its metric cannot be read.
+  static Result<CaseBase> base_of(Result<Log> log, Job& job) {
+    if (!log) return fail(log.error());
+    auto impl = std::make_unique<Impl>(*std::move(log));
+    const Result<Metric> metric = impl->log.metric();
+    if (!metric) return fail(metric.error());
+    impl->search.weigh(*metric);
+    for (Diagnostic& d : impl->log.take_faults()) job.report(std::move(d));
+    return CaseBase(std::move(impl));
   }
 
   Log log;
@@ -139,21 +147,15 @@ Result<Log> open_log(const std::string& uri, Missing missing, Job& job) {
 }  // namespace
 
 Result<CaseBase> CaseBase::open(const std::string& uri, Job& job) {
-  Result<Log> log = open_log(uri, Missing::kRefuse, job);
-  if (!log) return fail(log.error());
-  return CaseBase(std::make_unique<Impl>(*std::move(log), job));
+  return Impl::base_of(open_log(uri, Missing::kRefuse, job), job);
 }
 
 Result<CaseBase> CaseBase::open_or_create(const std::string& uri, Job& job) {
-  Result<Log> log = open_log(uri, Missing::kCreate, job);
-  if (!log) return fail(log.error());
-  return CaseBase(std::make_unique<Impl>(*std::move(log), job));
+  return Impl::base_of(open_log(uri, Missing::kCreate, job), job);
 }
 
 Result<CaseBase> Intake::read(Job& job) {
-  Result<Log> log = Log::open(std::move(store_), job);
-  if (!log) return fail(log.error());
-  return CaseBase(std::make_unique<CaseBase::Impl>(*std::move(log), job));
+  return CaseBase::Impl::base_of(Log::open(std::move(store_), job), job);
 }
 
 Status CaseBase::add(const Case& c) { return add(std::span(&c, 1)); }
@@ -216,7 +218,9 @@ std::vector<CaseBase::LaterVerdict> CaseBase::later_verdicts(std::string_view id
   if (!entry) return out;
   for (const Note& note : impl_->log.notes()) {
     if (note.entry != *entry) continue;
-    const Remark remark = impl_->log.remark(note).value_or(Remark{"", "", "(altered: not shown)"});
+    const Result<std::optional<Remark>> read = impl_->log.remark(note);
+    const Remark remark = read ? read->value_or(Remark{"", "", "(altered: not shown)"})
+                               : Remark{"", "", "(not read: " + read.error().message + ")"};
     LaterVerdict said{std::nullopt, remark.by, remark.time_utc, remark.reason};
     if (note.kind == RowKind::kJudgement) said.verdict = note.verdict;
     out.push_back(std::move(said));

@@ -106,5 +106,6 @@ class FlannIndex final : public Index {
 }  // namespace
 
 std::unique_ptr<Index> make_index(Points points) { return std::make_unique<FlannIndex>(std::move(points)); }
+bool built_with_flann() { return true; }
 
 }  // namespace capstan::casebase

@@ -48,6 +48,7 @@ class Index {
 [[nodiscard]] std::unique_ptr<Index> make_tree_index(Points points);
 /// FLANN's exact single tree; the built-in one in a build without FLANN.
 [[nodiscard]] std::unique_ptr<Index> make_index(Points points);
+[[nodiscard]] bool built_with_flann();
 
 /// The one formula of all indices: the sum of (w (a - b))^2, in four sums of every fourth dimension. Each of
 /// its steps rounds monotonically.

@@ -3,5 +3,6 @@
 namespace capstan::casebase {
 
 std::unique_ptr<Index> make_index(Points points) { return make_tree_index(std::move(points)); }
+bool built_with_flann() { return false; }
 
 }  // namespace capstan::casebase

@@ -32,6 +32,7 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
 
 struct Columns {
   std::vector<std::optional<Column>> of;
+  std::size_t least = 0;  // that a first row may have; the columns behind its cells are not there. 0: all
   char separator = '\0';  // not known yet
   double time_factor = 1.0;
 };
@@ -114,6 +115,9 @@ Result<LogEnd> read_rows(std::istream& in, const std::string& file, const LogUni
     if (columns->separator == '\0') columns->separator = separator_in(text);
     Reading r{.line = lines.number()};
     const auto cells = cells_of(text, columns->separator);
+    if (columns->least != 0 && cells.size() >= columns->least && cells.size() < columns->of.size())
+      columns->of.resize(cells.size());
+    columns->least = 0;
     auto wrong = read_row(*columns, cells, out.dated, r);
     if (!wrong) {
       r.t_s *= columns->time_factor;
@@ -150,7 +154,8 @@ Result<LogEnd> read_linuxcnc(std::istream& in, const std::string& file, const Lo
                              Job& job) {
   std::vector<std::string> names = {"time"};
   if (columns.empty()) {
-    names.insert(names.end(), {"x", "y", "z", "motion.current-vel", "motion.program-line"});
+    names.insert(names.end(),
+                 {"x", "y", "z", "motion.current-vel", "motion.program-line", "spindle_rpm", "tool", "mark"});
   } else {
     names.insert(names.end(), columns.begin(), columns.end());
   }
@@ -158,6 +163,8 @@ Result<LogEnd> read_linuxcnc(std::istream& in, const std::string& file, const Lo
   own.mm_min = 60.0 * units.mm;  // HAL's velocities are per second
   auto known = columns_of(names, own, file, 0);
   if (!known) return tl::unexpected(known.error());
+  constexpr std::size_t kLeast = 6;  // up to the line of the program
+  if (columns.empty()) known->least = kLeast;
   known->separator = ' ';
   known->time_factor = period_s;
   return read_rows(in, file, own, *std::move(known), sink, job);

@@ -284,25 +284,24 @@ Result<std::size_t> Log::adopt(std::span<const NewRow> rows) {
   return added;
 }
 
-Metric Log::metric() const {
-  if (!metric_) return {};
+Result<Metric> Log::metric() const {
+  if (!metric_) return Metric{};
   std::optional<Metric> found;
   const std::array<std::int64_t, 1> number = {metric_->first};
   const std::lock_guard lock(shared_->mutex);
   const Status read = store_->bodies(number, [&](std::size_t, std::string_view body) {
     if (sum_of(body) == metric_->second) found = metric_of(body);
   });
-  if (read && found) return *found;
+  if (!read) return fail(read.error());
+  if (found) return *found;
   shared_->damaged = shared_->lost_metric = true;
   shared_->faults.push_back(
-      read ? Diagnostic{.code = "CASE-ROW",
-                        .severity = Severity::kWarning,
-                        .message = fmt::format("the metric of row {} was altered or is gone: distances are "
-                                               "by the fixed scales",
-                                               metric_->first),
-                        .file = name()}
-           : read.error());
-  return {};
+      {.code = "CASE-ROW",
+       .severity = Severity::kWarning,
+       .message = fmt::format(
+           "the metric of row {} was altered or is gone: distances are by the fixed scales", metric_->first),
+       .file = name()});
+  return Metric{};
 }
 
 /// The case of a body if it is what was stored; `why` says why not.
@@ -358,14 +357,15 @@ std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted
   return out;
 }
 
-std::optional<Remark> Log::remark(const Note& note) const {
+Result<std::optional<Remark>> Log::remark(const Note& note) const {
   std::optional<Remark> out;
   const std::array<std::int64_t, 1> number = {note.number};
   const std::lock_guard lock(shared_->mutex);
   const Status read = store_->bodies(number, [&](std::size_t, std::string_view body) {
     if (sum_of(body) == note.body) out = remark_of(body);
   });
-  return read ? out : std::nullopt;
+  if (!read) return fail(read.error());
+  return out;
 }
 
 std::vector<Diagnostic> Log::take_faults() const {

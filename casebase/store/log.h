@@ -68,8 +68,9 @@ class Log {
   /// Whether all rows that the totals speak of are there, with the heads and the metric that were stored.
   [[nodiscard]] bool whole() const;
   /// The metric that was stored last. The fixed scales where there is none, or where it is not what was
-  /// stored, which is kept for `take_faults`.
-  [[nodiscard]] Metric metric() const;
+  /// stored, which is kept for `take_faults`. Fails as reading the store does, which says nothing of the row:
+  /// by other scales the nearest cases may be others.
+  [[nodiscard]] Result<Metric> metric() const;
 
   /// Appends those cases that are not there. Needs cases without fault, with their ids set. Rows that others
   /// appended since are taken in, too.
@@ -87,8 +88,8 @@ class Log {
   /// The cases of these entries, verified, with their last verdict; nothing in the place of one that is not
   /// what was stored. What was wrong is kept for `take_faults`.
   [[nodiscard]] std::vector<std::optional<Case>> load(std::span<const std::uint32_t> entries) const;
-  /// The remark of a note; nothing when it is not what was stored.
-  [[nodiscard]] std::optional<Remark> remark(const Note& note) const;
+  /// The remark of a note; nothing when it is not what was stored. Fails as reading the store does.
+  [[nodiscard]] Result<std::optional<Remark>> remark(const Note& note) const;
   /// What `load` found altered or gone since this was asked last, each row once.
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 

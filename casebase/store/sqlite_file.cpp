@@ -18,7 +18,6 @@ void Finalize::operator()(sqlite3_stmt* s) const { sqlite3_finalize(s); }
 
 bool SqliteFile::read_only() const { return sqlite3_db_readonly(db_.get(), "main") != 0; }
 int SqliteFile::changes() const { return sqlite3_changes(db_.get()); }
-void SqliteFile::roll_back() { sqlite3_exec(db_.get(), "ROLLBACK", nullptr, nullptr, nullptr); }
 
 std::string_view bytes_at(sqlite3_stmt* s, int column) {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(s, column));
@@ -51,6 +50,18 @@ Diagnostic SqliteFile::sqlite_fault(std::string_view doing) const {
     default:
       return fault("CASE-STORE", why);
   }
+}
+
+Status SqliteFile::begin(const std::string& how, std::string_view doing) {
+  roll_back();  // what could not be ended before
+  return run(how, doing);
+}
+
+void SqliteFile::roll_back() {
+  if (sqlite3_get_autocommit(db_.get()) != 0) return;
+  // Prepared beforehand: what is to be undone may have failed for want of memory.
+  sqlite3_step(rollback_.get());
+  sqlite3_reset(rollback_.get());
 }
 
 Status SqliteFile::run(const std::string& sql, std::string_view doing) {
@@ -86,7 +97,10 @@ Status SqliteFile::harden(int busy_ms) {
   sqlite3_limit(db_.get(), SQLITE_LIMIT_LENGTH, kMaxValueBytes);
   sqlite3_limit(db_.get(), SQLITE_LIMIT_ATTACHED, 0);
   sqlite3_busy_timeout(db_.get(), busy_ms);
-  return run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA synchronous = FULL", "open it");
+  // EXTRA: the folder is synchronised, too, once the journal is deleted. Else the journal of a commit may
+  // come back with the power, and what was acknowledged is rolled back (SQLite, "Pragma statements",
+  // synchronous).
+  return run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA synchronous = EXTRA", "open it");
 }
 
 Status SqliteFile::open(bool create, int busy_ms) {
@@ -100,7 +114,11 @@ Status SqliteFile::open(bool create, int busy_ms) {
   db_.reset(raw);
   if (code != SQLITE_OK)
     return fail(fault("CASE-OPEN", fmt::format("cannot open it: {}", sqlite3_errstr(code))));
-  return harden(busy_ms);
+  if (Status s = harden(busy_ms); !s) return s;
+  Result<Statement> rollback = prepare("ROLLBACK", "open it");
+  if (!rollback) return fail(rollback.error());
+  rollback_ = *std::move(rollback);
+  return {};
 }
 
 Status SqliteFile::check_schema(std::span<const std::pair<std::string_view, std::string>> tables) {

@@ -47,6 +47,9 @@ class SqliteFile {
   Result<Statement> prepare(const std::string& sql, std::string_view doing);
   /// The one row and column of a query, as an integer.
   Result<std::int64_t> integer(const std::string& sql);
+  /// Begins a transaction (`BEGIN`, `BEGIN IMMEDIATE`).
+  Status begin(const std::string& how, std::string_view doing);
+  /// Ends the transaction without a change, where there is one, and lets go of its lock, also without memory.
   void roll_back();
 
   /// Whether the schema is these tables, by name, to the letter and nothing else. Fails CASE-SCHEMA.
@@ -57,6 +60,7 @@ class SqliteFile {
  private:
   std::string path_;
   Database db_;
+  Statement rollback_;
   bool checked_ = false;
 
   Status harden(int busy_ms);

@@ -51,6 +51,9 @@ class SqliteStore final : public Store, private SqliteFile {
   /// The rows of a file of version 1, until something is added to it.
   std::optional<OldRows> old_;
 
+  [[nodiscard]] Diagnostic totals_gone() const {
+    return fault("CASE-DAMAGED", "its totals are gone", "restore the file from a copy");
+  }
   Status make_tables();
   Status make_where_empty();
   Result<std::int64_t> version();
@@ -86,7 +89,7 @@ Status SqliteStore::make_tables() {
 
 /// In a file without any table, which is what SQLite opens where there was none.
 Status SqliteStore::make_where_empty() {
-  if (Status s = run("BEGIN IMMEDIATE", "make the case base"); !s) return s;
+  if (Status s = begin("BEGIN IMMEDIATE", "make the case base"); !s) return s;
   const Result<std::int64_t> tables = integer("SELECT count(*) FROM sqlite_schema");
   const Result<std::int64_t> application = integer("PRAGMA application_id");
   Status made;
@@ -120,7 +123,7 @@ Status SqliteStore::connect(Missing missing, int busy_ms, Job& job) {
   const Result<std::int64_t> of = version();
   if (!of) return fail(of.error());
   if (*of != 1) return {};
-  if (Status s = run("BEGIN", "read it"); !s) return s;
+  if (Status s = begin("BEGIN", "read it"); !s) return s;
   Result<OldRows> old = read_version_1(job);
   roll_back();  // nothing was written
   if (!old) return fail(old.error());
@@ -162,8 +165,7 @@ Result<OldTotals> SqliteStore::old_totals() {
   if (code != SQLITE_ROW && code != SQLITE_DONE) return fail(sqlite_fault("read its totals"));
   OldTotals t;
   if (code == SQLITE_ROW) t = {sqlite3_column_int64(s->get(), 0), std::string(bytes_at(s->get(), 1))};
-  if (t.ids.size() != 32)
-    return fail(fault("CASE-DAMAGED", "its totals are gone", "restore the file from a copy"));
+  if (t.ids.size() != 32) return fail(totals_gone());
   return t;
 }
 
@@ -235,7 +237,7 @@ Result<std::string> SqliteStore::read(std::int64_t after, const TakeHead& take) 
     }
     return old_->damaged ? std::string() : bytes_of(old_->totals);
   }
-  if (Status s = run("BEGIN", "read it"); !s) return fail(s.error());
+  if (Status s = begin("BEGIN", "read it"); !s) return fail(s.error());
   const Result<std::int64_t> of = check_version();
   Status done = of ? Status() : fail(of.error());
   Result<std::string> stated = done ? totals() : Result<std::string>(fail(done.error()));
@@ -258,10 +260,14 @@ Status SqliteStore::bodies(std::span<const std::int64_t> numbers, const TakeBody
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     sqlite3_bind_int64(s->get(), 1, numbers[i]);
     const int code = sqlite3_step(s->get());
-    // A row in a broken page is as good as gone; only what is nobody's fault may be tried again.
-    if ((code & 0xff) == SQLITE_BUSY || (code & 0xff) == SQLITE_IOERR)
+    // A row in a broken page is as good as gone. Whatever else hinders reading says nothing of the row, and
+    // may be tried again: another program, the disk, no memory.
+    constexpr std::array kGone = {SQLITE_DONE, SQLITE_CORRUPT, SQLITE_NOTADB, SQLITE_TOOBIG};
+    if (code == SQLITE_ROW) {
+      take(i, bytes_at(s->get(), 0));
+    } else if (std::find(kGone.begin(), kGone.end(), code & 0xff) == kGone.end()) {
       return fail(sqlite_fault("read a case"));
-    if (code == SQLITE_ROW) take(i, bytes_at(s->get(), 0));
+    }
     sqlite3_reset(s->get());
   }
   return {};
@@ -271,7 +277,9 @@ Status SqliteStore::bodies(std::span<const std::int64_t> numbers, const TakeBody
 Status SqliteStore::check_edge(const Totals& totals) {
   const Result<std::int64_t> free = integer("PRAGMA freelist_count"), pages = integer("PRAGMA page_count"),
                              size = integer("PRAGMA page_size");
-  if (!free || !pages || !size) return fail(sqlite_fault("check it"));
+  for (const Result<std::int64_t>* of : {&free, &pages, &size}) {
+    if (!*of) return fail(of->error());
+  }
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(std::filesystem::absolute(path()), unknown);
   if (*free != 0 || unknown || bytes != static_cast<std::uintmax_t>(*pages * *size)) {
@@ -298,7 +306,9 @@ Status SqliteStore::insert(const Appended& appended) {
   Result<Statement> head = prepare("INSERT INTO capstan_head VALUES(?, ?)", "add a case");
   Result<Statement> body = prepare("INSERT INTO capstan_body VALUES(?, ?)", "add a case");
   Result<Statement> total = prepare("UPDATE capstan_total SET totals = ? WHERE one = 1", "add a case");
-  if (!head || !body || !total) return fail(sqlite_fault("add a case"));
+  for (const Result<Statement>* s : {&head, &body, &total}) {
+    if (!*s) return fail(s->error());
+  }
   const auto put = [&](const Statement& s, int at, const std::string& bytes) {
     sqlite3_bind_blob(s.get(), at, bytes.data(), static_cast<int>(bytes.size()), SQLITE_STATIC);
     const bool done = sqlite3_step(s.get()) == SQLITE_DONE;
@@ -311,7 +321,8 @@ Status SqliteStore::insert(const Appended& appended) {
       if (!put(*s, 2, *bytes)) return fail(sqlite_fault("add a case"));
     }
   }
-  if (!put(*total, 1, appended.totals) || changes() != 1) return fail(sqlite_fault("add a case"));
+  if (!put(*total, 1, appended.totals)) return fail(sqlite_fault("add a case"));
+  if (changes() != 1) return fail(totals_gone());
   return insert_ids(appended.rows);
 }
 
@@ -352,7 +363,7 @@ Status SqliteStore::found(std::span<const std::string> ids, const TakeHead& take
       "read its cases");
   Result<Statement> last =
       prepare("SELECT number, head FROM capstan_head ORDER BY number DESC LIMIT 1", "read its cases");
-  if (!by_id || !last) return fail(sqlite_fault("read its cases"));
+  if (!by_id || !last) return fail(!by_id ? by_id.error() : last.error());
   const auto given = [&](sqlite3_stmt* s) -> Status {
     const int code = sqlite3_step(s);
     if (code != SQLITE_ROW && code != SQLITE_DONE) return fail(sqlite_fault("read its cases"));
@@ -413,7 +424,7 @@ Status SqliteStore::append_within(const std::function<Status()>& heads, const De
 /// Writes what `act` changed, or nothing where it fails.
 Status SqliteStore::within_transaction(const std::function<Status(bool& changed)>& act) {
   if (read_only()) return fail(fault("CASE-READ-ONLY", "the case base may only be read"));
-  if (Status s = run("BEGIN IMMEDIATE", "add a case"); !s) return s;
+  if (Status s = begin("BEGIN IMMEDIATE", "add a case"); !s) return s;
   bool changed = false;
   Status added = act(changed);
   if (added && changed) added = run("COMMIT", "store what was added");

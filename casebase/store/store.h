@@ -60,7 +60,8 @@ class Store {
   [[nodiscard]] virtual Status bodies(std::span<const std::int64_t> numbers, const TakeBody& take) = 0;
   /// In one transaction, with no other writer between: gives the rows behind `after`, asks what to append,
   /// and appends it. When it returns well, all of it is stored for good; when it fails, nothing is, but where
-  /// the connection was lost the outcome is unknown, and the same call may be made again.
+  /// the connection was lost, or the disk failed in the commit itself, the outcome is unknown, and the same
+  /// call may be made again.
   [[nodiscard]] virtual Status append(std::int64_t after, const TakeHead& take, const Decide& decide) = 0;
   /// Whether the store has an index of the cases by id, so that it could do as `append` does without giving
   /// the rows behind any: it gave those that these ids (`id_bytes_of`) have and the last one, in any order,

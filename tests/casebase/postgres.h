@@ -1,8 +1,10 @@
 #pragma once
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <pwd.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +15,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,34 +24,48 @@
 
 namespace capstan::casebase {
 
-/// A server of PostgreSQL of its own: a private folder, a socket in it, no port. Where the tests run as root,
-/// who must not run a server, it runs as `postgres` or `nobody`.
+/// A server of PostgreSQL of its own: a private folder and a socket in it. Where the tests run as root, who
+/// must not run a server, it runs as `postgres` or `nobody`.
 class PostgresServer {
  public:
+  /// How the tests reach it: by the socket, without a password, and it has no port; or by TCP on 127.0.0.1,
+  /// at a port that nobody had, with a password.
+  enum class Way { kSocket, kTcp };
+  static constexpr const char* kPassword = "loopback";
+
   /// Null where no server is installed.
-  static std::unique_ptr<PostgresServer> make() {
+  static std::unique_ptr<PostgresServer> make(Way way) {
     const std::string programs = programs_folder();
     if (programs.empty()) return nullptr;
-    auto server = std::unique_ptr<PostgresServer>(new PostgresServer(programs));
-    if (!server->run({programs + "/initdb", "-D", server->data(), "-A", "trust", "-U", "shop", "-N"}) ||
+    auto server = std::unique_ptr<PostgresServer>(new PostgresServer(programs, way));
+    const std::string by_host = way == Way::kTcp ? "scram-sha-256" : "reject";
+    if (!server->run({programs + "/initdb", "-D", server->data(), "--auth-local=trust",
+                      "--auth-host=" + by_host, "-U", "shop", "-N"}) ||
         !server->start())
       return nullptr;
+    if (way == Way::kTcp)
+      server->sql("postgres", "ALTER ROLE shop PASSWORD '" + std::string(kPassword) + "'");
     return server;
   }
   ~PostgresServer() { stop(SIGINT); }
   PostgresServer(const PostgresServer&) = delete;
   PostgresServer& operator=(const PostgresServer&) = delete;
 
-  /// The URI of a database; `more` behind the user, such as ":password".
+  /// The URI of a database; `more` behind the user, such as ":password"; where there is nothing, what lets
+  /// in.
   [[nodiscard]] std::string uri(const std::string& database, const std::string& more = "") const {
-    return "postgresql://shop" + more + "@/" + database + "?host=" + folder_.path().string();
+    if (way_ == Way::kSocket)
+      return "postgresql://shop" + more + "@/" + database + "?host=" + folder_.path().string();
+    return "postgresql://shop" + (more.empty() ? ":" + std::string(kPassword) : more) +
+           "@127.0.0.1:" + std::to_string(port_) + "/" + database;
   }
   /// Runs a statement as psql does; what it prints.
   std::string sql(const std::string& database, const std::string& statement) const {
     const std::string out = folder_.file("out");
-    EXPECT_TRUE(run({programs_ + "/psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-h",
-                     folder_.path().string(), "-U", "shop", "-d", database, "-c", statement},
-                    out))
+    EXPECT_TRUE(run(
+        {programs_ + "/psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-h", folder_.path().string(),
+         "-p", std::to_string(port_), "-U", "shop", "-d", database, "-c", statement},
+        out))
         << statement;
     std::ifstream in(out);
     std::string text((std::istreambuf_iterator<char>(in)), {});
@@ -59,11 +76,17 @@ class PostgresServer {
     for (int i = 0; i < kTurns; ++i) {
       // One that was killed leaves workers for a moment, and no other starts until they are gone.
       if (server_ <= 0 || waitpid(server_, nullptr, WNOHANG) == server_) {
-        server_ = launch({programs_ + "/postgres", "-D", data(), "-k", folder_.path().string(), "-c",
-                          "listen_addresses=", "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
-                         folder_.file("log"));
+        // Another program may have taken the port meanwhile: until it was reached once, the next one is asked
+        // for.
+        if (way_ == Way::kTcp && !reached_) port_ = free_port();
+        server_ =
+            launch({programs_ + "/postgres", "-D", data(), "-k", folder_.path().string(), "-c",
+                    std::string("listen_addresses=") + (way_ == Way::kTcp ? "127.0.0.1" : ""), "-c",
+                    "port=" + std::to_string(port_), "-c", "shared_buffers=8MB", "-c", "max_connections=40"},
+                   folder_.file("log"));
       }
-      if (run({programs_ + "/pg_isready", "-q", "-h", folder_.path().string()})) return true;
+      if (run({programs_ + "/pg_isready", "-q", "-h", folder_.path().string(), "-p", std::to_string(port_)}))
+        return reached_ = true;
       usleep(20'000);
     }
     return false;
@@ -83,7 +106,7 @@ class PostgresServer {
 
  private:
   static constexpr int kTurns = 3000;  // of 20 ms: a machine may be busy
-  explicit PostgresServer(std::string programs) : programs_(std::move(programs)) {
+  PostgresServer(std::string programs, Way way) : programs_(std::move(programs)), way_(way) {
     if (geteuid() == 0) {
       user_ = getpwnam("postgres");
       if (user_ == nullptr) user_ = getpwnam("nobody");
@@ -103,6 +126,19 @@ class PostgresServer {
     const std::string of = std::to_string(server);
     std::ifstream in("/proc/" + of + "/task/" + of + "/children");
     return {std::istream_iterator<pid_t>(in), {}};
+  }
+  /// A port of 127.0.0.1 that nobody has.
+  static int free_port() {
+    const int fd = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(at);
+    auto* const address = reinterpret_cast<sockaddr*>(&at);
+    const bool bound = bind(fd, address, size) == 0 && getsockname(fd, address, &size) == 0;
+    EXPECT_TRUE(bound);
+    close(fd);
+    return ntohs(at.sin_port);
   }
   static std::string programs_folder() {
     std::vector<std::string> found;
@@ -138,6 +174,9 @@ class PostgresServer {
 
   Folder folder_;
   std::string programs_;
+  const Way way_;
+  int port_ = 5432;  // the name of the socket, too
+  bool reached_ = false;
   const passwd* user_ = nullptr;
   pid_t server_ = 0;
 };
@@ -147,10 +186,12 @@ class PostgresServer {
 class PostgresPlace {
  public:
   /// Null where there is no server, or the program was built without PostgreSQL.
-  static std::unique_ptr<PostgresPlace> make() {
-    static const std::unique_ptr<PostgresServer> kServer = PostgresServer::make();
-    if (!kServer) return nullptr;
-    auto place = std::unique_ptr<PostgresPlace>(new PostgresPlace(*kServer));
+  static std::unique_ptr<PostgresPlace> make(PostgresServer::Way way = PostgresServer::Way::kSocket) {
+    using Way = PostgresServer::Way;
+    static std::map<Way, std::unique_ptr<PostgresServer>> servers;  // of the program
+    if (!servers.contains(way)) servers[way] = PostgresServer::make(way);
+    if (!servers[way]) return nullptr;
+    auto place = std::unique_ptr<PostgresPlace>(new PostgresPlace(*servers[way]));
     Job job;
     const auto base = CaseBase::open(place->uri(), job);
     const bool built_without = !base && base.error().code == "CASE-URI";

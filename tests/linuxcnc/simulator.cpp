@@ -76,7 +76,9 @@ Record run(const Order& order) {
     (code == kAbsent || code == 127 ? out.absent : out.failed) = testing::slurp(folder.file("said.txt"));
     return out;
   }
-  out.failed = read_samples(testing::slurp(folder.file("samples.txt")), out);
+  std::string samples = testing::slurp(folder.file("samples.txt"));
+  out.failed = read_samples(samples, out);
+  if (order.keep_samples) out.samples = std::move(samples);
   return out;
 }
 

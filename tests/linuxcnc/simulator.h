@@ -11,6 +11,7 @@ struct Order {
   std::string program;                    ///< G-code
   std::string tools;                      ///< tool table (.tbl)
   std::vector<std::string> offsets = {};  ///< "G54:0,0,-58": where a work offset's zero is on the machine, mm
+  bool keep_samples = false;
   double rate = 16.0;  ///< how many times faster than real time; what is measured does not depend on it
 };
 
@@ -22,6 +23,7 @@ struct Record {
   std::vector<double> rpm;               ///< of the spindle as it turns
   std::vector<int> tool;                 ///< in the spindle; 0: none
   std::vector<int> mark;                 ///< set by who runs the machine, to tell runs from each other
+  std::string samples;                   ///< the same as the sampler wrote it, where it was to be kept
   std::string absent;                    ///< why there is no LinuxCNC to ask; empty: there is
   std::string failed;                    ///< why the program did not run to its end; empty: it did
   [[nodiscard]] std::size_t size() const { return line.size(); }

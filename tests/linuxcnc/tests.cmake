@@ -15,7 +15,7 @@ target_compile_definitions(capstan_simulated PRIVATE
 
 file(GLOB simulated_tests CONFIGURE_DEPENDS ${simulated}/*_test.cpp)
 add_executable(linuxcnc_test ${simulated_tests})
-target_link_libraries(linuxcnc_test PRIVATE capstan_simulated capstan::tooling GTest::gmock GTest::gtest_main)
+target_link_libraries(linuxcnc_test PRIVATE capstan_simulated capstan::tooling capstan::casebase GTest::gmock GTest::gtest_main)
 capstan_compile_as_test(linuxcnc_test)
 # LinuxCNC's shared memory has fixed keys: one at a time. They mostly wait for its clock, so they begin first and
 # other tests run beside them; what is measured counts servo periods, and does not depend on the load.

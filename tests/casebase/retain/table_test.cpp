@@ -91,6 +91,25 @@ TEST(LinuxCncLog, IsSplitByTheMarkersOfItsProgram) {
   EXPECT_DOUBLE_EQ(steps[1].moving_s, 1.0);
 }
 
+TEST(LinuxCncLog, HasAsManyOfTheMachinesPinsAsItsFirstRow) {
+  // x y z speed line rpm tool mark, as examples/linuxcnc/machine/machine.hal adds them; then without the
+  // last.
+  for (const std::string mark : {" 0", ""}) {
+    std::string text;
+    for (int i = 0; i < 20; ++i) text += std::to_string(1000 * i) + " 1 2 3 5 4 1200 7" + mark + "\n";
+    std::istringstream in(text + "20000 1 2 3\n");
+    Job job;
+    std::vector<Reading> read;
+    const auto end = read_linuxcnc(
+        in, "samples", {}, {}, 0.001, [&](const Reading& r) { read.push_back(r); }, job);
+    ASSERT_TRUE(end) << to_text(end.error());
+    ASSERT_EQ(read.size(), 20U);
+    EXPECT_EQ(read[19].tool, 7);
+    EXPECT_EQ(read[19].program_line, 4);
+    EXPECT_EQ(job.count(Severity::kWarning), 1U);  // the row that is cut short
+  }
+}
+
 TEST(Splitter, KeepsAnEventWhereALimitIsExceededForLongEnough) {
   SplitOptions options{.triggers = {{Item::kLag, 0.01, 0.0}, {Item::kLoad, 30.0, 1.5}},
                        .runs_unless_said = true};

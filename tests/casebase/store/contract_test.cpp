@@ -36,8 +36,9 @@ class InAFile final : public Where {
 class OnAServer final : public Where {
  public:
   explicit OnAServer(std::unique_ptr<PostgresPlace> place) : place_(std::move(place)) {}
+  template <PostgresServer::Way kWay>
   static std::unique_ptr<Where> make() {
-    auto place = PostgresPlace::make();
+    auto place = PostgresPlace::make(kWay);
     return place ? std::make_unique<OnAServer>(std::move(place)) : nullptr;
   }
   std::string uri() const override { return place_->uri(); }
@@ -299,10 +300,12 @@ TEST_P(StoreContract, IsWholeAfterItsWriterWasKilled) {
   expect_whole_after_killed_writers(where_->uri(), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StoreContract,
-                         testing::Values(StoreKind{"sqlite", [] { return std::make_unique<InAFile>(); }},
-                                         StoreKind{"postgresql", OnAServer::make}),
-                         [](const auto& kind) { return kind.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, StoreContract,
+    testing::Values(StoreKind{"sqlite", [] { return std::make_unique<InAFile>(); }},
+                    StoreKind{"postgresql", OnAServer::make<PostgresServer::Way::kSocket>},
+                    StoreKind{"postgresql_over_tcp", OnAServer::make<PostgresServer::Way::kTcp>}),
+    [](const auto& kind) { return kind.param.name; });
 
 }  // namespace
 }  // namespace capstan::casebase

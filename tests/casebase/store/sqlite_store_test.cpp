@@ -13,6 +13,7 @@
 #include <set>
 
 #include "tests/casebase/sample.h"
+#include "tests/casebase/store/failing_disk.h"
 
 namespace capstan::casebase {
 namespace {
@@ -23,15 +24,6 @@ std::string code_of_opening(const std::string& path) {
   Job job;
   const auto base = CaseBase::open(path, job);
   return base ? "" : base.error().code;
-}
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_bytes(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 TEST(CaseStore, KeepsWhatWasAdded) {
@@ -79,9 +71,9 @@ TEST(CaseStore, RefusesOtherUris) {
 
 TEST(CaseStore, RefusesWhatIsNoCaseBase) {
   const Folder folder;
-  write_bytes(folder.file("empty"), "");
+  write_file(folder.file("empty"), "");
   EXPECT_EQ(code_of_opening(folder.file("empty")), "CASE-SCHEMA");
-  write_bytes(folder.file("text"), std::string(5000, 'x'));
+  write_file(folder.file("text"), std::string(5000, 'x'));
   EXPECT_EQ(code_of_opening(folder.file("text")), "CASE-SCHEMA");
   tamper(folder.file("other"), "CREATE TABLE people(name)");
   EXPECT_EQ(code_of_opening(folder.file("other")), "CASE-SCHEMA");
@@ -304,11 +296,11 @@ TEST(CaseStore, NoticesThatAnOlderStateCameBack) {
   fill(folder.file(), {sample(10.0)});
   tamper(folder.file(), "CREATE TABLE kept AS SELECT totals FROM capstan_total");
   tamper(folder.file(), "ALTER TABLE kept RENAME TO kept2; DROP TABLE kept2");
-  const std::string before = bytes_of(folder.file());
+  const std::string before = bytes_of_file(folder.file());
   fill(folder.file(), {sample(20.0)});
   Job job;
   auto open = CaseBase::open(folder.file(), job).value();
-  write_bytes(folder.file(), before);  // behind the back of one who has it open
+  write_file(folder.file(), before);  // behind the back of one who has it open
   EXPECT_EQ(open.add(sample(30.0)).error().code, "CASE-DAMAGED");
 }
 
@@ -340,7 +332,7 @@ class DamagedStore : public testing::Test {
     const std::vector<Case> cases = random_cases(60, 21);
     fill(folder_.file(), cases);
     for (const Case& c : cases) originals_[c.id] = c;
-    bytes_ = bytes_of(folder_.file());
+    bytes_ = bytes_of_file(folder_.file());
     ASSERT_GT(bytes_.size(), 8192u);
   }
   Folder folder_;
@@ -359,7 +351,7 @@ TEST_F(DamagedStore, NeverGivesAnAlteredRowForAFlippedBit) {
     std::string broken = bytes_;
     broken[at] = static_cast<char>(broken[at] ^ (1 << bit));
     const std::string path = folder_.file("broken.db");
-    write_bytes(path, broken);
+    write_file(path, broken);
     ++count[expect_honest(path, originals_, "bit " + std::to_string(bit) + " of byte " + std::to_string(at))];
     std::filesystem::remove(path + "-wal");  // a flipped header may ask for one
     std::filesystem::remove(path + "-shm");
@@ -393,7 +385,7 @@ TEST_F(DamagedStore, TakesACaseOrRefusesItAfterAFlippedBitButLosesNone) {
     std::string broken = bytes_;
     broken[at] = static_cast<char>(broken[at] ^ (1 << (random() % 8)));
     const std::string path = folder_.file("broken.db");
-    write_bytes(path, broken);
+    write_file(path, broken);
     const std::set<std::string> before = given_by(path);
     {
       Job job;
@@ -419,7 +411,7 @@ TEST_F(DamagedStore, NeverGivesAnAlteredRowForManyFlippedBytesOrATruncation) {
     for (int n = 0; n < 20; ++n) broken[random() % broken.size()] = static_cast<char>(random());
     if (i % 2 == 0) broken = bytes_.substr(0, random() % bytes_.size());
     const std::string path = folder_.file("broken.db");
-    write_bytes(path, broken);
+    write_file(path, broken);
     expect_honest(path, originals_, "round " + std::to_string(i));
     std::filesystem::remove(path + "-wal");
     std::filesystem::remove(path + "-shm");

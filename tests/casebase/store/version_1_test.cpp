@@ -3,30 +3,14 @@
 
 #include "casebase/casebase.h"
 #include "tests/casebase/sample.h"
+#include "tests/casebase/store/old_files.h"
 
 namespace capstan::casebase {
 namespace {
 
-// Two cases as the last program of version 1 stored them, their ids and totals included.
-constexpr const char* kOldRows =
-    "INSERT INTO capstan_case VALUES('b91149ff5f6cbe84627d125213b26e6d', 'DRILLING', 'P/mild_steel', "
-    "'hss/twist_drill', 'generic_vmc', 'good', 'measured', 'part 1', 20.0, 20.0, 0.0, 0.0, 20.0, 30.0, 0.1, "
-    "0.0, 0.0, 6.5, 0.0, 0.0, 0.0, 0.0, 2, 1); "
-    "INSERT INTO capstan_case VALUES('c5a12ec56cacf3ea2d1ecfe28f4c43b8', 'DRILLING', 'P/mild_steel', "
-    "'hss/twist_drill', 'generic_vmc', 'good', 'measured', 'part 1', 10.0, 20.0, 0.0, 0.0, 10.0, 30.0, 0.1, "
-    "0.0, 0.0, 6.5, 0.0, 0.0, 0.0, 0.0, 2, 1); "
-    "INSERT INTO capstan_total VALUES(1, 2, '7cb0673a33c04d6e4f63ddb09cfe2dd5'); ";
-
-std::string old_file(const Folder& folder, const std::string& more = "") {
-  const std::string path = folder.file("old.db");
-  tamper(path, old_case_table() + "; " + old_total_table() + "; " + kOldRows +
-                   "PRAGMA application_id = 1128353875; PRAGMA user_version = 1;" + more);
-  return path;
-}
-
 TEST(CaseStoreVersion1, IsReadWithoutBeingAltered) {
   const Folder folder;
-  const std::string path = old_file(folder);
+  const std::string path = file_of_version_1(folder);
   Job job;
   const auto base = CaseBase::open(path, job);
   ASSERT_TRUE(base.has_value()) << to_text(base.error());
@@ -51,7 +35,7 @@ TEST(CaseStoreVersion1, IsReadWithoutBeingAltered) {
 
 TEST(CaseStoreVersion1, BecomesVersion3WhenSomethingIsAdded) {
   const Folder folder;
-  const std::string path = old_file(folder);
+  const std::string path = file_of_version_1(folder);
   Job job;
   std::vector<Case> before;
   {
@@ -71,7 +55,7 @@ TEST(CaseStoreVersion1, LeavesOutAnAlteredRowAndIsNotTurnedIntoVersion3) {
   for (const std::string change : {"vc_m_min = 31.0", "teeth = 4", "source = 'x'", "verdict = 'bad'"}) {
     const Folder folder;
     const std::string path =
-        old_file(folder, "UPDATE capstan_case SET " + change + " WHERE diameter_mm = 10.0;");
+        file_of_version_1(folder, "UPDATE capstan_case SET " + change + " WHERE diameter_mm = 10.0;");
     Job job;
     auto base = CaseBase::open(path, job).value();
     EXPECT_EQ(base.size(), 1u) << change;
@@ -83,7 +67,7 @@ TEST(CaseStoreVersion1, LeavesOutAnAlteredRowAndIsNotTurnedIntoVersion3) {
 
 TEST(CaseStoreVersion1, IsTurnedIntoVersion3ByTwoProgramsOnce) {
   const Folder folder;
-  const std::string path = old_file(folder);
+  const std::string path = file_of_version_1(folder);
   Job job;
   auto one = CaseBase::open(path, job).value(), other = CaseBase::open(path, job).value();
   ASSERT_TRUE(one.add(sample(30.0)).has_value());
@@ -96,7 +80,8 @@ TEST(CaseStoreVersion1, IsTurnedIntoVersion3ByTwoProgramsOnce) {
 TEST(CaseStoreVersion1, RefusesATableThatIsNotItsOwn) {
   const Folder folder;
   Job job;
-  EXPECT_EQ(CaseBase::open(old_file(folder, "CREATE TABLE more(x);"), job).error().code, "CASE-SCHEMA");
+  EXPECT_EQ(CaseBase::open(file_of_version_1(folder, "CREATE TABLE more(x);"), job).error().code,
+            "CASE-SCHEMA");
 }
 
 }  // namespace

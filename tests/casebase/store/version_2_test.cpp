@@ -3,38 +3,10 @@
 #include "casebase/store/store.h"
 #include "tests/casebase/postgres.h"
 #include "tests/casebase/sample.h"
+#include "tests/casebase/store/old_files.h"
 
 namespace capstan::casebase {
 namespace {
-
-std::string hex(const std::string& bytes) {
-  std::string out;
-  for (const char c : bytes) {
-    char digits[3];
-    std::snprintf(digits, sizeof(digits), "%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    out += digits;
-  }
-  return out;
-}
-
-/// The totals of a store, without the number of cases that version 2 did not state.
-std::string totals_of_version_2(const std::string& uri) {
-  Job job;
-  const auto store = open_store(uri, Missing::kRefuse, job).value();
-  const std::string stated =
-      store->read(0, [](std::int64_t, std::string_view) -> Status { return {}; }).value();
-  return hex(bytes_of(*totals_of(stated)));
-}
-
-/// A file as the last program of version 2 left it, with these cases.
-std::string old_file(const Folder& folder, const std::vector<Case>& cases) {
-  const std::string path = folder.file("old.db");
-  fill(path, cases);
-  const std::string totals = totals_of_version_2(path);
-  tamper(path, "DROP TABLE capstan_id; UPDATE capstan_total SET totals = x'" + totals +
-                   "'; PRAGMA user_version = 2; VACUUM");
-  return path;
-}
 
 /// The ids that the index of a file does not have, or has at another row.
 int unindexed(const std::string& path) {
@@ -57,7 +29,7 @@ int unindexed(const std::string& path) {
 TEST(CaseStoreVersion2, IsReadWithoutBeingAltered) {
   const Folder folder;
   const std::vector<Case> cases = random_cases(40, 3);
-  const std::string path = old_file(folder, cases);
+  const std::string path = file_of_version_2(folder, cases);
   Job job;
   const auto base = CaseBase::open(path, job);
   ASSERT_TRUE(base.has_value()) << to_text(base.error());
@@ -71,7 +43,7 @@ TEST(CaseStoreVersion2, IsReadWithoutBeingAltered) {
 TEST(CaseStoreVersion2, BecomesVersion3WhenSomethingIsAddedWithAllItsIds) {
   const Folder folder;
   const std::vector<Case> cases = random_cases(2000, 5);
-  const std::string path = old_file(folder, cases);
+  const std::string path = file_of_version_2(folder, cases);
   Job job;
   auto intake = Intake::open_or_create(path, job).value();
   const auto unread = intake.add(std::vector{sample(30.0)});
@@ -96,7 +68,7 @@ TEST(CaseStoreVersion2, BecomesVersion3WhenSomethingIsAddedWithAllItsIds) {
 
 TEST(CaseStoreVersion2, IsTurnedIntoVersion3ByTwoProgramsOnce) {
   const Folder folder;
-  const std::string path = old_file(folder, {sample(10.0), sample(20.0)});
+  const std::string path = file_of_version_2(folder, {sample(10.0), sample(20.0)});
   Job job;
   auto one = CaseBase::open(path, job).value(), other = CaseBase::open(path, job).value();
   ASSERT_TRUE(one.add(sample(30.0)).has_value());
@@ -107,7 +79,7 @@ TEST(CaseStoreVersion2, IsTurnedIntoVersion3ByTwoProgramsOnce) {
 
 TEST(CaseStoreVersion2, IsNotTurnedIntoVersion3WhereARowWasAltered) {
   const Folder folder;
-  const std::string path = old_file(folder, {sample(10.0), sample(20.0)});
+  const std::string path = file_of_version_2(folder, {sample(10.0), sample(20.0)});
   tamper(path,
          "UPDATE capstan_head SET head = CAST(substr(head, 1, 40) || x'ff' || substr(head, 42) AS BLOB) "
          "WHERE number = 1");
@@ -121,7 +93,7 @@ TEST(CaseStoreVersion2, IsNotTurnedIntoVersion3WhereARowWasAltered) {
 TEST(CaseStoreVersion2, RefusesTheTableOfIdsThatItDidNotHave) {
   const Folder folder;
   Job job;
-  const std::string path = old_file(folder, {sample()});
+  const std::string path = file_of_version_2(folder, {sample()});
   tamper(path, "CREATE TABLE capstan_id(id BLOB PRIMARY KEY, number INTEGER NOT NULL) STRICT, WITHOUT ROWID");
   EXPECT_EQ(CaseBase::open(path, job).error().code, "CASE-SCHEMA");
 }

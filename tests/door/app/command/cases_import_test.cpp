@@ -140,6 +140,30 @@ TEST_F(CasesImport, KeepsAnEdgesWearOverItsCuttingTime) {
   EXPECT_THAT(files(), Not(::testing::Contains("other.db")));
 }
 
+TEST_F(CasesImport, AStepInWhichALagOrAnOverloadLastsBeyondItsTriggerIsABadCase) {
+  // The boring lags by 0.06 mm and takes 95 % of the spindle for ten seconds; the drilling neither.
+  put("log.csv",
+      "time_s,tool,feed_mm_min,spindle_rpm,lag_mm,load_percent\n"
+      "0,1,600,3000,0.01,40\n10,2,0,3000,0,0\n12,2,300,3000,0.06,95\n22,2,300,3000,0.01,50\n32,2,0,3000,0,"
+      "0\n");
+  int n = 0;
+  const auto bad = [&](const std::string& triggers) {
+    const std::string base = "base" + std::to_string(++n) + ".db";
+    const Ran in = run("cases import " + base + " csv log.csv --plan sheet.csv --part 7 " + triggers);
+    EXPECT_EQ(in.code, 0) << in.err;
+    EXPECT_THAT(in.err, HasSubstr("2 cases"));
+    const std::string listed = run("cases list " + base + " bad").out;
+    EXPECT_THAT(listed, Not(HasSubstr("DRILLING"))) << triggers;
+    return listed.find("BORING") != std::string::npos;
+  };
+  EXPECT_FALSE(bad(""));
+  EXPECT_TRUE(bad("--trigger 'lag_mm>0.05'"));
+  EXPECT_FALSE(bad("--trigger 'lag_mm>0.07'"));
+  EXPECT_TRUE(bad("--trigger 'load_percent>90:5'"));
+  EXPECT_FALSE(bad("--trigger 'load_percent>90:11'"));
+  EXPECT_TRUE(bad("--trigger 'lag_mm>0.07' --trigger 'load_percent>90'"));
+}
+
 TEST_F(CasesImport, JoinsALogWithAPlanByTheMarkersOfItsProgram) {
   const Ran planned =
       run("plan '" + capstan::testing::source_dir() + "/examples/bracket.p21' -o plan.json -o plan.ngc");

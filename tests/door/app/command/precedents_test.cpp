@@ -256,6 +256,38 @@ TEST_F(Precedents, AThousandCopiesOfOneFailureAreOne) {
   EXPECT_THAT(explained(), HasSubstr("one cut is near (1 failed)"));
 }
 
+TEST_F(Precedents, AThousandCopiesOfOneFasterCutThatWentWellChangeNoProgram) {
+  // Of one edge and one day, under other names.
+  int n = 0;
+  const auto copy = [&](Case& c) {
+    c.bound.vc_m_min *= kFaster;
+    c.observed.time_s = casebase::Figure{12.5};
+    c.observed.size_deviation_mm = casebase::Figure{0.02 * c.asked.tolerance_mm};
+    c.from.part = "part 1";
+    c.from.tool_instance = "E1";
+    c.from.time_utc = "2026-06-28T17:32:31Z";
+    c.from.source = "copy " + std::to_string(n++);
+  };
+  add("copies.db", cut(1000, Verdict::kGood, copy));
+  EXPECT_EQ(program("copies.db"), plain());
+  EXPECT_THAT(explained(), HasSubstr("one cut is near (1 good)"));
+  EXPECT_THAT(explained(), Not(HasSubstr("tuned values")));
+}
+
+TEST_F(Precedents, SpeedAndFeedThatTheFileStatesStayNearFailuresAndAreWarnedOf) {
+  ASSERT_LE(run("plan plain.json -o stated.p21").code, 1);
+  add("bad.db", cut(13, Verdict::kBad));
+  const std::string kept = "plan stated.p21 --material C45 --tools shop.yaml ";
+  ASSERT_LE(run(kept + "-o kept.json -o kept.ngc").code, 1);
+  last_ = run(kept + "--cases bad.db -o out.json -o out.ngc");
+  ASSERT_LE(last_.code, 1) << last_.err;
+  EXPECT_EQ(slurp(folder_ / "out.ngc"), slurp(folder_ / "kept.ngc"));
+  EXPECT_THAT(last_.err, HasSubstr("CASE-BAD-NEAR"));
+  EXPECT_THAT(last_.err, HasSubstr("13 of 13 near cuts failed"));
+  EXPECT_THAT(last_.err, HasSubstr("speed and feed stay as the file states them"));
+  EXPECT_THAT(last_.err, HasSubstr("re-open the technology (--reopen)"));
+}
+
 TEST_F(Precedents, TimesInTheFutureDecideNothing) {
   auto cases = cut(5, Verdict::kBad);
   for (Case& c : cases) c.from.time_utc = "2016-06-28T17:32:31Z";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "casebase/casebase.h"
+#include "casebase/record/failing.h"
 #include "planner/door/service/reading.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -55,6 +56,33 @@ class CaseModels : public CommandTest {
         out.push_back(c);
       }
     }
+    return out;
+  }
+  /// The first step that a plan mills, on so many edges, each followed while it lived so many times as long
+  /// as the law says, a hundredth from edge to edge.
+  static std::vector<Case> worn(const model::Plan& plan, const model::ToolLifeLaw& law, int edges,
+                                double times) {
+    Job job;
+    const std::vector<Case> steps = casebase::cases_of(plan, job);
+    const auto milled = std::find_if(steps.begin(), steps.end(),
+                                     [](const Case& c) { return c.predicted.specific_force_n_mm2 > 0.0; });
+    std::vector<Case> out;
+    for (int edge = 0; edge < edges && milled != steps.end(); ++edge) {
+      Case c = *milled;
+      c.origin = casebase::Origin::kMeasured;
+      c.observed = {};
+      c.observed.executed_fz_mm = casebase::Figure{.value = c.predicted.held_fz_mm};
+      c.observed.executed_vc_m_min = casebase::Figure{.value = c.bound.vc_m_min};
+      const double by_law_s = 60.0 * law.life_min * std::pow(c.bound.vc_m_min / law.v0_m_min, -1.0 / law.n);
+      for (const double share : {0.25, 0.5, 0.75, 1.0, 1.25}) {
+        c.observed.wear_series_mm.samples.push_back(
+            {share * times * (1.0 + 0.01 * edge) * by_law_s, share * casebase::kWornMm});
+      }
+      c.from.tool_instance = c.from.part = "E" + std::to_string(edge);
+      c.from.source = "microscope";
+      out.push_back(c);
+    }
+    EXPECT_FALSE(out.empty()) << "nothing is milled";
     return out;
   }
   /// A log of the plan's program at 100 %: what each of its moves is fed with, rapids at 20 m/min. A recorder

@@ -215,6 +215,40 @@ TEST_F(CaseModels, ForcesThatCasesLoweredAreTheCardsWhileARowIsGone) {
   EXPECT_EQ(plan("tuned.json").material, plain_.material);
 }
 
+TEST_F(CaseModels, ALifeThatSixEdgesDidNotReachShortensTheCardsAndTwoDoNot) {
+  // Half of the card's life; its exponent stays, for one speed says nothing of it.
+  put("card.yaml",
+      "capstan_materials: 1\nkc_uncertainty: 0.3\nmaterials:\n"
+      "  - {id: shop_alloy, source: a test, iso_group: N, kc11_n_mm2: 830, mc: 0.23, vc_hss_m_min: 90,\n"
+      "     vc_carbide_m_min: 250,\n"
+      "     life: [{substrate: carbide, v0_m_min: 250, life_min: 20, n: 0.3, scatter: 0.2, source: a "
+      "test}]}\n");
+  const std::string planning = "plan '" + part() + "' --reopen all --material card.yaml ";
+  ASSERT_LE(run(planning + "-o card.json").code, 1);
+  const model::Plan with_card = plan("card.json");
+  ASSERT_EQ(with_card.material.life.size(), 1U);
+  const model::ToolLifeLaw law = with_card.material.life.front();
+  const auto tuned = [&](int edges, Ran& ran) {
+    const std::string base = "base" + std::to_string(edges) + ".db";
+    Job job;
+    auto db = casebase::CaseBase::open_or_create((folder_ / base).string(), job);
+    EXPECT_TRUE(db && db->add(worn(with_card, law, edges, 0.5)));
+    ran = run(planning + "--cases " + base + " -o tuned.json");
+    EXPECT_LE(ran.code, 1) << ran.err;
+    return plan("tuned.json").material.life.at(0);
+  };
+  Ran two, six;
+  EXPECT_EQ(tuned(2, two), law);
+  EXPECT_THAT(two.err, HasSubstr("not taken: measured on 2 edges"));
+  const model::ToolLifeLaw shorter = tuned(6, six);
+  EXPECT_THAT(six.err, HasSubstr("[CASE-MODEL]"));
+  EXPECT_NEAR(shorter.life_min / law.life_min, 0.5, 0.1);
+  EXPECT_EQ(shorter.n, law.n);
+  EXPECT_THAT(run("explain tuned.json").out, HasSubstr("life of carbide tools: cases say 0.5"));
+  const Ran checked = run("check tuned.json");
+  EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+}
+
 TEST_F(CaseModels, TwoEdgesNarrowNothing) {
   const Ran ran = planned_with(cut(2, 0.9));
   ASSERT_EQ(ran.code, 0) << ran.err;
