@@ -35,6 +35,7 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
   check_compensation(c, findings);
   check_program_coolant(c, findings);
   check_setups(c, findings);
+  check_told(c, findings);
   ToolTable table;
   if (c.has_table) {
     table = reader.tool_table(text.tool_table);
