@@ -70,8 +70,8 @@ void check_setups(const ProgramCase& c, Findings& findings);
 /// What the program tells whoever clamps the piece and loads the tools, against the plan: 3, 4, 33
 /// (told/told.cpp).
 void check_told(const ProgramCase& c, Findings& findings);
-/// Notes what a program alone cannot be held against.
-void say_unjudged(const ProgramCase& c, Findings& findings);
+/// Notes what a program alone cannot be held against. `sweeps`: moves cut the raw piece that its header says.
+void say_unjudged(const ProgramCase& c, bool sweeps, Findings& findings);
 /// Machine coordinates against the travel: 22.
 void check_machine_moves(const ProgramCase& c, Findings& findings);
 /// The text against the plan: moves, dwells, feeds, speeds, state and tool of each step, in its order: 33,
