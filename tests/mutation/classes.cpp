@@ -21,7 +21,7 @@ double Random::between(double lo, double hi) {
 const std::vector<Class>& classes() {
   static const std::vector<Class> kAll = [] {
     std::vector<Class> all = dangerous_in_any();
-    for (const auto& more : {dangerous_by_plan(), not_dangerous()})
+    for (const auto& more : {dangerous_by_plan(), not_dangerous(), told_otherwise()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }();

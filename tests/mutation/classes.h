@@ -44,6 +44,8 @@ struct Class {
 [[nodiscard]] std::vector<Class> dangerous_in_any();
 [[nodiscard]] std::vector<Class> dangerous_by_plan();
 [[nodiscard]] std::vector<Class> not_dangerous();
+/// What the operator is told, said otherwise: of every control's programs.
+[[nodiscard]] std::vector<Class> told_otherwise();
 /// All of them, as programs of LinuxCNC are edited.
 [[nodiscard]] const std::vector<Class>& classes();
 /// Ways to spoil what only FANUC's and Haas's programs have: cycles, M29, decimal points, G43 with Z, G187.

@@ -299,7 +299,7 @@ std::vector<Class> dangerous_moves() {
 
 std::vector<Class> classes_in_heidenhain() {
   std::vector<Class> all = dangerous();
-  for (const auto& more : {dangerous_moves(), heidenhain_cycles()})
+  for (const auto& more : {dangerous_moves(), heidenhain_cycles(), told_otherwise()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

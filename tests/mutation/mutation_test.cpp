@@ -32,7 +32,7 @@ std::string told(const Row& row) {
 
 TEST(MutationSeed, EveryDangerousEditIsFoundAndNoBenignOneBlamed) {
   Options o;
-  // 77 classes, four programs: a soak of 50 repetitions asks for more than 10,000 edits.
+  // 88 classes, four programs: a soak of 50 repetitions asks for more than 10,000 edits.
   o.edits = soaking() ? 3 : 1;
   o.first_seed = next_seed();
   o.planned = true;

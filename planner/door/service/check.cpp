@@ -19,6 +19,7 @@
 #include "planner/door/service/outputs.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/door/service/shop_tools/program_machine.h"
 #include "planner/door/service/shop_tools/tool_materials.h"
 #include "planner/files/exchange/conformance/check.h"
 #include "planner/files/exchange/toolpaths/curves.h"
@@ -390,13 +391,11 @@ class Check {
       shop_.cutters = plans_.front().cutters;
     }
     if (named || !has_data(shop_.machine)) {
-      const std::string wanted =
-          named ? *named : request_.machine.value_or(std::string(tooling::kDefaultMachine));
-      auto machine = tooling::load_machine(wanted, job_);
+      const bool stated = of_call("machine", request_.machine).has_value();
+      auto machine = tooling::load_machine(
+          machine_for_programs(named ? named : request_.machine, stated, programs(), job_), job_);
       if (!machine) return machine.error();
       shop_.machine = *std::move(machine);
-      if (!named && !request_.machine && programs())
-        job_.note("APP-DEFAULT", "no machine is named; programs are checked for the built-in " + wanted);
     }
     if (control) shop_.machine = controls::with_control(std::move(shop_.machine), *control);
     if (const auto d = take_control_of_programs(has_plan)) return d;
@@ -457,11 +456,12 @@ class Check {
     return d == nullptr ? dialect : std::string(d->name);
   }
 
-  [[nodiscard]] bool programs() const {
+  [[nodiscard]] std::vector<NamedProgram> programs() const {
+    std::vector<NamedProgram> out;
     for (const Input& in : inputs_) {
-      if (in.content == Content::kProgram) return true;
+      if (in.content == Content::kProgram) out.push_back({in.path, in.bytes});
     }
-    return false;
+    return out;
   }
 
   void add(const std::vector<model::Finding>& findings, const std::string& file, bool program) {

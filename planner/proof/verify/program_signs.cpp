@@ -132,6 +132,29 @@ std::optional<DialectSign> dialect_sign(std::string_view program) {
   return found;
 }
 
+std::string machine_of_program(std::string_view program) {
+  constexpr std::string_view kHead = "MACHINE: ", kMarker = "CAPSTAN STEP";
+  const auto begins = [](std::string_view text, std::string_view with) {
+    const auto same = [](char a, char b) { return (a >= 'a' && a <= 'z' ? a - 'a' + 'A' : a) == b; };
+    return text.size() >= with.size() &&
+           std::equal(with.begin(), with.end(), text.begin(), [&](char b, char a) { return same(a, b); });
+  };
+  while (!program.empty()) {
+    std::string_view line = program.substr(0, program.find('\n'));
+    program.remove_prefix(std::min(line.size() + 1, program.size()));
+    // A comment of any control: (text), ;text, or behind the number of a line.
+    line.remove_prefix(std::min(line.find_first_not_of("0123456789 \t"), line.size()));
+    if (line.empty() || (line.front() != '(' && line.front() != ';')) continue;
+    line.remove_prefix(std::min(line.find_first_not_of("(; \t"), line.size()));
+    if (begins(line, kMarker)) break;
+    if (!begins(line, kHead)) continue;
+    line.remove_prefix(kHead.size());
+    line = line.substr(0, line.find_first_of(")\r"));
+    return std::string(line.substr(0, line.find_last_not_of(" \t") + 1));
+  }
+  return {};
+}
+
 std::vector<std::string> steps_of_program(std::string_view text, const model::Machine& machine) {
   const DialectReader* reader = reader_of(machine.control.dialect);
   std::vector<std::string> out;

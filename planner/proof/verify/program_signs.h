@@ -23,6 +23,10 @@ struct DialectSign {
 /// Source  the signs of each control's reader (program/readers.h).
 [[nodiscard]] std::optional<DialectSign> dialect_sign(std::string_view program);
 
+/// The machine that a program's header says it is written for, `(machine: generic_vmc)`, as it is written
+/// there, in capitals or not; empty: none.
+[[nodiscard]] std::string machine_of_program(std::string_view program);
+
 /// The ids of the steps that a program says it has, in its order; empty for one without markers, and for a
 /// control that nothing reads.
 [[nodiscard]] std::vector<std::string> steps_of_program(std::string_view text, const model::Machine& machine);

@@ -4,13 +4,16 @@
 
 #include "planner/proof/verify/verify.h"
 #include "tests/proof/verify/checked.h"
+#include "tests/proof/verify/two_setups.h"
 
 namespace capstan::verify {
 namespace {
 
 using testing::PlanMaker;
 using testing::replaced;
+using testing::text_of_two;
 using testing::told;
+using testing::two_setups;
 
 const model::Finding* find(const std::vector<model::Finding>& findings, const std::string& code) {
   const auto at =
@@ -27,29 +30,6 @@ std::vector<model::Finding> check(const std::string& text, const model::Plan& pl
 
 long line_of(const std::string& text, std::size_t at) {
   return 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
-}
-
-/// The pocket in G54, then the drilling in a second set-up in G55.
-model::Plan two_setups() {
-  PlanMaker k = testing::good_plan();
-  k.plan.setups.push_back(k.plan.setups[0]);
-  k.plan.setups[1].work_offset = "G55";
-  k.plan.steps[1].setup = 1;
-  return k.plan;
-}
-
-/// Its program, with the header and the stop as they are written.
-std::string text_of_two() {
-  std::string text = testing::program_of(two_setups());
-  text = replaced(text, "(a part)\n",
-                  "(stock: 100 x 100 x 50 mm)\n(CAPSTAN SETUP n=1 offset=G54 security=10)\n"
-                  "(CAPSTAN SETUP n=2 offset=G55 security=10)\n"
-                  "(CAPSTAN TOOL T1 H1 length=100 diameter=10 id=\"em10\" endmill)\n"
-                  "(CAPSTAN TOOL T2 H2 length=130 diameter=8 id=\"d8\" twist_drill)\n");
-  text = replaced(text, "n=1)", "n=1 tool=1 setup=1)");
-  const auto second = text.find("n=2)");
-  std::string tail = replaced(text.substr(second), "n=2)\n", "n=2 tool=2 setup=2)\nM5\nM9\nG53 G0 Z0\nM0\n");
-  return text.substr(0, second) + replaced(tail, "G54", "G55");
 }
 
 TEST(CheckProgramSetups, ASoundProgramOfTwoSetUpsHasNoFinding) {
@@ -83,6 +63,18 @@ TEST(CheckProgramSetups, AHeaderOrMarkerOfAnotherSetUpThanThePlansIsFound) {
   EXPECT_NE(find(header, "CHK-HEADER-OFFSET"), nullptr) << told(header);
   const auto marker = check(replaced(text, "tool=2 setup=2", "tool=2 setup=1"), two_setups(), true);
   EXPECT_NE(find(marker, "CHK-TEXT-SETUP"), nullptr) << told(marker);
+}
+
+TEST(CheckProgramSetups, AMarkerThatNamesAnotherToolThanIsLoadedIsFoundWithAndWithoutThePlan) {
+  const std::string text = replaced(text_of_two(), "n=2 tool=2", "n=2 tool=3");
+  for (const bool with_plan : {true, false}) {
+    const auto findings = check(text, two_setups(), with_plan);
+    const auto* f = find(findings, "CHK-MARKER-TOOL");
+    ASSERT_NE(f, nullptr) << told(findings);
+    EXPECT_EQ(f->property, 4);
+    EXPECT_EQ(f->severity, Severity::kError);
+    EXPECT_EQ(f->step, "drill");
+  }
 }
 
 TEST(CheckProgramSetups, AChangeOfSetUpNeedsAStopWithSpindleAndCoolantOffAndTheToolAway) {

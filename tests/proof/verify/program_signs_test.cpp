@@ -66,5 +66,18 @@ TEST(StepsOfProgram, AreTheMarkersInTheirOrder) {
   EXPECT_TRUE(steps_of_program(text, machine).empty());
 }
 
+TEST(MachineOfProgram, IsReadFromTheHeaderOfEveryControlsProgram) {
+  EXPECT_EQ(machine_of_program("(CAPSTAN PROGRAM version=1)\n(machine: generic_vmc)\nG21\n"), "generic_vmc");
+  EXPECT_EQ(machine_of_program("%\nO0001\n(MACHINE: GENERIC_VMC)\r\n"), "GENERIC_VMC");
+  EXPECT_EQ(machine_of_program(";part: A\n;machine: small router \n"), "small router");
+  EXPECT_EQ(machine_of_program("0 BEGIN PGM A MM\n6 ; machine: tnc\n"), "tnc");
+}
+
+TEST(MachineOfProgram, IsNoneBehindTheFirstStepOrInABlock) {
+  EXPECT_EQ(machine_of_program("(CAPSTAN STEP id=\"a\" n=1)\n(machine: late)\n"), "");
+  EXPECT_EQ(machine_of_program("G0 X1 (machine: block)\n"), "");
+  EXPECT_EQ(machine_of_program(""), "");
+}
+
 }  // namespace
 }  // namespace capstan::verify

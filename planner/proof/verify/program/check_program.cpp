@@ -5,16 +5,18 @@
 #include "planner/proof/verify/stopped.h"
 #include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/sweep/target/target.h"
+#include "planner/proof/verify/told/raw_piece.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
 namespace {
 
-/// What the text says and does, the removal of stock left out. Gives the moves by step.
+/// What the text says and does, the removal of stock left out but for that of a program alone, where asked
+/// for (`sweeps`). Gives the moves by step.
 std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& program,
                                   const ProgramText& text, const model::Plan* plan,
                                   const model::Machine& machine, const std::vector<model::Cutter>& cutters,
-                                  Findings& findings) {
+                                  bool sweeps, Findings& findings) {
   ProgramCase c = make_case(reader, program, plan, machine, cutters);
   c.has_table = !text.tool_table.empty() && reader.tool_table != nullptr;
   for (const ReaderFault& f : program.faults) {
@@ -35,6 +37,7 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
   check_compensation(c, findings);
   check_program_coolant(c, findings);
   check_setups(c, findings);
+  check_told(c, findings);
   ToolTable table;
   if (c.has_table) {
     table = reader.tool_table(text.tool_table);
@@ -45,7 +48,7 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
   check_header_tools(c, table, findings);
   check_reach(c, table, findings);
   check_abilities(c, findings);
-  say_unjudged(c, findings);
+  say_unjudged(c, sweeps, findings);
   check_machine_moves(c, findings);
   const std::vector<StepMoves> steps = moves_of(c);
   Extents extents(machine);
@@ -54,6 +57,8 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
     extents.add(s, findings);
   }
   check_life(steps, findings);
+  if (const auto raw = told_raw(program); raw && sweeps && plan == nullptr)
+    check_told_raw(c, *raw, steps, findings);
   if (plan != nullptr && program.markers.empty() && !plan->steps.empty()) {
     findings.error(33, "CHK-TEXT-MARKERS", {0, "", -1},
                    "no comment (CAPSTAN STEP ...) says which step begins where, so the text cannot be held "
@@ -86,7 +91,7 @@ std::vector<model::Finding> check_program_text(const ProgramText& text, const mo
   if (reader == nullptr) return findings.take();
   const Program program = reader->program(text.text, machine);
   const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
-  (void)judge_text(*reader, program, text, plan, machine, none ? tools_of_header(program) : cutters,
+  (void)judge_text(*reader, program, text, plan, machine, none ? tools_of_header(program) : cutters, false,
                    findings);
   return findings.take();
 }
@@ -104,7 +109,8 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
     // Moves refer to the cutters.
     const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
     const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
-    const std::vector<StepMoves> steps = judge_text(*reader, program, text, plan, machine, tools, findings);
+    const std::vector<StepMoves> steps =
+        judge_text(*reader, program, text, plan, machine, tools, true, findings);
     poll();
     if (plan != nullptr) {
       const PartShapes part = shapes_of_part(*plan);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -10,6 +11,7 @@ namespace capstan::verify {
 namespace {
 
 constexpr std::size_t kMostInHeader = 100000;
+constexpr std::size_t kLongestTold = 1000;  // characters; no control takes lines as long
 
 /// `name="value"` or `name=value` in a marker, values percent-encoded.
 std::string field(const std::string& text, const std::string& name) {
@@ -53,6 +55,18 @@ bool begins(const std::string& text, const char* words) {
   return at != std::string::npos && at <= 2;
 }
 
+/// `MSG, text` in any case of its letters, as LinuxCNC and Mach3 show it.
+bool shows(const std::string& text) {
+  constexpr std::string_view kShows = "MSG";
+  std::size_t at = std::min(text.find_first_not_of(" \t"), text.size());
+  for (const char c : kShows) {
+    if (at >= text.size() || (text[at] != c && text[at] != c - 'A' + 'a')) return false;
+    ++at;
+  }
+  at = std::min(text.find_first_not_of(" \t", at), text.size());
+  return at < text.size() && text[at] == ',';
+}
+
 }  // namespace
 
 int offset_code(std::string_view name) {
@@ -88,6 +102,12 @@ std::string offset_name(int code) {
   return "G" + std::to_string(code / 10) + (code % 10 != 0 ? "." + std::to_string(code % 10) : "");
 }
 
+void keep_told(std::string_view text, long line, bool shown, Program& out) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  if (out.told.size() < kMostInHeader)
+    out.told.push_back({line, std::string(text.substr(0, kLongestTold)), shown});
+}
+
 bool read_comment(const std::string& text, long line, Program& out) {
   const auto whole_number = [&](const char* name) {
     return std::strtol(field(text, name).c_str(), nullptr, 10);
@@ -105,8 +125,10 @@ bool read_comment(const std::string& text, long line, Program& out) {
     if (t <= 0 || t >= 1000000000) return false;
     out.tools.push_back({static_cast<int>(t), number(field(text, "length")), number(field(text, "diameter")),
                          line, field(text, "id"), text.substr(text.rfind(' ') + 1)});
-  } else if (out.stock.empty() && begins(text, "stock: ")) {
-    out.stock = text.substr(text.find("stock: ") + 7, 100);
+  } else {
+    if (out.stock.empty() && begins(text, "stock: ")) out.stock = text.substr(text.find("stock: ") + 7, 100);
+    const bool shown = shows(text);
+    keep_told(shown ? std::string_view(text).substr(text.find(',') + 1) : text, line, shown, out);
   }
   return false;
 }

@@ -38,6 +38,13 @@ struct HeaderTool {
   std::string id, kind;  ///< kind: the last word, "twist_drill"
 };
 
+/// What the program tells whoever stands at the machine: a comment, or a text that the control shows.
+struct Told {
+  long line = 0;
+  std::string text;    ///< without its delimiters, as the control's programs write it
+  bool shown = false;  ///< on the screen: (MSG, ...), MSG("...")
+};
+
 /// What a block of the program did: one move, tool change, or another event, with the state it ran in.
 struct Block {
   enum class Kind : unsigned char { kMove, kDwell, kToolChange, kStop, kEnd };
@@ -113,6 +120,7 @@ struct Program {
   std::vector<ReaderFault> faults;
   std::vector<HeaderSetup> setups;
   std::vector<HeaderTool> tools;
+  std::vector<Told> told;                         ///< in the order of the lines; markers left out
   std::string stock;                              ///< the header's `(stock: ...)`, as written; empty: none
   std::vector<Block> stops;                       ///< M0 and M60, with the state they stop in
   std::vector<std::pair<long, std::string>> odd;  ///< line and code: followed, but no plan asks for it
@@ -134,5 +142,7 @@ inline constexpr std::size_t kCycleBlockCap = 500000;
 /// Takes in a comment (without its delimiters): the marker of a step, or what the header says of set-ups,
 /// tools and the raw piece; anything else says nothing. True for a marker, which is the program's last then.
 bool read_comment(const std::string& text, long line, Program& out);
+/// Keeps a text for the check of what is told (told/told.cpp), up to a cap.
+void keep_told(std::string_view text, long line, bool shown, Program& out);
 
 }  // namespace capstan::verify

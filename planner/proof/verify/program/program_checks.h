@@ -31,6 +31,9 @@ struct ProgramCase {
                                     const model::Plan* plan, const model::Machine& machine,
                                     const std::vector<model::Cutter>& cutters);
 
+/// Whether a program writes this id so: one that is too long for a line as its hash.
+[[nodiscard]] bool is_id(const std::string& written, const std::string& id);
+
 /// The top of Z in machine coordinates.
 [[nodiscard]] double top_of(const model::Machine& machine);
 /// Whether the tool stands at the top of Z after the block: proven by G53, nothing moved Z since.
@@ -64,8 +67,11 @@ void check_abilities(const ProgramCase& c, Findings& findings);
 /// The work offset of each step against the plan's, or the header's: 3. A stop before each other set-up, with
 /// the tool away, spindle and coolant off: 31.
 void check_setups(const ProgramCase& c, Findings& findings);
-/// Notes what a program alone cannot be held against.
-void say_unjudged(const ProgramCase& c, Findings& findings);
+/// What the program tells whoever clamps the piece and loads the tools, against the plan: 3, 4, 33
+/// (told/told.cpp).
+void check_told(const ProgramCase& c, Findings& findings);
+/// Notes what a program alone cannot be held against. `sweeps`: moves cut the raw piece that its header says.
+void say_unjudged(const ProgramCase& c, bool sweeps, Findings& findings);
 /// Machine coordinates against the travel: 22.
 void check_machine_moves(const ProgramCase& c, Findings& findings);
 /// The text against the plan: moves, dwells, feeds, speeds, state and tool of each step, in its order: 33,

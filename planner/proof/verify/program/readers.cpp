@@ -25,7 +25,8 @@ constexpr std::array kReaders{
                   .program = &read_linuxcnc,
                   .tool_table = &linuxcnc::read_tool_table,
                   .options = "shop_codes= through_coolant=",
-                  .signs = linuxcnc::kSigns},
+                  .signs = linuxcnc::kSigns,
+                  .shows_text = true},
     DialectReader{.dialect = "fanuc",
                   .name = "Fanuc",
                   .work_offsets = fanuc::kFanucOffsets,
@@ -55,7 +56,8 @@ constexpr std::array kReaders{
                   .speed_decimals = 0,
                   .words = siemens::kWords,
                   .options = "prove_out=m1 line_length=200 shop_codes= through_coolant=",
-                  .signs = siemens::kSigns},
+                  .signs = siemens::kSigns,
+                  .shows_text = true},
     DialectReader{.dialect = "heidenhain",
                   .name = "Heidenhain TNC 640",
                   .work_offsets = heidenhain::kOffsets,
@@ -83,7 +85,8 @@ constexpr std::array kReaders{
                   .tool_table = nullptr,
                   .speed_decimals = 0,
                   .states_tolerance = false,
-                  .options = linuxcnc::kMach3Options},
+                  .options = linuxcnc::kMach3Options,
+                  .shows_text = true},
 };
 
 }  // namespace

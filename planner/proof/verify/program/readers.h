@@ -65,6 +65,7 @@ struct DialectReader {
   int numbered_code = 0;
   std::string_view numbered_name = {};
   std::span<const Sign> signs = {};  ///< of its programs
+  bool shows_text = false;           ///< what is to be done in a stop stands on its screen, not in a comment
 };
 
 /// All of them, in the order of the controls.

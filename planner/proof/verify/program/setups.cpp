@@ -2,6 +2,7 @@
 #include <set>
 
 #include "planner/proof/verify/program/program_checks.h"
+#include "planner/proof/verify/told/raw_piece.h"
 
 // The text's set-ups: their work offsets, and how it passes from one to the next.
 
@@ -133,14 +134,25 @@ class SetupChecks {
 
 void check_setups(const ProgramCase& c, Findings& findings) { SetupChecks(c, findings).run(); }
 
-void say_unjudged(const ProgramCase& c, Findings& findings) {
+void say_unjudged(const ProgramCase& c, bool sweeps, Findings& findings) {
   if (c.plan != nullptr) return;
+  const auto raw = told_raw(c.program);
   std::string text =
       "not judged without the plan: raw piece, part, fixtures, order of steps (rapids through material, "
       "gouges, "
       "depth and load of cuts, holder and clamps)";
-  if (!c.program.stock.empty())
-    text += "; the header says how large the raw piece is (" + c.program.stock + "), but not where it lies";
+  if (raw && sweeps) {
+    text =
+        "not judged without the plan: part, fixtures, order of steps (gouges, depth and load of cuts, holder "
+        "and clamps), material behind the first set-up; rapids of set-up " +
+        std::to_string(raw->setup) + " are held against the raw piece as the header says it";
+    if (!c.program.stock.empty()) text += " (" + c.program.stock + ")";
+  } else if (raw) {
+    text += "; the raw piece that the header says is not cut here";
+  } else if (!c.program.stock.empty()) {
+    text += "; the header says how large the raw piece is (" + c.program.stock +
+            "), but not where it lies in the first set-up";
+  }
   findings.unproved(Severity::kNote, 9, "CHK-NOT-JUDGED", {Findings::kWhole, "", -1}, std::move(text));
 }
 

@@ -24,16 +24,11 @@ Findings::Where ProgramCase::where(const Block& b) const {
   return {m + 2, program.markers[m].id, b.line};
 }
 
-namespace {
-
-/// An id too long for a line is written as its hash.
-bool is_of(const std::string& marker, const std::string& id) {
-  if (marker == id) return true;
+bool is_id(const std::string& written, const std::string& id) {
+  if (written == id) return true;
   constexpr std::string_view kHashed = "fnv1a:";
-  return marker.starts_with(kHashed) && marker.substr(kHashed.size()) == hex64(fnv1a(id));
+  return written.starts_with(kHashed) && written.substr(kHashed.size()) == hex64(fnv1a(id));
 }
-
-}  // namespace
 
 ProgramCase make_case(const DialectReader& reader, const Program& program, const model::Plan* plan,
                       const model::Machine& machine, const std::vector<model::Cutter>& cutters) {
@@ -45,7 +40,7 @@ ProgramCase make_case(const DialectReader& reader, const Program& program, const
     // In the plan's order as a rule: begin to look where the last one was found.
     for (std::size_t k = 0; k < plan->steps.size(); ++k) {
       const std::size_t i = (next + k) % plan->steps.size();
-      if (!is_of(program.markers[m].id, ids[i])) continue;
+      if (!is_id(program.markers[m].id, ids[i])) continue;
       out.step_of_marker[m] = static_cast<long>(i);
       next = i + 1;
       break;
@@ -189,7 +184,7 @@ class StateChecks {
       out_.error(27, "CHK-POSITION", c_.where(b),
                  "a feed move starts where the height is not known; state Z before it");
     height(b);
-    if (c_.plan == nullptr) tool_of_marker(b);
+    tool_of_marker(b);
     restart(b);
     if (c_.plan == nullptr && cutting && b.spindle_rpm == 0.0)
       out_.unproved(

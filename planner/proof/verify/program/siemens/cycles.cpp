@@ -204,6 +204,7 @@ void Interpreter::call_block(const Item& call, bool modal) {
       fault(
           33, "CHK-SYNTAX",
           "MSG takes one text between quotes, of " + std::to_string(kLongestMessage) + " characters at most");
+    if (quoted && text.size() > 2) keep_told(text.substr(1, text.size() - 2), line_, true, out_);
     return;
   }
   if (call.name == "HOLES1" || call.name == "HOLES2") return pattern(call, modal);
