@@ -108,14 +108,14 @@ TEST(Import, MeasuredSizesGoToTheStepOfTheirCharacteristicAndPart) {
                      .characteristic = "DIAMETER5",
                      .type = "Diameter",
                      .has_nominal = true,
-                     .nominal_mm = 4.0,
+                     .nominal_mm = 10.0,
                      .upper_mm = 0.2,
                      .lower_mm = -0.2,
                      .value_mm = value,
                      .toleranced = true};
   };
   const auto cases =
-      import(kLog, LogFormat::kCsv, {.inspection = {row("7", 4.1), row("7", 4.3), row("8", 9.0)}}, job);
+      import(kLog, LogFormat::kCsv, {.inspection = {row("7", 10.1), row("7", 10.3), row("8", 15.0)}}, job);
   ASSERT_TRUE(cases);
   EXPECT_FALSE(cases->front().observed.size_deviation_mm);
   ASSERT_TRUE(cases->back().observed.size_deviation_mm);
