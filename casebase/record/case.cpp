@@ -9,6 +9,7 @@
 #include "casebase/record/fields.h"
 #include "casebase/record/sha256.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::casebase {
 namespace {
@@ -185,6 +186,7 @@ std::optional<std::string> fault_of(const Case& c) {
 
 std::optional<std::string> fault_of(const Remark& r) {
   for (const auto& [what, text] : {std::pair{"who said it", &r.by}, {"the reason", &r.reason}}) {
+    if (!is_utf8(*text)) return std::string(what) + " is not UTF-8";
     if (text->size() > kTextMax || has_control_character(*text))
       return std::string(what) + " is longer than 1000 bytes or has control characters";
   }

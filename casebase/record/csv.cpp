@@ -9,6 +9,7 @@
 #include "casebase/store/log.h"
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/ground/base/tables/separated.h"
 
 // One column for each text, number and word. A figure has three: its value, NAME_std_dev, NAME_origin; a
@@ -184,6 +185,7 @@ Fault read_case(const HeadRow& head, const SeparatedRow& row, Case& c) {
       }
       const int its_turn = column.name == "origin" ? 0 : column.part == Part::kValue ? 1 : 2;
       if (cell.empty() || its_turn != turn) continue;
+      if (!is_utf8(cell)) return column.name + ": the text is not UTF-8; save the table as UTF-8";
       if (auto wrong = turn == 2 ? put_beside(column, cell, c) : put_value(*column.field, cell, c))
         return column.name + ": " + *wrong;
     }

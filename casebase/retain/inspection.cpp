@@ -159,15 +159,15 @@ void say_what_is_measured(Inspected& row) {
   struct Word {
     std::string_view word;
     Measures kind;
-    OfStep of_step = OfStep::kUnsaid;
+    StatedSize stated = StatedSize::kUnsaid;
   };
-  constexpr std::array kKinds = {Word{"diameter", Measures::kSize, OfStep::kDiameter},
-                                 Word{"dia", Measures::kSize, OfStep::kDiameter},
-                                 Word{"width", Measures::kSize, OfStep::kWidth},
-                                 Word{"length", Measures::kSize, OfStep::kUnstated},
+  constexpr std::array kKinds = {Word{"diameter", Measures::kSize, StatedSize::kDiameter},
+                                 Word{"dia", Measures::kSize, StatedSize::kDiameter},
+                                 Word{"width", Measures::kSize, StatedSize::kWidth},
+                                 Word{"length", Measures::kSize, StatedSize::kUnstated},
                                  Word{"size", Measures::kSize},
                                  Word{"depth", Measures::kDepth},
-                                 Word{"height", Measures::kDepth, OfStep::kUnstated},
+                                 Word{"height", Measures::kDepth, StatedSize::kUnstated},
                                  Word{"position", Measures::kPlace},
                                  Word{"true position", Measures::kPlace},
                                  Word{"ra", Measures::kRoughness},
@@ -182,7 +182,7 @@ void say_what_is_measured(Inspected& row) {
   for (const Word& k : kKinds) {
     if (k.word != word) continue;
     row.kind = k.kind;
-    row.of_step = k.of_step;
+    row.stated = k.stated;
     return;
   }
 }

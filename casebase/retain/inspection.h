@@ -22,7 +22,7 @@ enum class Measures : std::uint8_t {
 };
 
 /// Which of the sizes that a step's question states a size or a depth is.
-enum class OfStep : std::uint8_t {
+enum class StatedSize : std::uint8_t {
   kUnsaid,  ///< any of them; of a depth, the depth
   kDiameter,
   kWidth,
@@ -36,7 +36,7 @@ struct Inspected {
   std::string characteristic;  ///< its name in the inspection plan: "DIAMETER5"
   std::string type;            ///< "Diameter", "Position"; may be empty
   Measures kind = Measures::kSize;
-  OfStep of_step = OfStep::kUnsaid;
+  StatedSize stated = StatedSize::kUnsaid;
   bool has_nominal = false;
   double nominal_mm = 0.0, upper_mm = 0.0, lower_mm = 0.0;  ///< the limits: deviations from the nominal
   double value_mm = 0.0;

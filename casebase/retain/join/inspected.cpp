@@ -84,13 +84,13 @@ struct AskedSizes {
     const auto may_be = [&](double mm) {
       if (mm > 0.0) out.push_back(mm);
     };
-    if (row.of_step == OfStep::kUnstated) return out;
+    if (row.stated == StatedSize::kUnstated) return out;
     if (row.kind == Measures::kDepth) {
       may_be(depth);
       return out;
     }
-    if (row.of_step != OfStep::kWidth) may_be(diameter);
-    if (row.of_step != OfStep::kDiameter) may_be(width);
+    if (row.stated != StatedSize::kWidth) may_be(diameter);
+    if (row.stated != StatedSize::kDiameter) may_be(width);
     return out;
   }
 };

@@ -4,6 +4,7 @@
 
 #include "casebase/record/fields.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::app {
 
@@ -21,7 +22,7 @@ bool report_faults(Session& s, const casebase::CaseBase& base) {
 
 std::string json_text(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
+  for (const char c : utf8_text(text)) {  // bases of earlier versions may hold other bytes
     if (c == '"' || c == '\\') out += '\\';
     out += c;  // a case holds no control character
   }
