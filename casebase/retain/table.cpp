@@ -42,7 +42,7 @@ Diagnostic wrong_columns(const std::string& file, std::uint64_t line, std::strin
           .file = file,
           .line = line,
           .expected = "names as time_s, workingstep, line, x_mm, feed_mm_min, lag_mm in the first row",
-          .hint = "name the columns with --columns"};
+          .hint = "name each column, in order, with --column"};
 }
 
 Result<Columns> columns_of(const std::vector<std::string>& names, const LogUnits& units,
