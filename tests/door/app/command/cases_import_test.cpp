@@ -100,6 +100,16 @@ TEST_F(CasesImport, ReportsByStepToolAndFeatureWithAPicture) {
   EXPECT_THAT(run("cases report base.db --json").out, HasSubstr("\"workingsteps\": ["));
 }
 
+TEST_F(CasesImport, ReportDrawsNoPictureOfAnotherKind) {
+  ASSERT_EQ(import_all().code, 0);
+  const Ran r = run("cases report base.db -o rep.png");
+  EXPECT_EQ(r.code, 2) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("rep.png"));
+  EXPECT_THAT(r.err, HasSubstr("expected .svg"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "rep.png"));
+  EXPECT_EQ(run("cases report base.db -o rep.SVG").code, 0);
+}
+
 TEST_F(CasesImport, ReportsWhatIsLeftOfAnEdgeOverItsCuttingTime) {
   // An edge that is expected to live for a minute, and cuts for 20 s in each of two parts.
   std::string sheet = kSheet;

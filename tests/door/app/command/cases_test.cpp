@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "tests/casebase/sample.h"
 #include "tests/door/app/command/command.h"
 #include "tests/support/corpus.h"
 
@@ -68,6 +69,33 @@ TEST_F(Cases, ThatAreRemovedStayAway) {
   EXPECT_EQ(run("cases remove base.db " + id + " --by Smith --reason 'wrong machine'").code, 0);
   EXPECT_THAT(run("cases add base.db plan.json").err, HasSubstr(", 0 of them new"));
   EXPECT_THAT(run("cases list base.db").out, Not(HasSubstr(id.substr(0, 12))));
+}
+
+TEST_F(Cases, AreCountedOnceWhereTheyAreNamedTwice) {
+  const std::string id = first(), said = " --by Smith --reason chatter";
+  EXPECT_THAT(run("cases judge base.db " + id + ' ' + id.substr(0, 12) + " --verdict bad" + said).err,
+              HasSubstr("1 case judged bad"));
+  EXPECT_THAT(run("cases remove base.db " + id + ' ' + id + said).err, HasSubstr("1 case removed"));
+  const Ran again = run("cases remove base.db " + id + " --by Jones --reason again");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("was removed already, by Smith: chatter"));
+  EXPECT_THAT(again.err, HasSubstr("0 cases removed"));
+  const Ran judged = run("cases judge base.db " + id + " --verdict good" + said);
+  EXPECT_EQ(judged.code, 2) << judged.err;
+  EXPECT_THAT(judged.err, HasSubstr("CASE-REMOVED"));
+}
+
+TEST_F(Cases, ThatAreNotAllThereAreExportedWithFindings) {
+  EXPECT_EQ(run("cases export base.db").code, 0);
+  casebase::tamper((folder_ / "base.db").string(),
+                   "UPDATE capstan_body SET body = x'00' WHERE number = (SELECT min(number) FROM capstan_body)");
+  for (const std::string how : {"", " --json"}) {
+    const Ran out = run("cases export base.db" + how);
+    EXPECT_EQ(out.code, 1) << out.err;
+    EXPECT_THAT(out.err, HasSubstr("CASE-ROW"));
+    EXPECT_THAT(out.err, HasSubstr("not all that was stored"));
+    EXPECT_THAT(out.out, HasSubstr("POCKET"));  // what is there still
+  }
 }
 
 TEST_F(Cases, AreTheSameAfterAnExport) {

@@ -1,6 +1,7 @@
 #include "planner/door/app/command/cases/shared.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "casebase/record/fields.h"
 #include "planner/ground/base/number.h"
@@ -18,6 +19,17 @@ bool report_faults(Session& s, const casebase::CaseBase& base) {
     s.job.report(std::move(d));
   }
   return whole;
+}
+
+Status are_pictures(const std::vector<std::string>& outputs) {
+  for (const std::string& path : outputs) {
+    if (lower_text(std::filesystem::path(path).extension().string()) == ".svg") continue;
+    return fail(Diagnostic{.code = "OUT-KIND",
+                           .message = "the name's ending is none of a picture that is written",
+                           .file = path,
+                           .expected = ".svg"});
+  }
+  return {};
 }
 
 std::string json_text(std::string_view text) {
