@@ -146,6 +146,19 @@ TEST_F(Cases, OfAServerTellNoPassword) {
   unsetenv("CAPSTAN_CASES");
 }
 
+TEST_F(Cases, ThatShareNoCategoriesAreToldByTheOneThatDiffers) {
+  const std::string call = "cases nearest base.db --diameter 8 --depth 30 --material 6061 --operation ";
+  EXPECT_THAT(run(call + "REAMING --tool carbide/reamer --machine generic_vmc").out, HasSubstr("distance"));
+  EXPECT_THAT(run(call + "REAMING --tool carbide/reamer --machine small_router").out,
+              HasSubstr("in the machine: 'small_router' is asked, there it is 'generic_vmc'\n"));
+  const Ran tool = run(call + "REAMING --tool reamer --machine generic_vmc");
+  EXPECT_EQ(tool.code, 2) << tool.out;
+  EXPECT_THAT(tool.err, HasSubstr("unknown tool 'reamer'. Did you mean 'carbide/reamer'"));
+  const Ran operation = run(call + "reaming --tool carbide/reamer");
+  EXPECT_EQ(operation.code, 2) << operation.out;
+  EXPECT_THAT(operation.err, HasSubstr("Did you mean 'REAMING'"));
+}
+
 TEST_F(Cases, ThatAreNotThereAreWrongUsage) {
   EXPECT_EQ(run("cases show base.db zzz").code, 2);
   EXPECT_EQ(run("cases judge base.db zzz --verdict bad --by Smith --reason x").code, 2);
