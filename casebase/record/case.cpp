@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -168,6 +169,15 @@ std::optional<Origin> origin_of(std::string_view word) { return from_word<Origin
 std::optional<Verdict> verdict_of(std::string_view word) { return from_word<Verdict>(kVerdicts, word); }
 std::optional<Coolant> coolant_of(std::string_view word) { return from_word<Coolant>(kCoolants, word); }
 
+bool is_of_calendar(std::string_view text) {
+  if (!is_time(text)) return false;
+  const auto two = [&](std::size_t i) { return (text[i] - '0') * 10 + (text[i + 1] - '0'); };
+  return std::chrono::year_month_day{std::chrono::year{two(0) * 100 + two(2)},
+                                     std::chrono::month{static_cast<unsigned>(two(5))},
+                                     std::chrono::day{static_cast<unsigned>(two(8))}}
+      .ok();
+}
+
 std::optional<std::string> fault_of(const Question& q) {
   Case c;
   c.asked = q;
@@ -191,6 +201,7 @@ std::optional<std::string> fault_of(const Remark& r) {
       return std::string(what) + " is longer than 1000 bytes or has control characters";
   }
   if (!r.time_utc.empty() && !is_time(r.time_utc)) return "the time is not one like 2016-06-28T17:32:31Z";
+  if (!r.time_utc.empty() && !is_of_calendar(r.time_utc)) return "there is no day " + r.time_utc.substr(0, 10);
   return std::nullopt;
 }
 

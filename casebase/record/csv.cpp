@@ -191,6 +191,8 @@ Fault read_case(const HeadRow& head, const SeparatedRow& row, Case& c) {
     }
   }
   if (auto wrong = fault_of(c)) return wrong;
+  if (!c.from.time_utc.empty() && !is_of_calendar(c.from.time_utc))
+    return "time_utc: there is no day " + c.from.time_utc.substr(0, 10);
   const std::string id = id_of(c);
   if (!c.id.empty() && c.id != id)
     return "the id does not fit the case: it was altered; leave it empty if that is meant";

@@ -180,6 +180,20 @@ TEST(CaseCsv, RefusesTextThatIsNotUtf8) {
   EXPECT_THAT(read.error().message, ::testing::HasSubstr("source: the text is not UTF-8"));
 }
 
+TEST(CaseCsv, RefusesADayThatIsNone) {
+  for (const auto& [time, taken] : {std::pair("2024-02-29T08:00:00Z", true),
+                                    {"2026-02-30T08:00:00Z", false},
+                                    {"2025-02-29T08:00:00Z", false},
+                                    {"2026-04-31T08:00:00Z", false}}) {
+    Case c = sample();
+    c.from.time_utc = time;
+    EXPECT_FALSE(fault_of(c)) << time;  // what earlier versions kept is read
+    c.id = id_of(c);
+    EXPECT_EQ(from_csv(to_csv(std::vector{c}), "cases.csv").has_value(), taken) << time;
+    EXPECT_EQ(fault_of(Remark{"Smith", time, "chatter"}).has_value(), !taken) << time;
+  }
+}
+
 TEST(CaseRemark, IsUtf8) {
   EXPECT_FALSE(fault_of(Remark{"M\xC3\xBCller", "2016-06-29T08:00:00Z", "chatter"}));
   EXPECT_TRUE(fault_of(Remark{"\xFF\xFE", "2016-06-29T08:00:00Z", "chatter"}));

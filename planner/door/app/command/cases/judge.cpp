@@ -53,6 +53,7 @@ int said(Session& s, const Say& say, const std::string& done, OfRemoved of_remov
   }
   ids = std::move(there);
   const CaseJudgement& j = s.options.judgement;
+  if (auto later = of_the_future({j.time_utc}, "time is", "times are")) s.job.report(*std::move(later));
   if (!ids.empty()) {
     const Status status = say(*base, ids, casebase::Remark{j.by, j.time_utc, j.reason});
     if (!status) return s.end(status.error(), kImpossible);
