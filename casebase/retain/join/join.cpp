@@ -10,6 +10,7 @@
 
 #include "casebase/record/held.h"
 #include "casebase/retain/join/told.h"
+#include "casebase/tune/evidence.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -161,6 +162,26 @@ Case observed(Case c, const Executed& e, const LogFrom& from) {
   return c;
 }
 
+/// A feed that is so far from the planned one that tuning would not hear the case: a unit may be another.
+std::optional<Diagnostic> far_from_plan(const Case& c, const LogFrom& from, std::uint64_t line) {
+  const double planned = c.predicted.held_fz_mm > 0.0 ? c.predicted.held_fz_mm : c.bound.fz_mm;
+  if (!c.observed.executed_fz_mm || !(planned > 0.0)) return std::nullopt;
+  const double executed = c.observed.executed_fz_mm->value, share = executed / planned;
+  if (share <= tune::kMostMultiplier && share >= 1.0 / tune::kMostMultiplier) return std::nullopt;
+  Diagnostic d =
+      left_out(from, line,
+               fmt::format("the log shows {} mm per tooth, {} times the planned {}; within a factor of {} "
+                           "a case is heard",
+                           trimmed(executed, 4), trimmed(share, 2), trimmed(planned, 4),
+                           trimmed(tune::kMostMultiplier, 1)),
+               c.from.workingstep);
+  d.code = "LOG-FEED";
+  d.severity = Severity::kWarning;
+  d.hint =
+      "is the unit of feed and speed what the names of the columns, or --unit, say; is it that plan's log";
+  return d;
+}
+
 std::string text_of(const std::vector<Event>& events) {
   const Event& first = events.front();
   return fmt::format("{} above {}: {} up to {}, the first for {} s at line {} of the program", first.item,
@@ -268,6 +289,7 @@ std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Execut
       job.report(left_out(from, e.first_log_line, *wrong + ": it makes no case", e.workingstep));
       continue;
     }
+    if (auto far = far_from_plan(c, from, e.first_log_line)) job.report(*std::move(far));
     if (!e.events.empty()) job.warn("LOG-EVENT", text_of(e.events), e.workingstep);
     c.id = id_of(c);
     out.push_back(std::move(c));
