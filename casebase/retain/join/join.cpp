@@ -157,7 +157,7 @@ Case observed(Case c, const Executed& e, const LogFrom& from) {
   c.from.part = printable(from.part);
   if (!e.tool_instance.empty()) c.from.tool_instance = printable(e.tool_instance);
   if (from.dated) c.from.time_utc = stamp_of(e.end_s);
-  c.from.source = "log " + printable(from.file);
+  c.from.source = source_of(from);
   if (e.run != kSummedUp) c.from.source += fmt::format(" run {}", e.run);
   return c;
 }

@@ -33,4 +33,13 @@ inline constexpr std::size_t kLongestText = 200;  ///< of names that go into a c
   return out;
 }
 
+/// Name of the log without its folders: what a case is must not depend on how its path is spelt.
+[[nodiscard]] inline std::string name_of_log(const LogFrom& from) {
+  return from.file.substr(from.file.find_last_of('/') + 1);
+}
+/// What cases of a log state as their source.
+[[nodiscard]] inline std::string source_of(const LogFrom& from) {
+  return "log " + printable(name_of_log(from));
+}
+
 }  // namespace capstan::casebase::retain
