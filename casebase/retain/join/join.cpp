@@ -10,7 +10,6 @@
 
 #include "casebase/record/held.h"
 #include "casebase/retain/join/told.h"
-#include "casebase/tune/evidence.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/order/step_ids.h"
@@ -167,14 +166,13 @@ std::optional<Diagnostic> far_from_plan(const Case& c, const LogFrom& from, std:
   const double planned = c.predicted.held_fz_mm > 0.0 ? c.predicted.held_fz_mm : c.bound.fz_mm;
   if (!c.observed.executed_fz_mm || !(planned > 0.0)) return std::nullopt;
   const double executed = c.observed.executed_fz_mm->value, share = executed / planned;
-  if (share <= tune::kMostMultiplier && share >= 1.0 / tune::kMostMultiplier) return std::nullopt;
-  Diagnostic d =
-      left_out(from, line,
-               fmt::format("the log shows {} mm per tooth, {} times the planned {}; within a factor of {} "
-                           "a case is heard",
-                           trimmed(executed, 4), trimmed(share, 2), trimmed(planned, 4),
-                           trimmed(tune::kMostMultiplier, 1)),
-               c.from.workingstep);
+  if (share <= kMostMultiplier && share >= 1.0 / kMostMultiplier) return std::nullopt;
+  Diagnostic d = left_out(
+      from, line,
+      fmt::format("the log shows {} mm per tooth, {} times the planned {}; within a factor of {} "
+                  "a case is heard",
+                  trimmed(executed, 4), trimmed(share, 2), trimmed(planned, 4), trimmed(kMostMultiplier, 1)),
+      c.from.workingstep);
   d.code = "LOG-FEED";
   d.severity = Severity::kWarning;
   d.hint =
