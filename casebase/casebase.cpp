@@ -255,6 +255,7 @@ std::vector<CaseBase::Categories> CaseBase::categories() const {
     Categories& c = out[e.categories];
     if (c.material_group.empty()) {
       const std::string& all = impl_->log.categories(e);
+      c.operation = operation_in(all);
       c.material_group = material_group_in(all);
       c.tool_class = tool_class_in(all);
       c.machine_class = machine_class_in(all);

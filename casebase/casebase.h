@@ -115,10 +115,9 @@ class CaseBase {
 
   /// How many cases there are, without those that are removed.
   [[nodiscard]] std::size_t size() const;
-  /// How many of them there are of each combination of categories; those of several operations apart. None
-  /// where all cases of one were removed.
+  /// How many of them there are of each combination of categories. None where all cases of one were removed.
   struct Categories {
-    std::string material_group, tool_class, machine_class;
+    std::string operation, material_group, tool_class, machine_class;
     std::size_t cases = 0;
   };
   [[nodiscard]] std::vector<Categories> categories() const;

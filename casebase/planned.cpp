@@ -8,6 +8,7 @@
 
 #include "casebase/record/held.h"
 #include "casebase/record/sha256.h"
+#include "planner/ground/base/text.h"
 #include "planner/model/features/quality.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/operation.h"
@@ -34,9 +35,9 @@ std::string keyword(std::string_view name) {
   return out;
 }
 
-/// Text for `source`: without control characters.
+/// Text for `source`: UTF-8 without control characters.
 std::string printable(std::string_view text) {
-  std::string out(text.substr(0, 400));
+  std::string out = utf8_text(text, 400);
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }

@@ -121,6 +121,7 @@ std::string_view line_of(std::string_view text, int number) {
 
 }  // namespace
 
+std::string_view operation_in(std::string_view categories) { return line_of(categories, 0); }
 std::string_view material_group_in(std::string_view categories) { return line_of(categories, 1); }
 std::string_view tool_class_in(std::string_view categories) { return line_of(categories, 2); }
 std::string_view machine_class_in(std::string_view categories) { return line_of(categories, 3); }

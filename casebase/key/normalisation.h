@@ -38,6 +38,7 @@ using Point = std::array<double, kDimensions>;
 /// The four categories, which have to be equal.
 [[nodiscard]] std::string categories_of(const Question& q);
 /// One of them.
+[[nodiscard]] std::string_view operation_in(std::string_view categories);
 [[nodiscard]] std::string_view material_group_in(std::string_view categories);
 [[nodiscard]] std::string_view tool_class_in(std::string_view categories);
 [[nodiscard]] std::string_view machine_class_in(std::string_view categories);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include "casebase/record/fields.h"
 #include "casebase/record/sha256.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::casebase {
 namespace {
@@ -167,6 +169,15 @@ std::optional<Origin> origin_of(std::string_view word) { return from_word<Origin
 std::optional<Verdict> verdict_of(std::string_view word) { return from_word<Verdict>(kVerdicts, word); }
 std::optional<Coolant> coolant_of(std::string_view word) { return from_word<Coolant>(kCoolants, word); }
 
+bool is_of_calendar(std::string_view text) {
+  if (!is_time(text)) return false;
+  const auto two = [&](std::size_t i) { return (text[i] - '0') * 10 + (text[i + 1] - '0'); };
+  return std::chrono::year_month_day{std::chrono::year{two(0) * 100 + two(2)},
+                                     std::chrono::month{static_cast<unsigned>(two(5))},
+                                     std::chrono::day{static_cast<unsigned>(two(8))}}
+      .ok();
+}
+
 std::optional<std::string> fault_of(const Question& q) {
   Case c;
   c.asked = q;
@@ -185,10 +196,12 @@ std::optional<std::string> fault_of(const Case& c) {
 
 std::optional<std::string> fault_of(const Remark& r) {
   for (const auto& [what, text] : {std::pair{"who said it", &r.by}, {"the reason", &r.reason}}) {
+    if (!is_utf8(*text)) return std::string(what) + " is not UTF-8";
     if (text->size() > kTextMax || has_control_character(*text))
       return std::string(what) + " is longer than 1000 bytes or has control characters";
   }
   if (!r.time_utc.empty() && !is_time(r.time_utc)) return "the time is not one like 2016-06-28T17:32:31Z";
+  if (!r.time_utc.empty() && !is_of_calendar(r.time_utc)) return "there is no day " + r.time_utc.substr(0, 10);
   return std::nullopt;
 }
 

@@ -172,6 +172,10 @@ struct Remark {
 /// hash, the workingstep and the question alone: one simulation is one case whatever file it came from.
 [[nodiscard]] std::string id_of(const Case& c);
 
+/// Whether a time ("2016-06-28T17:32:31Z") begins with a day of the calendar. A case that is entered has such a
+/// one; earlier versions kept others.
+[[nodiscard]] bool is_of_calendar(std::string_view time_utc);
+
 /// Why a case cannot be one (a number that is not finite, beyond what any machine does, an unknown word);
 /// nothing when it can. Asked before writing and again after reading. The limits: record/fields.h.
 [[nodiscard]] std::optional<std::string> fault_of(const Case& c);

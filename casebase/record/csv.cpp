@@ -9,6 +9,7 @@
 #include "casebase/store/log.h"
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 #include "planner/ground/base/tables/separated.h"
 
 // One column for each text, number and word. A figure has three: its value, NAME_std_dev, NAME_origin; a
@@ -184,11 +185,14 @@ Fault read_case(const HeadRow& head, const SeparatedRow& row, Case& c) {
       }
       const int its_turn = column.name == "origin" ? 0 : column.part == Part::kValue ? 1 : 2;
       if (cell.empty() || its_turn != turn) continue;
+      if (!is_utf8(cell)) return column.name + ": the text is not UTF-8; save the table as UTF-8";
       if (auto wrong = turn == 2 ? put_beside(column, cell, c) : put_value(*column.field, cell, c))
         return column.name + ": " + *wrong;
     }
   }
   if (auto wrong = fault_of(c)) return wrong;
+  if (!c.from.time_utc.empty() && !is_of_calendar(c.from.time_utc))
+    return "time_utc: there is no day " + c.from.time_utc.substr(0, 10);
   const std::string id = id_of(c);
   if (!c.id.empty() && c.id != id)
     return "the id does not fit the case: it was altered; leave it empty if that is meant";

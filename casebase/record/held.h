@@ -8,6 +8,10 @@
 
 namespace capstan::casebase {
 
+/// The most that a case may differ from the handbook to be heard, and the most that is ever proposed, in either way.
+/// Default, unsourced: makers' ranges around a start value are narrower.
+inline constexpr double kMostMultiplier = 2.0;
+
 /// Of values that each held for a time, the one that held longest: of a log, and in the same way of a
 /// schedule that a log is held against. Values within 0.5 % are one.
 class Held {

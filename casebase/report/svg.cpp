@@ -10,9 +10,9 @@
 namespace capstan::casebase {
 namespace {
 
-/// What XML does not take, control characters, as blanks.
+/// What XML does not take: control characters, as blanks, and bytes that are no UTF-8.
 std::string escaped(std::string_view text) {
-  std::string plain(text);
+  std::string plain = utf8_text(text);
   std::replace_if(
       plain.begin(), plain.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return xml_escaped(plain);

@@ -155,18 +155,19 @@ std::optional<double> length_unit(std::string_view word) {
 }
 
 // What a row is about, by its type or by the remark at the end of its characteristic.
-Measures measures_of(const Inspected& row) {
+void say_what_is_measured(Inspected& row) {
   struct Word {
     std::string_view word;
     Measures kind;
+    StatedSize stated = StatedSize::kUnsaid;
   };
-  constexpr std::array kKinds = {Word{"diameter", Measures::kSize},
-                                 Word{"dia", Measures::kSize},
-                                 Word{"width", Measures::kSize},
-                                 Word{"length", Measures::kSize},
+  constexpr std::array kKinds = {Word{"diameter", Measures::kSize, StatedSize::kDiameter},
+                                 Word{"dia", Measures::kSize, StatedSize::kDiameter},
+                                 Word{"width", Measures::kSize, StatedSize::kWidth},
+                                 Word{"length", Measures::kSize, StatedSize::kUnstated},
                                  Word{"size", Measures::kSize},
                                  Word{"depth", Measures::kDepth},
-                                 Word{"height", Measures::kDepth},
+                                 Word{"height", Measures::kDepth, StatedSize::kUnstated},
                                  Word{"position", Measures::kPlace},
                                  Word{"true position", Measures::kPlace},
                                  Word{"ra", Measures::kRoughness},
@@ -177,10 +178,13 @@ Measures measures_of(const Inspected& row) {
   const std::string word = !row.type.empty()            ? lower(row.type)
                            : slash == std::string::npos ? std::string()
                                                         : lower(row.characteristic.substr(slash + 1));
+  row.kind = row.type.empty() ? Measures::kSize : Measures::kOther;
   for (const Word& k : kKinds) {
-    if (k.word == word) return k.kind;
+    if (k.word != word) continue;
+    row.kind = k.kind;
+    row.stated = k.stated;
+    return;
   }
-  return row.type.empty() ? Measures::kSize : Measures::kOther;
 }
 
 // Why a deviation cannot be one of a case: beyond the limits of the field that keeps it.
@@ -234,7 +238,7 @@ Result<std::vector<Inspected>> read_inspection(std::string_view text, const std:
         row.characteristic = without_blanks(cells[name->at]);
         if (type) row.type = without_blanks(cells[type->at]);
         if (row.part.empty() || row.characteristic.empty()) return "part or characteristic is empty";
-        row.kind = measures_of(row);
+        say_what_is_measured(row);
         const bool roughness = row.kind == Measures::kRoughness, other = row.kind == Measures::kOther;
         double factor = roughness ? kMmPerUm : unit_mm;
         bool said = false;  // by the row's own cell, which goes before the columns' names

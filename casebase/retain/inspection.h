@@ -21,6 +21,14 @@ enum class Measures : std::uint8_t {
   kOther,      ///< flatness, angles, Rz and all else, of which a case keeps its verdict alone
 };
 
+/// Which of the sizes that a step's question states a size or a depth is.
+enum class StatedSize : std::uint8_t {
+  kUnsaid,  ///< any of them; of a depth, the depth
+  kDiameter,
+  kWidth,
+  kUnstated,  ///< none: a length, or a height, which may be over another face
+};
+
 /// One measured characteristic of one part. mm, of kOther in one unit of its own; flatness and the like have
 /// no nominal.
 struct Inspected {
@@ -28,6 +36,7 @@ struct Inspected {
   std::string characteristic;  ///< its name in the inspection plan: "DIAMETER5"
   std::string type;            ///< "Diameter", "Position"; may be empty
   Measures kind = Measures::kSize;
+  StatedSize stated = StatedSize::kUnsaid;
   bool has_nominal = false;
   double nominal_mm = 0.0, upper_mm = 0.0, lower_mm = 0.0;  ///< the limits: deviations from the nominal
   double value_mm = 0.0;

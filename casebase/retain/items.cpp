@@ -140,6 +140,12 @@ std::optional<Column> column_of(std::string_view name, const LogUnits& units) {
   return std::nullopt;
 }
 
+std::vector<std::string> known_columns() {
+  std::vector<std::string> out;
+  for (const Name& n : kNames) out.emplace_back(n.name);
+  return out;
+}
+
 std::string_view name_of(Item item) { return kRanges[index_of(item)].name; }
 
 std::optional<std::string> fault_of(Item item, double value) {

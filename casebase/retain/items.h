@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// What logs call the things they record, and in which units: one table for all formats.
 namespace capstan::casebase::retain {
@@ -47,6 +48,9 @@ struct Column {
 /// "path_feedrate", "x_in", "feed_mm_s", "motion.program-line". Upper and lower case are one. A name with a
 /// unit of another kind ("x_rpm") is none.
 [[nodiscard]] std::optional<Column> column_of(std::string_view name, const LogUnits& units);
+
+/// The names that `column_of` knows, without a unit.
+[[nodiscard]] std::vector<std::string> known_columns();
 
 /// Our name of a numeric item, with its unit: "feed_mm_min".
 [[nodiscard]] std::string_view name_of(Item item);

@@ -61,7 +61,8 @@ struct LogEnd {
 inline constexpr LogUnits kTraceUnits = {1.0, 60.0};
 
 /// A table, a reading per row: separated by commas, semicolons, tabs or blanks. The first row names the
-/// columns (`items.h`) unless `columns` does; columns of other names are passed over; a column for time is
+/// columns (`items.h`) unless `columns` does; columns of other names are passed over and
+/// told (LOG-COLUMNS); a column for time is
 /// needed, in s or as a date of ISO 8601. Empty cells say nothing. Lines that begin with # are remarks.
 /// Units   mm and mm/min, unless a name says more or `units` does.
 /// Fails   as read_trace; LOG-COLUMNS no time, or a column twice.

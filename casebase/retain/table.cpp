@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "casebase/retain/cells.h"
 #include "casebase/retain/lines.h"
+#include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/tables/separated.h"
 
@@ -43,12 +46,33 @@ Diagnostic wrong_columns(const std::string& file, std::uint64_t line, std::strin
           .file = file,
           .line = line,
           .expected = "names as time_s, workingstep, line, x_mm, feed_mm_min, lag_mm in the first row",
-          .hint = "name the columns with --columns"};
+          .hint = "name each column, in order, with --column"};
+}
+
+/// A note on columns that say nothing that is known, as "lag_mm" misspelt does.
+void tell_unknown(const std::vector<std::string>& names, const std::string& file, std::uint64_t line,
+                  Job& job) {
+  if (names.empty()) return;
+  constexpr std::size_t kNamed = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i) {
+    text += (i == 0 ? "'" : ", '") + names[i].substr(0, 40) + "'";
+    const auto near = nearest_names(names[i], known_columns(), 1);
+    if (!near.empty()) text += " (is it '" + near.front() + "'?)";
+  }
+  if (names.size() > kNamed) text += " and " + std::to_string(names.size() - kNamed) + " more";
+  Diagnostic d = wrong_columns(file, line,
+                               counted(names.size(), "column says", "columns say") +
+                                   " nothing that is known, or in a unit of another kind, and " +
+                                   (names.size() == 1 ? "is" : "are") + " passed over: " + text);
+  d.severity = Severity::kNote;
+  job.report(std::move(d));
 }
 
 Result<Columns> columns_of(const std::vector<std::string>& names, const LogUnits& units,
-                           const std::string& file, std::uint64_t line) {
+                           const std::string& file, std::uint64_t line, Job& job) {
   Columns out;
+  std::vector<std::string> unknown;
   std::array<bool, index_of(Item::kTime) + 1> seen = {};
   for (const std::string& name : names) {
     const auto column = column_of(name, units);
@@ -57,9 +81,11 @@ Result<Columns> columns_of(const std::vector<std::string>& names, const LogUnits
           wrong_columns(file, line, "the column '" + name.substr(0, 40) + "' says what another does"));
     }
     if (column) seen[index_of(column->item)] = true;
+    if (!column && !name.empty()) unknown.push_back(name);
     out.of.push_back(column);
   }
   if (!seen[index_of(Item::kTime)]) return fail(wrong_columns(file, line, "no column is the time"));
+  tell_unknown(unknown, file, line, job);
   return out;
 }
 
@@ -106,7 +132,7 @@ Result<LogEnd> read_rows(std::istream& in, const std::string& file, const LogUni
     if (text.empty() || text.starts_with('#') || text == "overrun") continue;
     if (!columns) {
       const char separator = separator_in(text);
-      auto named = columns_of(texts(cells_of(text, separator)), units, file, lines.number());
+      auto named = columns_of(texts(cells_of(text, separator)), units, file, lines.number(), job);
       if (!named) return tl::unexpected(named.error());
       columns = *std::move(named);
       columns->separator = separator;
@@ -142,7 +168,7 @@ Result<LogEnd> read_table(std::istream& in, const std::string& file, const LogUn
                           std::span<const std::string> columns, const Sink& sink, Job& job) {
   std::optional<Columns> known;
   if (!columns.empty()) {
-    auto named = columns_of({columns.begin(), columns.end()}, units, file, 0);
+    auto named = columns_of({columns.begin(), columns.end()}, units, file, 0, job);
     if (!named) return tl::unexpected(named.error());
     known = *std::move(named);
   }
@@ -161,7 +187,7 @@ Result<LogEnd> read_linuxcnc(std::istream& in, const std::string& file, const Lo
   }
   LogUnits own = units;
   own.mm_min = 60.0 * units.mm;  // HAL's velocities are per second
-  auto known = columns_of(names, own, file, 0);
+  auto known = columns_of(names, own, file, 0, job);
   if (!known) return tl::unexpected(known.error());
   constexpr std::size_t kLeast = 6;  // up to the line of the program
   if (columns.empty()) known->least = kLeast;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "casebase/record/held.h"
+
 namespace capstan::casebase::tune {
 
 /// The loads of a cut that are watched, each against its own limit.
@@ -21,10 +23,6 @@ struct Setting {
   double ln_vc = 0.0, ln_fz = 0.0;
   friend bool operator==(const Setting&, const Setting&) = default;
 };
-
-/// The most that a case may differ from the handbook, and the most that is ever proposed, in either way.
-/// Default, unsourced: makers' ranges around a start value are narrower.
-inline constexpr double kMostMultiplier = 2.0;
 
 /// One cut that was made, as tuning sees it.
 struct Evidence {

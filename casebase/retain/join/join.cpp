@@ -156,9 +156,28 @@ Case observed(Case c, const Executed& e, const LogFrom& from) {
   c.from.part = printable(from.part);
   if (!e.tool_instance.empty()) c.from.tool_instance = printable(e.tool_instance);
   if (from.dated) c.from.time_utc = stamp_of(e.end_s);
-  c.from.source = "log " + printable(from.file);
+  c.from.source = source_of(from);
   if (e.run != kSummedUp) c.from.source += fmt::format(" run {}", e.run);
   return c;
+}
+
+/// A feed that is so far from the planned one that tuning would not hear the case: a unit may be another.
+std::optional<Diagnostic> far_from_plan(const Case& c, const LogFrom& from, std::uint64_t line) {
+  const double planned = c.predicted.held_fz_mm > 0.0 ? c.predicted.held_fz_mm : c.bound.fz_mm;
+  if (!c.observed.executed_fz_mm || !(planned > 0.0)) return std::nullopt;
+  const double executed = c.observed.executed_fz_mm->value, share = executed / planned;
+  if (share <= kMostMultiplier && share >= 1.0 / kMostMultiplier) return std::nullopt;
+  Diagnostic d = left_out(
+      from, line,
+      fmt::format("the log shows {} mm per tooth, {} times the planned {}; within a factor of {} "
+                  "a case is heard",
+                  trimmed(executed, 4), trimmed(share, 2), trimmed(planned, 4), trimmed(kMostMultiplier, 1)),
+      c.from.workingstep);
+  d.code = "LOG-FEED";
+  d.severity = Severity::kWarning;
+  d.hint =
+      "is the unit of feed and speed what the names of the columns, or --unit, say; is it that plan's log";
+  return d;
 }
 
 std::string text_of(const std::vector<Event>& events) {
@@ -268,6 +287,7 @@ std::vector<Case> cases_of(std::span<const Step> steps, const std::vector<Execut
       job.report(left_out(from, e.first_log_line, *wrong + ": it makes no case", e.workingstep));
       continue;
     }
+    if (auto far = far_from_plan(c, from, e.first_log_line)) job.report(*std::move(far));
     if (!e.events.empty()) job.warn("LOG-EVENT", text_of(e.events), e.workingstep);
     c.id = id_of(c);
     out.push_back(std::move(c));

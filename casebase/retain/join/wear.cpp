@@ -22,7 +22,7 @@ struct Edge {
 
 /// Edges in the order in which the table names them first.
 std::vector<Edge> edges_of(std::span<const Worn> rows, const LogFrom& from) {
-  const std::string file = from.file.substr(from.file.find_last_of('/') + 1);
+  const std::string file = name_of_log(from);
   std::vector<Edge> out;
   std::map<std::string, std::size_t> at;
   for (const Worn& w : rows) {
@@ -115,7 +115,7 @@ tl::expected<Case, std::string> case_of_edge(const Edge& edge, std::span<const S
   c.from.machine = printable(from.machine);
   c.from.part = printable(last.part);
   c.from.tool_instance = edge.name;
-  c.from.source = "log " + printable(from.file);
+  c.from.source = source_of(from);
   if (const auto wrong = fault_of(c)) return tl::unexpected(*wrong);
   c.id = id_of(c);
   return c;

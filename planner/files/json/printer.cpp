@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "planner/ground/base/append_number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::json {
 namespace {
@@ -17,22 +18,6 @@ unsigned char byte_at(std::string_view s, std::size_t i) {
 }
 
 bool continues(unsigned char c) { return (c & 0xC0U) == 0x80U; }
-
-// Length of the well-formed character at i (RFC 3629), 0 if there is none.
-std::size_t utf8_length(std::string_view s, std::size_t i) {
-  const unsigned char a = byte_at(s, i);
-  const unsigned char b = byte_at(s, i + 1);
-  if (a < 0x80) return 1;
-  if (a >= 0xC2 && a <= 0xDF) return continues(b) ? 2 : 0;
-  if (!continues(byte_at(s, i + 2)) || !continues(b)) return 0;
-  if (a >= 0xE0 && a <= 0xEF) {
-    const bool overlong = a == 0xE0 && b < 0xA0;
-    const bool surrogate = a == 0xED && b > 0x9F;
-    return overlong || surrogate ? 0 : 3;
-  }
-  if (a < 0xF0 || a > 0xF4 || !continues(byte_at(s, i + 3))) return 0;
-  return (a == 0xF0 && b < 0x90) || (a == 0xF4 && b > 0x8F) ? 0 : 4;
-}
 
 // U+10FF00 .. U+10FFFF: F4 8F BC..BF 80..BF.
 bool stands_for_byte(std::string_view s, std::size_t i) {

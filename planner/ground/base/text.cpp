@@ -5,6 +5,55 @@
 #include "planner/ground/base/number.h"
 
 namespace capstan {
+namespace {
+
+unsigned char byte_at(std::string_view s, std::size_t i) {
+  return i < s.size() ? static_cast<unsigned char>(s[i]) : 0;
+}
+bool continues(unsigned char c) { return (c & 0xC0U) == 0x80U; }
+
+}  // namespace
+
+std::size_t utf8_length(std::string_view s, std::size_t i) {
+  if (i >= s.size()) return 0;
+  const unsigned char a = byte_at(s, i);
+  const unsigned char b = byte_at(s, i + 1);
+  if (a < 0x80) return 1;
+  if (a >= 0xC2 && a <= 0xDF) return continues(b) ? 2 : 0;
+  if (!continues(byte_at(s, i + 2)) || !continues(b)) return 0;
+  if (a >= 0xE0 && a <= 0xEF) {
+    const bool overlong = a == 0xE0 && b < 0xA0;
+    const bool surrogate = a == 0xED && b > 0x9F;
+    return overlong || surrogate ? 0 : 3;
+  }
+  if (a < 0xF0 || a > 0xF4 || !continues(byte_at(s, i + 3))) return 0;
+  return (a == 0xF0 && b < 0x90) || (a == 0xF4 && b > 0x8F) ? 0 : 4;
+}
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t n = utf8_length(text, i);
+    if (n == 0) return false;
+    i += n;
+  }
+  return true;
+}
+
+std::string utf8_text(std::string_view text, std::size_t most) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t n = utf8_length(text, i);
+    const std::size_t end = i + (n == 0 ? 1 : n);
+    if (end > most) break;
+    if (n == 0) {
+      out += "\xEF\xBF\xBD";
+    } else {
+      out += text.substr(i, n);
+    }
+    i = end;
+  }
+  return out;
+}
 
 std::string lower_text(std::string_view text) {
   std::string out(text);

@@ -1,5 +1,7 @@
 #include "casebase/record/case.h"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <limits>
 
@@ -162,6 +164,40 @@ TEST(CaseCsv, HoldsEveryField) {
   const auto back = from_csv(to_csv(std::vector{full(), sample()}), "cases.csv");
   ASSERT_TRUE(back.has_value()) << to_text(back.error());
   EXPECT_EQ(*back, (std::vector{full(), sample()}));
+}
+
+TEST(CaseCsv, RefusesTextThatIsNotUtf8) {
+  Case c = sample(10.0, 30.0, "Bohrung \xC3\x98");
+  c.id.clear();
+  const std::string text = to_csv(std::vector{c});
+  EXPECT_TRUE(from_csv(text, "cases.csv"));
+  std::string latin = text;
+  latin.replace(latin.find("\xC3\x98"), 2, "\xD8");
+  const auto read = from_csv(latin, "cases.csv");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, "CASE-CSV");
+  EXPECT_EQ(read.error().line, 2U);
+  EXPECT_THAT(read.error().message, ::testing::HasSubstr("source: the text is not UTF-8"));
+}
+
+TEST(CaseCsv, RefusesADayThatIsNone) {
+  for (const auto& [time, taken] : {std::pair("2024-02-29T08:00:00Z", true),
+                                    {"2026-02-30T08:00:00Z", false},
+                                    {"2025-02-29T08:00:00Z", false},
+                                    {"2026-04-31T08:00:00Z", false}}) {
+    Case c = sample();
+    c.from.time_utc = time;
+    EXPECT_FALSE(fault_of(c)) << time;  // what earlier versions kept is read
+    c.id = id_of(c);
+    EXPECT_EQ(from_csv(to_csv(std::vector{c}), "cases.csv").has_value(), taken) << time;
+    EXPECT_EQ(fault_of(Remark{"Smith", time, "chatter"}).has_value(), !taken) << time;
+  }
+}
+
+TEST(CaseRemark, IsUtf8) {
+  EXPECT_FALSE(fault_of(Remark{"M\xC3\xBCller", "2016-06-29T08:00:00Z", "chatter"}));
+  EXPECT_TRUE(fault_of(Remark{"\xFF\xFE", "2016-06-29T08:00:00Z", "chatter"}));
+  EXPECT_TRUE(fault_of(Remark{"Smith", "2016-06-29T08:00:00Z", "Maschine l\xE4uft"}));
 }
 
 }  // namespace

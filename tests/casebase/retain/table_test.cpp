@@ -45,6 +45,18 @@ TEST(TableOfReadings, TakesColumnsFromTheCallerAndDates) {
   EXPECT_DOUBLE_EQ(s.steps.at(0).moving_s, 2.0);
 }
 
+TEST(TableOfReadings, TellsColumnsThatSayNothingThatIsKnown) {
+  const Split s = split_table("time_s,tool,feed_mm_min,foo,lagg,x_rpm\n0,1,10,7,0.1,3\n6,1,10,7,0.1,3\n");
+  ASSERT_TRUE(s.end) << to_text(s.end.error());
+  ASSERT_EQ(s.said.size(), 1U);
+  EXPECT_EQ(s.said[0].code, "LOG-COLUMNS");
+  EXPECT_EQ(s.said[0].severity, Severity::kNote);
+  EXPECT_EQ(s.said[0].line, 1U);
+  for (const char* words : {"3 columns say", "'foo'", "'lagg' (is it 'lag'?)", "'x_rpm'"})
+    EXPECT_NE(s.said[0].message.find(words), std::string::npos) << s.said[0].message;
+  EXPECT_TRUE(split_table("time_s,tool,feed\n0,1,10\n6,1,10\n").said.empty());
+}
+
 TEST(TableOfReadings, MovesByPositionsWhereThereIsNoFeed) {
   const Split s = split_table("time_s,tool,x,y,z\n0,1,0,0,0\n1,1,3,4,0\n2,1,3,4,0\n3,1,3,4,2\n");
   EXPECT_DOUBLE_EQ(s.steps.at(0).path_mm, 7.0);

@@ -24,9 +24,11 @@ struct ExitText {
 /// For the manual pages; README's table says the same at more length.
 inline constexpr std::array kExitTexts{
     ExitText{kDone, "done"},
-    ExitText{kFindings,
-             "done, with findings: an unplanned feature, a violation, a difference; no program is "
-             "written of a plan that the check condemns"},
+    ExitText{
+        kFindings,
+        "done, with findings: an unplanned feature, a violation, a difference, an export of cases some of "
+        "which are lost; no program is "
+        "written of a plan that the check condemns"},
     ExitText{kUsage,
              "wrong usage; a material, machine, fixture or tool that nobody knows; an output that cannot "
              "be written"},

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "casebase/retain/join/import.h"
+#include "casebase/retain/join/seen.h"
 #include "planner/door/service/reading.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
@@ -130,6 +131,7 @@ Outcome<ImportedLogs> import_logs(const std::string& base, const std::vector<std
   }
   auto kept = casebase::CaseBase::open_or_create(base, job);
   if (!kept) return unreadable(kept.error());
+  if (auto seen = retain::seen_before(*kept, cases)) job.report(*std::move(seen));
   const std::size_t before = kept->size();
   if (auto ok = kept->add(cases); !ok) return failed(ok.error(), Code::kImpossible);
   for (Diagnostic& d : kept->take_faults()) job.report(std::move(d));

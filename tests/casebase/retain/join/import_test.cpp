@@ -75,6 +75,28 @@ TEST(Import, WhatWasExecutedIsWhatHeldLongestInAllStaysAtTheStep) {
   EXPECT_NEAR(cases->front().observed.executed_vc_m_min->value, 78.5398, 1e-3);  // 10 mm at 2500 1/min
 }
 
+TEST(Import, AFeedFarFromThePlannedOneIsTold) {
+  // Planned 0.08 mm per tooth; 480 mm/min at 3000 1/min with two teeth, in a column that says inches.
+  auto steps = two_steps();
+  steps.front().planned.bound.vc_m_min = 94.2478;
+  steps.front().planned.bound.fz_mm = 0.08;
+  const auto told = [&](const std::string& column) {
+    std::istringstream in("time_s,tool," + column +
+                          ",spindle_rpm\n0,1,480,3000\n8,1,480,3000\n10,1,0,3000\n");
+    Job job;
+    const auto cases =
+        import_log(in, LogFormat::kCsv, steps, {.part = "7", .machine = "M1", .file = "log"}, {}, job);
+    EXPECT_TRUE(cases) << (cases ? std::string() : to_text(cases.error()));
+    std::string out;
+    for (const Diagnostic& d : job.diagnostics()) out += to_text(d) + '\n';
+    return out;
+  };
+  EXPECT_EQ(told("feed_mm_min").find("LOG-FEED"), std::string::npos);
+  const std::string inches = told("feed_in_min");
+  EXPECT_NE(inches.find("2.032 mm per tooth, 25.4 times the planned 0.08"), std::string::npos) << inches;
+  EXPECT_NE(inches.find("[LOG-FEED]"), std::string::npos) << inches;
+}
+
 TEST(Import, AToolsSerialNumberNamesTheEdgeOfItsSteps) {
   Job job;
   // Tool 1 says its number a moment after it was loaded; tool 2 never does.
@@ -108,14 +130,14 @@ TEST(Import, MeasuredSizesGoToTheStepOfTheirCharacteristicAndPart) {
                      .characteristic = "DIAMETER5",
                      .type = "Diameter",
                      .has_nominal = true,
-                     .nominal_mm = 4.0,
+                     .nominal_mm = 10.0,
                      .upper_mm = 0.2,
                      .lower_mm = -0.2,
                      .value_mm = value,
                      .toleranced = true};
   };
   const auto cases =
-      import(kLog, LogFormat::kCsv, {.inspection = {row("7", 4.1), row("7", 4.3), row("8", 9.0)}}, job);
+      import(kLog, LogFormat::kCsv, {.inspection = {row("7", 10.1), row("7", 10.3), row("8", 15.0)}}, job);
   ASSERT_TRUE(cases);
   EXPECT_FALSE(cases->front().observed.size_deviation_mm);
   ASSERT_TRUE(cases->back().observed.size_deviation_mm);

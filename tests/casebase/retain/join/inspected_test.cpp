@@ -36,12 +36,11 @@ struct Joined {
   Case pocket, hole;
   std::string said;
 };
-Joined join(const std::string& rows) {
+Joined join(const std::string& rows, std::vector<Case> cases = two_cases()) {
   Job job;
   const auto read = read_inspection("part,characteristic,type,nominal,tol_plus,tol_minus,value,unit\n" + rows,
                                     "cmm.csv", 1.0, job);
   EXPECT_TRUE(read) << (read ? std::string() : to_text(read.error()));
-  std::vector<Case> cases = two_cases();
   if (read) add_inspection(*read, {}, {.part = "7", .file = "log", .inspection = "cmm.csv"}, cases, job);
   Joined out{cases[0], cases[1], {}};
   for (const Diagnostic& d : job.diagnostics()) out.said += to_text(d) + '\n';
@@ -97,6 +96,67 @@ TEST(InspectedStep, TakesTheSizesOfTheNominalThatItAsksFor) {
   const Joined none = join("7,HOLE/1,Diameter,12,0.1,-0.1,12.08,mm\n7,HOLE/2,Diameter,9,0.1,-0.1,9,mm\n");
   EXPECT_FALSE(none.hole.observed.size_deviation_mm);
   EXPECT_THAT(none.said, HasSubstr("HOLE/2 (Diameter, line 3)"));
+}
+
+TEST(InspectedStep, KeepsNoSizeThatItDoesNotAskForAndIsNotGoodByIt) {
+  const Joined inch = join("7,HOLE/d,Diameter,0.315,0.0006,0,0.3152,\n");
+  EXPECT_FALSE(inch.hole.observed.size_deviation_mm);
+  EXPECT_EQ(inch.hole.observed.verdict, Verdict::kUnknown);
+  EXPECT_THAT(inch.said, HasSubstr("warning"));
+  EXPECT_THAT(inch.said, HasSubstr("nominal 0.315 mm, asked 8 mm"));
+  EXPECT_THAT(inch.said, HasSubstr("--unit inch"));
+  EXPECT_THAT(inch.said, HasSubstr("HOLE/d (Diameter, line 2)"));
+  // With its unit it is the same hole, rounded: 0.0002 in too wide.
+  const Joined said = join("7,HOLE/d,Diameter,0.315,0.0006,0,0.3152,in\n");
+  EXPECT_NEAR(said.hole.observed.size_deviation_mm.value().value, 0.0002 * 25.4, 1e-9);
+  EXPECT_EQ(said.hole.observed.verdict, Verdict::kGood);
+  EXPECT_EQ(said.said, "");
+
+  const Joined other = join("7,HOLE/d,Diameter,10,0.1,-0.1,10.004,mm\n");
+  EXPECT_FALSE(other.hole.observed.size_deviation_mm);
+  EXPECT_EQ(other.hole.observed.verdict, Verdict::kUnknown);
+  EXPECT_THAT(other.said, HasSubstr("nominal 10 mm, asked 8 mm"));
+  EXPECT_THAT(other.said, Not(HasSubstr("inch")));
+  // Beyond its limits it is bad whatever it is of.
+  EXPECT_EQ(join("7,HOLE/d,Diameter,10,0.1,-0.1,10.4,mm\n").hole.observed.verdict, Verdict::kBad);
+  const Joined depth = join("7,HOLE/d,Depth,12,0.1,-0.1,12,mm\n");
+  EXPECT_FALSE(depth.hole.observed.depth_deviation_mm);
+  EXPECT_THAT(depth.said, HasSubstr("nominal 12 mm, asked 10 mm"));
+}
+
+TEST(InspectedStep, KeepsNoSizeWhoseDecimalPointSlipped) {
+  const Joined j = join("7,HOLE/d,Diameter,8,0.1,-0.1,80.04,mm\n");
+  EXPECT_FALSE(j.hole.observed.size_deviation_mm);
+  EXPECT_EQ(j.hole.observed.verdict, Verdict::kBad);
+  EXPECT_THAT(j.said, HasSubstr("factor of 3.16"));
+  EXPECT_FALSE(join("7,HOLE/d,Diameter,8,,,0.315,mm\n").hole.observed.size_deviation_mm);
+}
+
+TEST(InspectedStep, TakesANominalThatIsTheMiddleOfItsZone) {
+  // 8 mm +0.015/0, of which the path aims at the middle.
+  std::vector<Case> cases = two_cases();
+  cases[1].asked.tolerance_mm = 0.015;
+  cases[1].bound.aimed_over_mm = Figure{0.0075, 0.0, Origin::kEntered};
+  const Joined middle = join("7,HOLE/d,Diameter,8.0075,0.0075,-0.0075,8.0085,mm\n", cases);
+  EXPECT_NEAR(middle.hole.observed.size_deviation_mm.value().value, 0.0085, 1e-9);
+  EXPECT_EQ(middle.hole.observed.verdict, Verdict::kGood);
+  const Joined drawn = join("7,HOLE/d,Diameter,8,0.015,0,8.0085,mm\n", cases);
+  EXPECT_NEAR(drawn.hole.observed.size_deviation_mm.value().value, 0.0085, 1e-9);
+  // A nominal whose own limits hold the size that is asked for.
+  const Joined wide = join("7,HOLE/d,Diameter,8.2,0.2,-0.2,8.3,mm\n");
+  EXPECT_NEAR(wide.hole.observed.size_deviation_mm.value().value, 0.3, 1e-9);
+  EXPECT_EQ(middle.said + drawn.said + wide.said, "");
+}
+
+TEST(InspectedStep, TakesASizeThatItDoesNotState) {
+  EXPECT_NEAR(
+      join("7,POCKET/l,Length,60,0.1,-0.1,60.04,mm\n").pocket.observed.size_deviation_mm.value().value, 0.04,
+      1e-9);
+  std::vector<Case> sheet = two_cases();
+  sheet[1].asked.diameter_mm = 0.0;
+  const Joined j = join("7,HOLE/d,Diameter,12,0.1,-0.1,12.04,mm\n", sheet);
+  EXPECT_NEAR(j.hole.observed.size_deviation_mm.value().value, 0.04, 1e-9);
+  EXPECT_EQ(j.said, "");
 }
 
 TEST(InspectedStep, TellsByNameAndLineWhatNoCaseKeeps) {

@@ -48,6 +48,30 @@ TEST_F(CasesImport, MakesACaseOfEachStepOnce) {
   EXPECT_THAT(run("cases list base.db bad").out, HasSubstr("BORING"));
 }
 
+TEST_F(CasesImport, KnowsALogByItsNameHoweverItsPathIsSpelt) {
+  const auto import = [&](const std::string& log, const std::string& part = "7") {
+    return run("cases import base.db csv " + log + " --plan sheet.csv --part " + part);
+  };
+  put("log.csv",
+      "time_s,tool,feed_mm_min,spindle_rpm,lag_mm,load_percent\n0,1,600,3000,0.01,20\n10,2,0,3000,0,5\n"
+      "12,2,300,3000,0.06,30\n22,2,300,3000,0.01,30\n32,2,0,3000,0,5\n");
+  const Ran first = import("log.csv");
+  EXPECT_THAT(first.err, HasSubstr("2 cases, 2 of them new"));
+  EXPECT_THAT(first.err, Not(HasSubstr("CASE-SAME")));
+  for (const std::string& spelt : {std::string("./log.csv"), (folder_ / "log.csv").string()})
+    EXPECT_THAT(import(spelt).err, HasSubstr(", 0 of them new")) << spelt;
+  // The same readings by another name, and as another part: kept, and told.
+  std::filesystem::copy_file(folder_ / "log.csv", folder_ / "copy.csv");
+  for (const Ran& again : {import("copy.csv"), import("log.csv", "8")}) {
+    EXPECT_THAT(again.err, HasSubstr("2 of them new"));
+    EXPECT_THAT(again.err, HasSubstr("2 new cases have the same time and readings as another"));
+  }
+  put("other.csv",
+      "time_s,tool,feed_mm_min,spindle_rpm,lag_mm,load_percent\n0,1,600,3000,0.02,21\n11,2,0,3000,0,5\n"
+      "12,2,300,3000,0.05,31\n22,2,300,3000,0.01,30\n32,2,0,3000,0,5\n");
+  EXPECT_THAT(import("other.csv", "9").err, Not(HasSubstr("CASE-SAME")));
+}
+
 TEST_F(CasesImport, TracesPartStepAndMeasuredValueTogether) {
   ASSERT_EQ(import_all().code, 0);
   const Ran traced = run("cases trace base.db sheet.csv -o trace.jsonl -o trace.csv -o trace.db");
@@ -98,6 +122,16 @@ TEST_F(CasesImport, ReportsByStepToolAndFeatureWithAPicture) {
     EXPECT_THAT(picture, HasSubstr(panel));
   EXPECT_THAT(told.out, Not(HasSubstr("wear mm")));  // nobody measured it
   EXPECT_THAT(run("cases report base.db --json").out, HasSubstr("\"workingsteps\": ["));
+}
+
+TEST_F(CasesImport, ReportDrawsNoPictureOfAnotherKind) {
+  ASSERT_EQ(import_all().code, 0);
+  const Ran r = run("cases report base.db -o rep.png");
+  EXPECT_EQ(r.code, 2) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("rep.png"));
+  EXPECT_THAT(r.err, HasSubstr("expected .svg"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "rep.png"));
+  EXPECT_EQ(run("cases report base.db -o rep.SVG").code, 0);
 }
 
 TEST_F(CasesImport, ReportsWhatIsLeftOfAnEdgeOverItsCuttingTime) {

@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "tests/casebase/sample.h"
 #include "tests/door/app/command/command.h"
 #include "tests/support/corpus.h"
 
@@ -70,6 +71,33 @@ TEST_F(Cases, ThatAreRemovedStayAway) {
   EXPECT_THAT(run("cases list base.db").out, Not(HasSubstr(id.substr(0, 12))));
 }
 
+TEST_F(Cases, AreCountedOnceWhereTheyAreNamedTwice) {
+  const std::string id = first(), said = " --by Smith --reason chatter";
+  EXPECT_THAT(run("cases judge base.db " + id + ' ' + id.substr(0, 12) + " --verdict bad" + said).err,
+              HasSubstr("1 case judged bad"));
+  EXPECT_THAT(run("cases remove base.db " + id + ' ' + id + said).err, HasSubstr("1 case removed"));
+  const Ran again = run("cases remove base.db " + id + " --by Jones --reason again");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("was removed already, by Smith: chatter"));
+  EXPECT_THAT(again.err, HasSubstr("0 cases removed"));
+  const Ran judged = run("cases judge base.db " + id + " --verdict good" + said);
+  EXPECT_EQ(judged.code, 2) << judged.err;
+  EXPECT_THAT(judged.err, HasSubstr("CASE-REMOVED"));
+}
+
+TEST_F(Cases, ThatAreNotAllThereAreExportedWithFindings) {
+  EXPECT_EQ(run("cases export base.db").code, 0);
+  casebase::tamper((folder_ / "base.db").string(),
+                   "UPDATE capstan_body SET body = x'00' WHERE number = (SELECT min(number) FROM capstan_body)");
+  for (const std::string how : {"", " --json"}) {
+    const Ran out = run("cases export base.db" + how);
+    EXPECT_EQ(out.code, 1) << out.err;
+    EXPECT_THAT(out.err, HasSubstr("CASE-ROW"));
+    EXPECT_THAT(out.err, HasSubstr("not all that was stored"));
+    EXPECT_THAT(out.out, HasSubstr("POCKET"));  // what is there still
+  }
+}
+
 TEST_F(Cases, AreTheSameAfterAnExport) {
   put("cases.csv", run("cases export base.db").out);
   ASSERT_EQ(run("cases add other.db cases.csv").code, 0);
@@ -116,6 +144,19 @@ TEST_F(Cases, OfAServerTellNoPassword) {
     EXPECT_THAT(ran.err + ran.out, Not(HasSubstr("tr0ub4dor"))) << call;
   }
   unsetenv("CAPSTAN_CASES");
+}
+
+TEST_F(Cases, ThatShareNoCategoriesAreToldByTheOneThatDiffers) {
+  const std::string call = "cases nearest base.db --diameter 8 --depth 30 --material 6061 --operation ";
+  EXPECT_THAT(run(call + "REAMING --tool carbide/reamer --machine generic_vmc").out, HasSubstr("distance"));
+  EXPECT_THAT(run(call + "REAMING --tool carbide/reamer --machine small_router").out,
+              HasSubstr("in the machine: 'small_router' is asked, there it is 'generic_vmc'\n"));
+  const Ran tool = run(call + "REAMING --tool reamer --machine generic_vmc");
+  EXPECT_EQ(tool.code, 2) << tool.out;
+  EXPECT_THAT(tool.err, HasSubstr("unknown tool 'reamer'. Did you mean 'carbide/reamer'"));
+  const Ran operation = run(call + "reaming --tool carbide/reamer");
+  EXPECT_EQ(operation.code, 2) << operation.out;
+  EXPECT_THAT(operation.err, HasSubstr("Did you mean 'REAMING'"));
 }
 
 TEST_F(Cases, ThatAreNotThereAreWrongUsage) {

@@ -117,15 +117,21 @@ TEST_F(CasesTune, DrawsAPictureForEachStepBesideTheFirstsName) {
   for (const casebase::Case& c : good(3)) cases.push_back(c);
   keep(cases);
   std::filesystem::create_directory(folder_ / "a.folder");
-  const Ran ran = run("cases tune base.db plan.json -o a.folder/pic");
+  const Ran ran = run("cases tune base.db plan.json -o a.folder/pic.svg");
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(slurp(folder_ / "a.folder" / "pic"), StartsWith("<svg"));
-  EXPECT_THAT(slurp(folder_ / "a.folder" / "pic-2"), StartsWith("<svg"));
+  EXPECT_THAT(slurp(folder_ / "a.folder" / "pic.svg"), StartsWith("<svg"));
+  EXPECT_THAT(slurp(folder_ / "a.folder" / "pic-2.svg"), StartsWith("<svg"));
   // The second cannot be written: neither is.
   std::filesystem::create_directory(folder_ / "b-2.svg");
   EXPECT_NE(run("cases tune base.db plan.json -o b.svg").code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "b.svg"));
   EXPECT_EQ(run("cases tune base.db plan.json -o c.svg -o d.svg").code, 2);
+  for (const char* name : {"t.foo", "pic", "t.png"}) {
+    const Ran other = run("cases tune base.db plan.json -o " + std::string(name));
+    EXPECT_EQ(other.code, 2) << name;
+    EXPECT_THAT(other.err, HasSubstr("OUT-KIND")) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / name));
+  }
 }
 
 TEST_F(CasesTune, DoesNotHearACaseOfAnotherMachine) {

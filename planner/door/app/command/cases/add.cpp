@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "casebase/casebase.h"
 #include "casebase/intake.h"
+#include "planner/door/app/command/cases/category_words.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/app/command/session.h"
 #include "planner/door/service/reading.h"
@@ -70,6 +72,10 @@ int run_cases_add(Session& s) {
     if (!more) return s.end(more.error(), kUnreadable);
     cases.insert(cases.end(), more->begin(), more->end());
   }
+  std::vector<std::string_view> times;
+  for (const casebase::Case& c : cases) times.push_back(c.from.time_utc);
+  if (auto later = of_the_future(times, "case is", "cases are")) s.job.report(*std::move(later));
+  for (Diagnostic& d : unplanned_words(cases)) s.job.report(std::move(d));
   const auto tell = [&](std::size_t added, std::size_t held) {
     s.summary = "read " + counted(cases.size(), "case", "cases") + ", " + std::to_string(added) +
                 " of them new; the base holds " + counted(held, "case", "cases");

@@ -1,4 +1,5 @@
 #include "casebase/recall/recall.h"
+#include "planner/door/app/command/cases/category_words.h"
 #include "planner/door/app/command/cases/shared.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
@@ -29,6 +30,7 @@ int run_cases_nearest(Session& s) {
   question.stick_out_mm = q.stick_out_mm;
   question.hardness_hb = q.hardness_hb;
   question.coolant = casebase::coolant_of(q.coolant).value_or(casebase::Coolant::kUnknown);
+  if (auto known = known_categories(question, *base); !known) return s.end(known.error(), kUsage);
   const auto near = base->nearest(question, q.count);
   if (!near) return s.end(near.error(), kUsage);
   std::vector<std::vector<std::string>> rows = {{"case", "distance", "D", "depth", "width", "tolerance",
@@ -42,7 +44,7 @@ int run_cases_nearest(Session& s) {
                     number_text(c.bound.vc_m_min), number_text(c.bound.fz_mm),
                     std::string(to_text(c.observed.verdict)), std::string(to_text(c.origin)), c.from.source});
   }
-  std::string out = near->empty() ? "no case shares these categories\n" : table(rows, "");
+  std::string out = near->empty() ? no_shared_categories(question, *base) : table(rows, "");
   const auto advice = casebase::advise(
       casebase::evidence_near(*base, question).value_or(std::vector<casebase::Evidence>{}), {});
   if (advice.leads) {

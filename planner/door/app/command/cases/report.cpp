@@ -140,6 +140,7 @@ std::string groups_json(const std::vector<report::Group>& groups) {
 }  // namespace
 
 int run_cases_report(Session& s) {
+  if (auto ok = are_pictures(s.options.outputs); !ok) return s.end(ok.error(), kUsage);
   const auto base = casebase::CaseBase::open(*s.options.inputs.cases, s.job);
   if (!base) return s.end(base.error(), kUnreadable);
   std::vector<casebase::Case> cases = base->cases();

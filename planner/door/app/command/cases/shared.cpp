@@ -1,9 +1,13 @@
 #include "planner/door/app/command/cases/shared.h"
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 
 #include "casebase/record/fields.h"
+#include "casebase/tune/from_case.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/text.h"
 
 namespace capstan::app {
 
@@ -19,9 +23,39 @@ bool report_faults(Session& s, const casebase::CaseBase& base) {
   return whole;
 }
 
+std::optional<Diagnostic> of_the_future(const std::vector<std::string_view>& times_utc, std::string_view one,
+                                        std::string_view more) {
+  const long today =
+      std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()).time_since_epoch().count();
+  std::size_t n = 0;
+  std::string first;
+  for (const std::string_view time : times_utc) {
+    const auto day = casebase::tune::day_of(std::string(time));
+    if (!day || *day <= today) continue;
+    if (n++ == 0) first = time;
+  }
+  if (n == 0) return std::nullopt;
+  return Diagnostic{.code = "CASE-FUTURE",
+                    .severity = Severity::kWarning,
+                    .message = counted(n, std::string(one), std::string(more)) +
+                               " of a day after today by this computer's clock, the first of " + first,
+                    .hint = "mend the year, or the clock of the machine that wrote it"};
+}
+
+Status are_pictures(const std::vector<std::string>& outputs) {
+  for (const std::string& path : outputs) {
+    if (lower_text(std::filesystem::path(path).extension().string()) == ".svg") continue;
+    return fail(Diagnostic{.code = "OUT-KIND",
+                           .message = "the name's ending is none of a picture that is written",
+                           .file = path,
+                           .expected = ".svg"});
+  }
+  return {};
+}
+
 std::string json_text(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
+  for (const char c : utf8_text(text)) {  // bases of earlier versions may hold other bytes
     if (c == '"' || c == '\\') out += '\\';
     out += c;  // a case holds no control character
   }

@@ -15,6 +15,12 @@ namespace capstan::app {
 /// Reports what was found altered or gone in a base; whether all of it is what was stored, as far as it was
 /// read.
 bool report_faults(Session& s, const casebase::CaseBase& base);
+/// A warning of times that lie on a day after today, by this computer's clock in UTC; nothing where none
+/// does. `one`, `more`: "case is", "cases are".
+[[nodiscard]] std::optional<Diagnostic> of_the_future(const std::vector<std::string_view>& times_utc,
+                                                      std::string_view one, std::string_view more);
+/// Fails   OUT-KIND: an output that is no .svg file; by its name, before any work.
+[[nodiscard]] Status are_pictures(const std::vector<std::string>& outputs);
 /// Whether a case holds all words of a filter: each is its origin, its verdict, or a part of a category, of
 /// its source, part, workingstep or tool.
 [[nodiscard]] bool wanted(const casebase::Case& c, const std::vector<std::string>& words);

@@ -337,6 +337,7 @@ Status write_pictures(const std::filesystem::path& file, const std::vector<StepA
 }  // namespace
 
 int run_cases_tune(Session& s) {
+  if (auto ok = are_pictures(s.options.outputs); !ok) return s.end(ok.error(), kUsage);
   const auto base = casebase::CaseBase::open(*s.options.inputs.cases, s.job);
   if (!base) return s.end(base.error(), kUnreadable);
   tune::TuneOptions options;

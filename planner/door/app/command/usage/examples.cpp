@@ -78,7 +78,7 @@ constexpr std::array kRows = {
     Row{"capstan cases report", "capstan cases report cases.db -o times.svg"},
     Row{"capstan cases nearest",
         "capstan cases nearest cases.db --operation DRILLING --material C45 --tool carbide/twist_drill "
-        "--diameter 8"},
+        "--machine generic_vmc --diameter 8"},
 };
 
 }  // namespace

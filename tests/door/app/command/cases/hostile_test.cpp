@@ -135,6 +135,26 @@ TEST_F(CasesHostile, CasesAreRefusedWithOneMessage) {
     refused("cases add base.db cases.csv", "cases.csv", bytes, says);
 }
 
+TEST_F(CasesHostile, CasesOfWordsAndDaysThatCannotBeAreTold) {
+  std::string head = kCasesHead;
+  head.insert(head.size() - 1, ",time_utc");
+  put("cases.csv",
+      head +
+          "REEMING,6061,reamer,mill,entered,90,0.1,book,10,2,2126-06-28T17:32:31Z\n"
+          "DRILLING,N/aluminium,carbide/twist_drill,mill,entered,90,0.1,book,10,2,2016-06-28T17:32:31Z\n");
+  const Ran ran = run("cases add base.db cases.csv");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("unknown operation 'REEMING'. Did you mean 'REAMING'"));
+  EXPECT_THAT(ran.err, HasSubstr("unknown tool 'reamer'. Did you mean 'hss/reamer'"));
+  EXPECT_THAT(ran.err, HasSubstr("unknown material '6061'"));
+  EXPECT_THAT(ran.err, HasSubstr("1 case is of a day after today"));
+  EXPECT_THAT(ran.err, HasSubstr("the first of 2126-06-28T17:32:31Z"));
+  EXPECT_THAT(ran.err, Not(HasSubstr("DRILLING")));
+  EXPECT_THAT(ran.err, HasSubstr("2 of them new"));
+  put("cases.csv", kCasesHead + kCase);
+  EXPECT_THAT(run("cases add base.db cases.csv").err, Not(HasSubstr("CASE-WORD")));
+}
+
 TEST_F(CasesHostile, FilesOfWindowsAreRead) {
   ASSERT_EQ(run(import()).code, 0);
   const std::string plain = run("cases export base.db").out;
