@@ -373,7 +373,9 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.vc_start_m_min = start.vc_m_min;
     q.fz_start_mm = start.fz_mm;
   }
-  const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
+  // What is milled through is cut below its bottom, and levels are divided over all of that.
+  const double below = job.shape.through && q.kind != CutKind::kAxial ? job.break_through_mm : 0.0;
+  const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm - below + job.allowance_bottom_mm;
   q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
   q.width_mm = width_of(job.shape);
   q.slot = model::has(job.shape.kind, model::ShapeTrait::kWalled) && q.width_mm > 0.0 &&
