@@ -14,7 +14,7 @@ using namespace block;
 TEST(OpenOutside, IsPlannedWholeWhereItIsWiderThanOnePass) {
   // Below the line y = 28 to 36, which bends round what stays, 5 mm deep.
   const Planned p =
-      bound(read("#60=PLUS_MINUS_VALUE(0.1,0.1,3);\n#61=TOLERANCED_LENGTH_MEASURE(5.,#60);\n"
+      bound(read("#60=PLUS_MINUS_VALUE(0.07,0.07,3);\n#61=TOLERANCED_LENGTH_MEASURE(5.,#60);\n"
                  "#62=CARTESIAN_POINT('',(0.,36.,0.));\n#63=CARTESIAN_POINT('',(30.,28.,0.));\n"
                  "#64=CARTESIAN_POINT('',(70.,28.,0.));\n#65=CARTESIAN_POINT('',(100.,36.,0.));\n"
                  "#66=POLYLINE('',(#62,#63,#64,#65));\n#67=GENERAL_PROFILE($,#66);\n"
