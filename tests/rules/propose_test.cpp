@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -181,7 +182,9 @@ TEST(Slot, OfEachFormGetsItsCutter) {
   vee.slot_profile = {{0, 0}, {5, 5}};
   const auto v = proposed(vee).chains.at(0);
   EXPECT_THAT(kinds(v), ElementsAre(TypeId::kBottomAndSideRoughMilling, TypeId::kBottomAndSideFinishMilling));
-  EXPECT_LE(v[0].tool.diameter_max_mm, 5.0) << "half way down it is 5 mm wide";
+  EXPECT_NEAR(v[0].allowance_side_mm, 0.3, 1e-12) << "off both flanks";
+  // Half way down it is 5 mm wide; across flanks that lean by 45 degrees 0.3 mm are 0.3 sqrt 2.
+  EXPECT_NEAR(v[0].tool.diameter_max_mm, 5.0 - 0.6 * std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(v[1].tool.point_angle_rad, 90.0 * kDegree, 1e-12);
   EXPECT_GE(v[1].tool.diameter_min_mm, 10.0);
   FeatureShape round = slot();

@@ -31,7 +31,8 @@ constexpr double kUsedShare = 0.25;
 /// Of each diameter that it sticks out beyond kStiff.
 constexpr double kPerSlendernessS = 2.0;
 constexpr double kStiff = 3.0;
-/// Between equals the larger cutter, which is worth this over the smallest.
+/// Between equals the larger cutter, which is worth this over the smallest; not of countersinks: of these as
+/// much cuts as the cone is wide, whatever their size.
 constexpr double kPerSizeS = 1.0;
 
 /// A boring tool set to the wanted size, when it can be, and has to be.
@@ -61,7 +62,7 @@ double score_of(const Cutter& c, std::size_t class_rank, const ToolRequirement& 
   s += kPerClassS * static_cast<double>(class_rank);
   if (r.diameter_exact_mm > 0.0)
     s += kPerExactMmS * std::abs(c.cutting_diameter_mm - r.diameter_exact_mm);
-  else if (largest_mm > 0.0)
+  else if (largest_mm > 0.0 && c.cutter_class != CutterClass::kCountersink)
     s += kPerSizeS * (1.0 - c.cutting_diameter_mm / largest_mm);
   s += kPerSlendernessS * std::max(0.0, c.stick_out_mm / c.cutting_diameter_mm - kStiff);
   return rounded(s, 9);

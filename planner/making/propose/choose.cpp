@@ -30,7 +30,8 @@ using model::TypeId;
 
 /// Removes drills, reamers and taps that the spindle cannot turn at any useful feed; gives the reason if none
 /// is left.
-std::string keep_able(const Choice& choice, const model::ProposedStep& step, model::Selection& s, Job& job) {
+std::string keep_able(const Choice& choice, const model::ProposedStep& step, const FeatureShape& shape,
+                      model::Selection& s, Job& job) {
   if (!model::is_a(step.operation, TypeId::kDrillingTypeOperation) ||
       model::is_a(step.operation, TypeId::kThreadDrilling))
     return {};
@@ -40,7 +41,7 @@ std::string keep_able(const Choice& choice, const model::ProposedStep& step, mod
   std::string why;
   for (const model::Candidate& c : s.ranked) {
     const auto answer = optimise::cut(
-        step::hole_question(choice.piece.plan, choice.margin_deviations, step, c), options, job);
+        step::hole_question(choice.piece.plan, choice.margin_deviations, step, shape, c), options, job);
     if (answer && answer->feasible) {
       able.push_back(c);
       continue;
@@ -218,7 +219,7 @@ Equipped equip(const Choice& choice, const std::vector<model::ProposedStep>& cha
       });
     }
     out.why_not = keep_untried(choice.bans, member, out.chosen.key, i, s);
-    if (out.why_not.empty() && able) out.why_not = keep_able(choice, step, s, job);
+    if (out.why_not.empty() && able) out.why_not = keep_able(choice, step, shape, s, job);
     if (!out.why_not.empty()) return out;
     const std::string& id = s.ranked.front().cutter.id;
     if (std::find(used.begin(), used.end(), id) == used.end()) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -131,6 +132,25 @@ TEST(DrillPath, DrawsAReamerOutAtFeedAndSaysWhenItsSpindleIsStopped) {
   EXPECT_EQ(g->speed_factor[up], 0.0);
   ASSERT_EQ(job.diagnostics().size(), 1U);
   EXPECT_EQ(job.diagnostics()[0].code, "TPA-GIVEN");
+}
+
+TEST(DrillPath, DrawsAGunDrillOutAsSlowlyTurningAsItWentIn) {
+  for (const bool gun : {true, false}) {
+    PathJob t =
+        hole_job(TypeId::kDrilling, gun ? CutterClass::kGunDrill : CutterClass::kTwistDrill, 8.0, 120.0);
+    t.cutter.usable_length_mm = 150.0;
+    t.phases = DrillPhases{0.3, 0.3, 12.0, 1.0, 1.0, 0.0, false};
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    const auto bottom = std::min_element(g->path.z.begin(), g->path.z.end()) - g->path.z.begin();
+    ASSERT_LT(static_cast<std::size_t>(bottom) + 1, g->path.size());
+    EXPECT_EQ(g->speed_factor[bottom], 1.0);
+    for (std::size_t i = bottom + 1; i < g->path.size(); ++i) {
+      EXPECT_EQ(g->path.kind[i], MoveKind::kRapid);
+      EXPECT_EQ(g->speed_factor[i], gun ? 0.3 : 1.0);
+    }
+  }
 }
 
 TEST(DrillPath, SinksAConeToTheDiameterAsked) {

@@ -79,6 +79,69 @@ TEST(OpenOutsidePath, GoesRoundACornerOfItsLine) {
   EXPECT_NEAR(map.highest(geometry::rectangle({100.5, -4.5}, {105.5, 59.5})), -30.0, 1e-4);
 }
 
+/// The same line, 28 mm of raw piece below it, more than a cutter of 20 mm takes in one pass; roughed to 0.3
+/// beside the wall and 0.2 over the floor.
+PathJob wide_beside() {
+  PathJob t = beside(20.0);
+  t.stock = geometry::rectangle({-8, -28}, {120, 60});
+  t.operation = model::TypeId::kBottomAndSideFinishMilling;
+  t.axial_depth_mm = 30.0;
+  t.left_on_side_mm = 0.3;
+  t.left_on_bottom_mm = 0.2;
+  return t;
+}
+
+TEST(OpenOutsidePath, FinishesTheWholeFloorThatRoughingLeft) {
+  for (const double level : {30.0, 10.0}) {
+    PathJob t = wide_beside();
+    t.axial_depth_mm = level;
+    Job job;
+    const auto g = generate(t, job);
+    ASSERT_TRUE(g) << g.error().message;
+    EXPECT_THAT(rule_breaks(t, *g), testing::IsEmpty());
+    EXPECT_LE(gouge_mm(*g, t.shape.reach, 10.0, -1e-6), 0.003) << "nothing above the line is touched";
+    HeightMap map({-40, -60}, {160, 70}, 0.5, -29.8);
+    map.only(t.stock);
+    map.set_top(geometry::rectangle({-8, -0.3}, {120, 60}), 0.0);
+    EXPECT_THAT(map.run(*g, t.cutter).faults, testing::IsEmpty());
+    EXPECT_NEAR(map.highest(geometry::rectangle({-7.5, -27.5}, {119.5, -0.1})), -30.0, 1e-4);
+    EXPECT_NEAR(map.lowest_outside(geometry::rectangle({-200, -200}, {300, 0.0})), 0.0, 1e-4);
+  }
+}
+
+TEST(OpenOutsidePath, TakesTheWallsAllowanceAfterTheFloor) {
+  const PathJob t = wide_beside();
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  // At the wall once, in the end: before, the cutter keeps off what is left on it.
+  bool at_wall = false;
+  for (std::size_t i = 0; i < g->path.size(); ++i) {
+    if (g->path.role[i] != MoveRole::kCut) continue;
+    const bool here = g->path.y[i] > -10.3 + 0.01;
+    EXPECT_TRUE(here || !at_wall) << "back to the floor after the wall";
+    at_wall = here;
+  }
+  EXPECT_TRUE(at_wall);
+}
+
+TEST(OpenOutsidePath, GoesOnceAlongTheWallWhereNothingIsLeftOnTheFloor) {
+  PathJob t = wide_beside();
+  t.left_on_bottom_mm = 0.0;
+  PathJob side = wide_beside();
+  side.operation = model::TypeId::kSideFinishMilling;
+  PathJob narrow = wide_beside();
+  narrow.stock = geometry::rectangle({-8, -19}, {120, 60});  // one pass covers it
+  for (const PathJob& task : {t, side, narrow}) {
+    Job job;
+    const auto g = generate(task, job);
+    ASSERT_TRUE(g) << g.error().message;
+    double lowest = 0.0;
+    for (const double y : g->path.y) lowest = std::min(lowest, y);
+    EXPECT_NEAR(lowest, -10.0, 1e-3);
+  }
+}
+
 TEST(Tracks, HaveNoArcThatAControlDoesNotResolve) {
   // A corner of six tenths of a micrometre, in chords: what insets leave of a fillet as wide as the cutter.
   geometry::Loop loop = {{0, 0}, {40, 0}};

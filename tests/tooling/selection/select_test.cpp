@@ -51,6 +51,21 @@ TEST(Select, ComesToAToolWithoutALengthLast) {
   EXPECT_EQ(s.ranked[0].cutter.id, "b");
 }
 
+TEST(Select, TakesNoLargerCountersinkThanTheConeNeeds) {
+  // 13 mm over a hole of 6.6 mm: 16.5 and 20.5 mm are fed alike, wider ones more slowly, for their feed ends
+  // at 0.1 mm.
+  ToolRequirement r;
+  r.classes = {CutterClass::kCountersink, CutterClass::kChamferMill};
+  r.point_angle_rad = 0.5 * std::numbers::pi;
+  r.diameter_min_mm = 13.0;
+  r.tip_diameter_max_mm = 6.6;
+  r.depth_of_cut_mm = 3.2;
+  r.reach_mm = 8.5;
+  const auto s = select(r, library(), material("wrought_aluminium"), machine(), {});
+  ASSERT_GT(s.ranked.size(), 1U);
+  EXPECT_EQ(s.ranked[0].cutter.id, "generic/countersink_90/16.5");
+}
+
 TEST(Select, TakesTheLargestEndMillThatTheCornersAllow) {
   ToolRequirement r;
   r.classes = {CutterClass::kEndmill};

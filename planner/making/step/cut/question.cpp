@@ -271,8 +271,16 @@ void hold_to_edits(const StepDraft& step, optimise::CutQuestion& q) {
 
 double engaged_diameter_mm(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm) {
   const bool cone = model::has(operation, model::OperationTrait::kConeTip);
-  if (!cone || !depth_mm || !(c.point_angle_rad > 0.0)) return 0.0;
+  if (!cone || !(depth_mm.value_or(0.0) > 0.0) || !(c.point_angle_rad > 0.0)) return 0.0;
   return c.tip_diameter_mm + 2.0 * *depth_mm * std::tan(0.5 * c.point_angle_rad);
+}
+
+double engaged_diameter_mm(TypeId operation, const model::Cutter& c, std::optional<double> depth_mm,
+                           const model::FeatureShape& s) {
+  const double stated = engaged_diameter_mm(operation, c, depth_mm);
+  const bool sinks = operation == TypeId::kCounterSinking && s.kind == ShapeKind::kHole;
+  if (stated > 0.0 || !sinks || !(c.point_angle_rad > 0.0)) return stated;
+  return s.diameter.middle();
 }
 
 double stated_zone_mm(const model::FeatureShape& s) {
@@ -335,7 +343,8 @@ bool leaves_terraces(const model::FeatureShape& s) {
 }
 
 optimise::CutQuestion hole_question(const model::Plan& plan, double margin_deviations,
-                                    const model::ProposedStep& step, const model::Candidate& c) {
+                                    const model::ProposedStep& step, const model::FeatureShape& shape,
+                                    const model::Candidate& c) {
   optimise::CutQuestion q;
   q.cutter = c.cutter;
   q.material = plan.material;
@@ -347,7 +356,7 @@ optimise::CutQuestion hole_question(const model::Plan& plan, double margin_devia
   q.pre_hole_mm = step.start_diameter_mm;
   q.least_feed_ratio = optimise::kLeastDrillFeed;
   q.override_locked = step.lock_override;
-  q.engaged_diameter_mm = engaged_diameter_mm(step.operation, c.cutter, step.depth_mm);
+  q.engaged_diameter_mm = engaged_diameter_mm(step.operation, c.cutter, step.depth_mm, shape);
   start_at_point(q, tooling::start_values(c.cutter, plan.material, plan.machine).wanted_vc_m_min);
   return q;
 }
@@ -373,14 +382,17 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.vc_start_m_min = start.vc_m_min;
     q.fz_start_mm = start.fz_mm;
   }
-  const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm + job.allowance_bottom_mm;
+  // What is milled through is cut below its bottom, and levels are divided over all of that.
+  const double below = job.shape.through && q.kind != CutKind::kAxial ? job.break_through_mm : 0.0;
+  const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm - below + job.allowance_bottom_mm;
   q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
   q.width_mm = width_of(job.shape);
   q.slot = model::has(job.shape.kind, model::ShapeTrait::kWalled) && q.width_mm > 0.0 &&
            q.width_mm <= kAsWide * step.cutter.cutting_diameter_mm;
   q.constant_engagement = job.constant_engagement && q.kind == CutKind::kRough;
   q.pre_hole_mm = job.previous_diameter_mm.value_or(0.0);
-  q.engaged_diameter_mm = engaged_diameter_mm(step.operation.type, step.cutter, job.cutting_depth_mm);
+  q.engaged_diameter_mm =
+      engaged_diameter_mm(step.operation.type, step.cutter, job.cutting_depth_mm, job.shape);
   start_at_point(q, start.wanted_vc_m_min);
   count_speed_at_top(q);
   const double d = step.cutter.cutting_diameter_mm;

@@ -19,11 +19,16 @@ namespace capstan::step {
 /// The same for a proposed hole-making step, before any noun exists: can this cutter do it at all?
 [[nodiscard]] optimise::CutQuestion hole_question(const model::Plan& plan, double margin_deviations,
                                                   const model::ProposedStep& step,
+                                                  const model::FeatureShape& shape,
                                                   const model::Candidate& candidate);
 
-/// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does.
+/// How wide a cone cuts at its depth: 2 t tan(SIG / 2), plus its flat tip; 0 when all of the cutter does, or
+/// no depth is stated.
 [[nodiscard]] double engaged_diameter_mm(model::TypeId operation, const model::Cutter& c,
                                          std::optional<double> depth_mm);
+/// The same in a shape: where no depth is stated a countersink goes down until the hole is as wide as asked.
+[[nodiscard]] double engaged_diameter_mm(model::TypeId operation, const model::Cutter& c,
+                                         std::optional<double> depth_mm, const model::FeatureShape& shape);
 
 /// The narrowest zone that the shape's sizes across state, mm; 0: none states one.
 [[nodiscard]] double stated_zone_mm(const model::FeatureShape& shape);

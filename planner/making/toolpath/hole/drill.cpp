@@ -153,6 +153,15 @@ void peck_down(PathWriter& w, const PathJob& task, const std::vector<Stretch>& a
   }
 }
 
+/// Share of the speed at which a drill is drawn out. A gun drill leaves its guide as it went in: beyond the
+/// hole nothing holds its long shank. Source: HEIDENHAIN cycle 241 (single-lip deep-hole drilling), which has
+/// one speed for the way in and out (Q427) beside that of drilling (Q428).
+double speed_on_retract(const PathJob& task) {
+  const bool slow = task.cutter.cutter_class == CutterClass::kGunDrill && task.phases &&
+                    task.phases->depth_of_start_mm > 0.0;
+  return slow ? task.phases->speed_at_start : 1.0;
+}
+
 }  // namespace
 
 Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
@@ -190,7 +199,7 @@ Result<GeneratedPath> drill_path(const PathJob& task, Job& job) {
                                 "the reamer is drawn out with the spindle stopped, as given; let it turn, or "
                                 "it scores the hole");
   } else {
-    w.factors(task.feed_on_retract.value_or(1.0), 1.0);
+    w.factors(task.feed_on_retract.value_or(1.0), speed_on_retract(task));
   }
   // A stopped boring bar comes out fast, everything else that enlarges at feed.
   const bool bar = task.operation == TypeId::kBoring && task.spindle_stop_at_bottom;

@@ -28,6 +28,11 @@ Status cut_raster(LevelCutter& cutter, const Level& level, const RasterOptions& 
 /// Whether the cutter runs in the sense of the region's loops (walls on the right).
 [[nodiscard]] bool walls_on_right(const PathJob& task);
 
+/// How far a closed wall is followed past its beginning, over the cutter's diameter: where an arc leaves the
+/// wall at the very point where another met it, the bending of the first teeth stays as a line on the wall.
+/// Default, unsourced.
+inline constexpr double kPastBeginning = 0.1;
+
 /// Along a closed track from where the cutter is or near it, on tangent arcs where they fit.
 /// Returns false when it had to come straight.
 bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track);

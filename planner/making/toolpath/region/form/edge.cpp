@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/ground/base/number.h"
 #include "planner/making/toolpath/region/patterns.h"
@@ -24,6 +25,73 @@ Result<GeneratedPath> around_outside(const PathJob& slim, double z_mm, Job& job)
   return outside_path(t, job);
 }
 
+/// Direction of travel at a track's end.
+geometry::Vec2 direction_at_end(const Track& t) {
+  const std::size_t n = t.segments.size();
+  return direction_at(n > 1 ? t.segments[n - 2].to : t.start, t.segments.back(), 1.0);
+}
+
+/// The half circle between the middle of an opening and a place of a track, where it runs along the track.
+struct HalfCircle {
+  geometry::Vec2 centre;
+  bool clockwise = false;
+
+  HalfCircle(geometry::Vec2 middle, geometry::Vec2 place, geometry::Vec2 along)
+      : centre(0.5 * (middle + place)), clockwise(cross(place - centre, along) < 0.0) {}
+
+  /// Whether the way on it from one point to the one opposite stays where the cutter's centre may be.
+  [[nodiscard]] bool stays(const Level& level, geometry::Vec2 from) const {
+    constexpr int kPlaces = 16;
+    geometry::Vec2 last = from;
+    for (int i = 1; i <= kPlaces; ++i) {
+      const double a = (clockwise ? -std::numbers::pi : std::numbers::pi) * i / kPlaces;
+      const geometry::Vec2 r = from - centre;
+      const geometry::Vec2 next = centre + geometry::Vec2{r.x * std::cos(a) - r.y * std::sin(a),
+                                                          r.x * std::sin(a) + r.y * std::cos(a)};
+      if (!level.inside.contains(last, next)) return false;
+      last = next;
+    }
+    return true;
+  }
+};
+
+/// Along a closed track from the middle of the opening, where the cutter is, and back to it: on half circles
+/// that meet the track and leave it along it, where the opening has room for them. `at` is the track's place
+/// nearest to the middle. A round track is left a little past its beginning, any other where it was met.
+void round_from_middle(PathWriter& writer, const Level& level, geometry::Vec2 middle, const Track& track,
+                       const Spot& at, double past_mm) {
+  constexpr double kLeast = 0.05;     // mm: a nearer edge is met straight; default, unsourced
+  constexpr double kSquareOn = 0.01;  // rad: then a half circle of 20 mm cuts 1 um into the wall at most
+  const double z = level.z_mm;
+  const auto cut = [&](geometry::Vec2 to, const HalfCircle& on) {
+    writer.arc({to.x, to.y, z}, on.centre, on.clockwise, model::MoveRole::kCut);
+  };
+  const Track round = begun_at(track, at);
+  const geometry::Vec2 place = round.start;
+  const bool wide = norm(place - middle) >= kLeast && !round.segments.empty();
+  const HalfCircle met(middle, place,
+                       wide ? direction_at(place, round.segments.front(), 0.0) : geometry::Vec2{});
+  if (!wide || !met.stays(level, middle) || !met.stays(level, place)) {
+    writer.line({place.x, place.y, z}, model::MoveRole::kCut);
+    writer.follow(round, z, model::MoveRole::kCut);
+    writer.line({middle.x, middle.y, z}, model::MoveRole::kCut);
+    return;
+  }
+  cut(place, met);
+  writer.follow(round, z, model::MoveRole::kCut);
+  const Track past = past_mm < length_of(round) ? part_of(round, 0.0, past_mm) : Track{};
+  if (!past.segments.empty()) {
+    const geometry::Vec2 end = past.end(), along = direction_at_end(past);
+    const HalfCircle left(middle, end, along);
+    if (std::abs(dot(end - middle, along)) <= kSquareOn * norm(end - middle) && left.stays(level, end)) {
+      writer.follow(past, z, model::MoveRole::kCut);
+      cut(middle, left);
+      return;
+    }
+  }
+  cut(middle, met);
+}
+
 /// Moves along each edge, entered on arcs where these fit. Elsewhere, and in openings narrower than the
 /// cutter, it enters from the middle, where the cutter touches nothing. `diameter_mm`: of the whole cutter.
 Status along_edges(LevelCutter& c, const Level& level, double diameter_mm) {
@@ -36,13 +104,10 @@ Status along_edges(LevelCutter& c, const Level& level, double diameter_mm) {
       const Track track = natural ? track_of(loop) : reversed(track_of(loop));
       if (!narrow && cut_with_leads(c, level, track)) continue;
       const Spot spot = nearest(track, middle);
-      Track from = begun_at(track, spot);
       if (level.inside.contains(middle, spot.point)) {
         c.writer.over(middle);
         c.writer.descend(level.z_mm, level.z_mm);
-        c.writer.line({spot.point.x, spot.point.y, level.z_mm}, model::MoveRole::kCut);
-        c.writer.follow(from, level.z_mm, model::MoveRole::kCut);
-        c.writer.line({middle.x, middle.y, level.z_mm}, model::MoveRole::kCut);
+        round_from_middle(c.writer, level, middle, track, spot, kPastBeginning * diameter_mm);
         continue;
       }
       auto in = c.enter(level, track, nullptr);

@@ -160,55 +160,100 @@ Status run_in(const Around& a, const Inside& material, std::vector<Vec2>& line, 
   return {};
 }
 
-// Along an open line: from the air before the raw piece to the air behind it, pass beside pass towards the
-// wall, every pass in the sense that the cut mode asks for.
+/// Height of the layer that a finishing step takes from the floor before the wall, mm; 0: none.
+double layer_on_floor(const PathJob& task, bool shell) {
+  if (!shell || task.operation == model::TypeId::kSideFinishMilling) return 0.0;
+  const double layer = task.left_on_bottom_mm.value_or(0.0) - task.allowance_bottom_mm;
+  return layer > kNoFloorMm ? layer : 0.0;
+}
+
+/// How far from the wall that layer is cut, clear of what is still left on the wall, mm.
+double floor_from_wall(const PathJob& task) {
+  return std::max(task.allowance_side_mm, task.left_on_side_mm.value_or(0.0));
+}
+
+/// Passes along an open line, each from the air before the raw piece to the air behind it.
+class OpenLine {
+ public:
+  OpenLine(const Around& a, double step)
+      : a_(a), step_(step), side_{in_setup(a.task.shape.reach, a.task.feature_in_setup), {}} {
+    constexpr double kFar = 1e5;  // mm: beyond every raw piece
+    for (const Vec2 p : a.task.shape.spine) side_.line.push_back(in_plan(p));
+    const std::size_t n = side_.line.size();
+    const Vec2 before = side_.line[0] - side_.line[1], behind = side_.line[n - 1] - side_.line[n - 2];
+    side_.line.front() = side_.line.front() + (kFar / norm(before)) * before;
+    side_.line.back() = side_.line.back() + (kFar / norm(behind)) * behind;
+    raw_ = geometry::intersect(a.w.material, side_.removed);
+  }
+
+  /// True if a pass at this distance from the line leaves raw material beyond it.
+  [[nodiscard]] bool beyond(double distance) const {
+    const Region rest = inset(side_.removed, distance + a_.radius, kInnerChord);
+    return geometry::area(geometry::intersect(raw_, rest)) >= kNoAreaMm2;
+  }
+
+  /// Pass beside pass from the edge of the raw piece to the one `from_wall` off the wall; that one alone
+  /// where `alone`. Every pass in the sense that the cut mode asks for.
+  [[nodiscard]] Result<std::vector<Track>> passes(double from_wall, bool alone) const {
+    std::vector<double> distances = {a_.radius + from_wall};
+    while (!alone && distances.size() < 1000 && beyond(distances.back()))
+      distances.push_back(distances.back() + step_);
+    std::reverse(distances.begin(), distances.end());
+    const PathJob& task = a_.task;
+    const Inside material(a_.w.material);
+    std::vector<Track> out;
+    for (const double d : distances) {
+      // The removed area lies on the right of the spine, and on the left of its boundary.
+      std::vector<Vec2> line = line_at(side_, d);
+      if (line.size() < 2) continue;
+      for (const Vec2 end : {task.shape.spine.front(), task.shape.spine.back()}) {
+        std::reverse(line.begin(), line.end());
+        if (auto ok = run_in(a_, material, line, in_plan(end), a_.radius + kAirBeyond); !ok)
+          return tl::unexpected(ok.error());
+      }
+      Track t = track_of_line(line);
+      // In this direction the wall is on the right of the pass.
+      out.push_back(walls_on_right(task) ? t : reversed(t));
+    }
+    if (out.empty()) {
+      return fail(
+          {.code = "TPA-NO-FIT",
+           .message = task.shape.name + ": no pass of the cutter " + task.cutter.id + " fits beside it",
+           .path = task.shape.name});
+    }
+    return out;
+  }
+
+ private:
+  [[nodiscard]] Vec2 in_plan(Vec2 p) const { return xy(a_.task.feature_in_setup.to_parent({p.x, p.y, 0.0})); }
+
+  const Around& a_;
+  double step_;
+  OpenSide side_;
+  Region raw_;
+};
+
 Result<GeneratedPath> along_open_line(const Around& a, PathWriter& writer, const std::vector<double>& heights,
                                       double step, bool shell) {
-  const PathJob& task = a.task;
-  constexpr double kFar = 1e5;  // mm: beyond every raw piece
-  const auto& f = task.feature_in_setup;
-  const auto in_plan = [&](Vec2 p) { return xy(f.to_parent({p.x, p.y, 0.0})); };
-  OpenSide side{in_setup(task.shape.reach, f), {}};
-  for (const Vec2 p : task.shape.spine) side.line.push_back(in_plan(p));
-  const std::size_t n = side.line.size();
-  const Vec2 before = side.line[0] - side.line[1], behind = side.line[n - 1] - side.line[n - 2];
-  side.line.front() = side.line.front() + (kFar / norm(before)) * before;
-  side.line.back() = side.line.back() + (kFar / norm(behind)) * behind;
-  const Region raw = geometry::intersect(a.w.material, side.removed);
-  std::vector<double> distances = {a.radius + task.allowance_side_mm};
-  while (!shell && distances.size() < 1000) {
-    const Region beyond = inset(side.removed, distances.back() + a.radius, kInnerChord);
-    if (geometry::area(geometry::intersect(raw, beyond)) < 1e-3) break;
-    distances.push_back(distances.back() + step);
+  const OpenLine line(a, step);
+  const auto wall = line.passes(a.task.allowance_side_mm, shell);
+  if (!wall) return tl::unexpected(wall.error());
+  std::vector<Track> floor;
+  if (layer_on_floor(a.task, shell) > 0.0 && line.beyond(a.radius + a.task.allowance_side_mm)) {
+    auto passes = line.passes(floor_from_wall(a.task), false);
+    if (!passes) return tl::unexpected(passes.error());
+    floor = std::move(*passes);
   }
-  std::reverse(distances.begin(), distances.end());
-  const Inside material(a.w.material);
-  std::vector<Track> passes;
-  for (const double d : distances) {
-    // The removed area lies on the right of the spine, and on the left of its boundary.
-    std::vector<Vec2> line = line_at(side, d);
-    if (line.size() < 2) continue;
-    std::reverse(line.begin(), line.end());
-    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.front()), a.radius + kAirBeyond); !ok)
-      return tl::unexpected(ok.error());
-    std::reverse(line.begin(), line.end());
-    if (auto ok = run_in(a, material, line, in_plan(task.shape.spine.back()), a.radius + kAirBeyond); !ok)
-      return tl::unexpected(ok.error());
-    Track t = track_of_line(line);
-    // In this direction the wall is on the right of the pass.
-    passes.push_back(walls_on_right(task) ? t : reversed(t));
-  }
-  if (passes.empty()) {
-    return fail({.code = "TPA-NO-FIT",
-                 .message = task.shape.name + ": no pass of the cutter " + task.cutter.id + " fits beside it",
-                 .path = task.shape.name});
-  }
-  for (const double z : heights) {
+  const auto cut = [&](const std::vector<Track>& passes, double z) {
     for (const Track& t : passes) {
       writer.over(t.start);
       writer.descend(z, z);
       writer.follow(t, z, MoveRole::kCut);
     }
+  };
+  for (const double z : heights) {
+    if (z == heights.back()) cut(floor, z);
+    cut(*wall, z);
   }
   GeneratedPath out = writer.finish();
   out.levels_z_mm = heights;
@@ -262,13 +307,11 @@ Result<GeneratedPath> outside_path(const PathJob& task, Job& job) {
     if (lean > 0.0) at.kept = inset(a.kept, lean, kWallChord);
     if (at.kept.empty()) at.kept = a.kept;
     // A finishing step first removes the allowance on the floor, clear of that on the wall.
-    const double on_floor = task.left_on_bottom_mm.value_or(0.0) - task.allowance_bottom_mm;
-    const double on_wall = std::max(task.allowance_side_mm, task.left_on_side_mm.value_or(0.0));
-    if (shell && z == heights.back() && on_floor > kNoFloorMm &&
-        task.operation != model::TypeId::kSideFinishMilling && !task.stock.empty() &&
+    const double on_floor = layer_on_floor(task, shell);
+    if (z == heights.back() && on_floor > 0.0 && !task.stock.empty() &&
         beyond(at, task.allowance_side_mm + a.radius)) {
       if (auto ok = cut_around(at, c, z, std::min(from, z + on_floor),
-                               ring_distances(at, step, false, on_wall), false);
+                               ring_distances(at, step, false, floor_from_wall(task)), false);
           !ok)
         return tl::unexpected(ok.error());
     }
