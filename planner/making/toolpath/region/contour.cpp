@@ -27,11 +27,6 @@ std::vector<Track> tracks_of(const Region& piece, Loops which, bool natural, boo
   return out;
 }
 
-/// How far a closed wall is followed past its beginning, over the cutter's diameter: where an arc leaves the
-/// wall at the very point where another met it, the bending of the first teeth stays as a line on the wall.
-/// Default, unsourced.
-constexpr double kOverlap = 0.1;
-
 struct Lead {
   Track track;  ///< turned to where the arc meets it
   Vec2 from, centre;
@@ -418,7 +413,7 @@ bool cut_with_leads(LevelCutter& cutter, const Level& level, Track track) {
   for (const double part : {1.0, 0.5, 0.2}) {
     for (const Spot& s : spots) {
       Lead lead;
-      const double overlap = 2.0 * cutter.radius_mm * kOverlap;
+      const double overlap = 2.0 * cutter.radius_mm * kPastBeginning;
       if (!lead_at(level, track, s, part * wish, natural, overlap, lead)) continue;
       if (level.cleared && !level.cleared->contains(lead.from)) continue;
       const bool straight = here_known && std::abs(cutter.writer.at().z - level.z_mm) < 1e-9 &&
