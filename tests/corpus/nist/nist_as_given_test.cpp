@@ -393,8 +393,6 @@ TEST_F(CorpusNistAsGiven, IsToldExactlyWhatIsBadMachiningInIt) {
                                               "17 CHK-POWER WS REAM HOLE1",
                                               "17 CHK-TORQUE WS REAM HOLE1",
                                               "18 CHK-FEED-TOOL WS REAM HOLE1",
-                                              "17 CHK-POWER-OVERRIDE WS ROUGH POCKET1",
-                                              "17 CHK-TORQUE-OVERRIDE WS ROUGH POCKET1",
                                               "17 CHK-POWER WS ROUGH POCKET1",
                                               "17 CHK-TORQUE WS ROUGH POCKET1",
                                               "18 CHK-FEED-TOOL WS ROUGH POCKET1",
