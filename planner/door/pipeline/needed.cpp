@@ -11,8 +11,9 @@
 
 // Which tools a shop has to buy or load so that all of a part is planned. That a cutter has the size and the
 // reach that a step asks for does not say that it stands the cut: a slender one bends. So the part is planned
-// once more with the tools as they are named, and checked where plans are; those of features that fail then
-// are named no more. A second proof is that of the tools that are left.
+// once more with the tools as they are named, and checked where plans are; those of features that fail then,
+// or keep rest material in their corners, are named no more. A second proof is that of the tools that are
+// left.
 
 namespace capstan::pipeline {
 namespace {
@@ -35,10 +36,14 @@ bool is_planned(const model::Plan& plan, model::AnyRef feature) {
                       [&](const model::Unplanned& u) { return u.feature == feature; });
 }
 
-/// Whether the tool brings its feature what it lacked.
-bool helps(const NeededTool& tool, const model::Plan& without, const model::Plan& with) {
-  if (!is_planned(with, tool.feature)) return false;
-  return !is_planned(without, tool.feature) || !model::corner_rest_of(with, tool.feature_name);
+bool keeps_rest(const NeededTool& tool, const model::Plan& with) {
+  return model::corner_rest_of(with, tool.feature_name).has_value();
+}
+
+/// Whether the tool makes its feature: one that leaves rest material in its corners does not make it as it is
+/// stated.
+bool helps(const NeededTool& tool, const model::Plan& with) {
+  return is_planned(with, tool.feature) && !keeps_rest(tool, with);
 }
 
 /// `unproved`: why they are not proved; empty: they are, or `to` is of no proof.
@@ -67,7 +72,7 @@ Result<model::Plan> name_needed(model::Plan made, std::vector<NeededTool> needed
     tell(made, kinds, "to plan all of this part you need at least: ", "", job);
     return made;
   }
-  bool all = false, dropped = false;
+  bool all = false, dropped = false, rests = false;
   std::string unproved;
   for (int proofs = 0; !kinds.empty(); ++proofs) {
     if (proofs == kMostProofs) {
@@ -91,13 +96,15 @@ Result<model::Plan> name_needed(model::Plan made, std::vector<NeededTool> needed
     }
     all = with->unplanned.empty();
     const std::size_t before = needed.size();
-    std::erase_if(needed, [&](const NeededTool& n) { return !helps(n, made, *with); });
+    rests = rests || std::any_of(needed.begin(), needed.end(),
+                                 [&](const NeededTool& n) { return keeps_rest(n, *with); });
+    std::erase_if(needed, [&](const NeededTool& n) { return !helps(n, *with); });
     if (needed.size() == before) break;
     all = false;
     dropped = true;
     kinds = model::needed_kinds(made, needed);
   }
-  const std::string what = all || (!unproved.empty() && !dropped) ? "all" : "more";
+  const std::string what = (all && !rests) || (!unproved.empty() && !dropped) ? "all" : "more";
   tell(made, kinds, "to plan " + what + " of this part you need" + (unproved.empty() ? ": " : " at least: "),
        unproved, job);
   return made;

@@ -1,6 +1,7 @@
 #include "planner/making/piece/raw_piece_limits.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/ground/base/number.h"
 #include "planner/making/piece/mesh/surface_form.h"
@@ -74,6 +75,23 @@ std::string not_in_piece(const Piece& piece, const FeatureShape& s) {
       return "solid stands above it: " + model::to_text(*lid);
   }
   return model::square_corner(piece.plan.model, s, piece.shapes.whole, part);
+}
+
+std::string beyond_travel(const Piece& piece, const FeatureShape& s, double widest_mm) {
+  const model::Machine& m = piece.plan.machine;
+  const auto travel = [&](std::size_t axis) {
+    return m.axes[axis].travel_max_mm - m.axes[axis].travel_min_mm;
+  };
+  const double x = travel(0), y = travel(1);
+  if (!(x > 0.0) || !(y > 0.0) || s.area.empty()) return {};
+  const geometry::Box2 b = geometry::bounds(s.area);
+  const double length = std::max(b.hi.x - b.lo.x, b.hi.y - b.lo.y);
+  // The cutter's middle comes within its radius of both ends; two places are no farther apart than corners.
+  if (length - widest_mm <= std::hypot(x, y)) return {};
+  return "it is " + trimmed(length, 1) + " mm long, and '" + m.id + "' travels " + trimmed(x, 1) + " x " +
+         trimmed(y, 1) +
+         " mm: no cutter that there is comes from one end to the other in one set-up; take a " +
+         "larger machine, or cut it in parts";
 }
 
 double sharp_corner_of(const Piece& piece, const FeatureShape& s) {

@@ -14,6 +14,10 @@ namespace capstan::piece {
 /// Why a feature cannot be cut from this raw piece: material above its top, or its drill's point would come
 /// out on the other side. Empty if it can.
 [[nodiscard]] std::string not_in_piece(const Piece& piece, const model::FeatureShape& shape);
+/// Why no cutter up to that diameter comes from one end of a shape to the other within the machine's travel
+/// in X and Y, however the piece is turned about the tool's axis; empty: one may, or the travel is not known.
+[[nodiscard]] std::string beyond_travel(const Piece& piece, const model::FeatureShape& shape,
+                                        double widest_mm);
 /// The radius that may stay in the inner corners of a step, an outside or a pocket that are drawn sharp and
 /// state none, mm; 0: there are none. Corners at a pocket's mouth are none: a mill runs out there.
 [[nodiscard]] double sharp_corner_of(const Piece& piece, const model::FeatureShape& shape);

@@ -275,6 +275,12 @@ class Proposer {
     return {};
   }
 
+  [[nodiscard]] double widest_mm() const {
+    double out = 0.0;
+    for (const model::Cutter& c : choice_.usable) out = std::max(out, c.cutting_diameter_mm);
+    return out;
+  }
+
   /// Where only the operator's edits leave no chain: which these are, and what to do; empty: they do not.
   std::string ruled_out_by_edits(const model::Proposal& p, const FeatureShape& s, const Member& member,
                                  const rules::Context& context) const {
@@ -308,6 +314,7 @@ class Proposer {
                                  const rules::Context& context) {
     std::string why = swallowed(given);
     if (why.empty()) why = piece::crosses_a_wall(choice_.piece, given);
+    if (why.empty()) why = piece::beyond_travel(choice_.piece, given, widest_mm());
     if (why.empty()) why = piece::not_in_piece(choice_.piece, given);
     if (why.empty()) why = piece::lies_within_another(choice_.piece.shapes, given);
     if (!why.empty() || !proposed.cannot.empty()) {

@@ -19,10 +19,11 @@
 //     ADmax = tallest contact of a bin   RDmax = right - left contact, within the outline's width there
 //     entry, exit = acos(-x / R) of the left and the right contact; a plunge is the whole circle
 //
-// The lateral contact is known to a cell. Where a flat cutter takes an even layer, CSA / ADmax is more exact,
-// so that the side away from the cutter's edge is set by it (`sharpen`). Moves above all material are
-// skipped.
-// Source  definitions of the seven numbers: AP238 edition 2, 4.2.379.4; the method: derived.
+// A rapid straight back where the cutter has been takes nothing (stock::Upright), also from cells that are
+// coarse for it. The lateral contact is known to a cell. Where a flat cutter takes an even layer, CSA / ADmax
+// is more exact, so that the side away from the cutter's edge is set by it (`sharpen`). Moves above all
+// material are skipped. Source  definitions of the seven numbers: AP238 edition 2, 4.2.379.4; the method:
+// derived.
 
 namespace capstan::engagement {
 namespace {
@@ -96,11 +97,13 @@ class Measurer {
  private:
   void move(std::size_t i) {
     const double length = model::move_length(path_, i);
+    const bool back = upright_.goes_back(path_, i);
     if (i == 0 || path_.kind[i] == MoveKind::kDwell || length <= 0.0) {
       if (i == 0) out_.rapid_removed_mm3 += stock::cut(map_, profile_, path_, 0);
       return;
     }
     if (path_.kind[i] == MoveKind::kRapid) {
+      if (back) return;
       turn_to(path_.point(i) - path_.point(i - 1));
       if (ceiling_over(i) > std::min(path_.z[i - 1], path_.z[i]))
         out_.rapid_removed_mm3 += stock::cut(map_, profile_, path_, i);
@@ -258,6 +261,7 @@ class Measurer {
   stock::HeightMap& map_;
   double step_;
   Vec2 heading_{1.0, 0.0};
+  stock::Upright upright_;
   Measurement out_;
 };
 

@@ -190,6 +190,18 @@ void sweep(HeightMap& map, const CutterProfile& profile, const Track& track, boo
   take(map, w, tally);
 }
 
+bool Upright::goes_back(const model::CutterPath& path, std::size_t i) {
+  constexpr double kSame = 1e-9;
+  const Vec3 at = path.point(i);
+  if (i == 0 || is_arc(path.kind[i]) || norm(xy(at) - xy(path.point(i - 1))) > kSame) {
+    lowest_mm_ = at.z;
+    return false;
+  }
+  const bool back = at.z >= lowest_mm_;
+  lowest_mm_ = std::min(lowest_mm_, at.z);
+  return back;
+}
+
 double cut(HeightMap& map, const CutterProfile& profile, const model::CutterPath& path, std::size_t i) {
   Tally tally;
   const Vec3 to = path.point(i);
@@ -221,7 +233,9 @@ double cut(HeightMap& map, const CutterProfile& profile, const model::CutterPath
 
 double cut(HeightMap& map, const CutterProfile& profile, const model::CutterPath& path) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < path.size(); ++i) sum += cut(map, profile, path, i);
+  Upright upright;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (!upright.goes_back(path, i)) sum += cut(map, profile, path, i);
   return sum;
 }
 

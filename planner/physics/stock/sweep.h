@@ -49,10 +49,22 @@ struct Tally {
 void sweep(HeightMap& map, const geometry::CutterProfile& profile, const Track& track, bool behind_is_cut,
            geometry::Vec2 heading, Tally& tally);
 
+/// How deep the cutter has been where it stands upright. Moves straight up and down above that take nothing,
+/// whatever is left in cells that are coarse for the cutter.
+class Upright {
+ public:
+  /// Whether move i only goes where the cutter has been since it came to this place. Asked of each entry of
+  /// the path once, in order; entry 0 is where it comes.
+  [[nodiscard]] bool goes_back(const model::CutterPath& path, std::size_t i);
+
+ private:
+  double lowest_mm_ = 0.0;
+};
+
 /// Cuts move i of the path; returns the removed volume, mm3. Dwells and entry 0 cut at the tool's position.
 double cut(HeightMap& map, const geometry::CutterProfile& profile, const model::CutterPath& path,
            std::size_t i);
-/// Cuts the whole path, rapids included; mm3.
+/// Cuts the whole path, rapids included, but for moves on which the cutter goes back (Upright); mm3.
 double cut(HeightMap& map, const geometry::CutterProfile& profile, const model::CutterPath& path);
 
 /// Height of the swept surface over a cell beside a straight sloping track: the least of

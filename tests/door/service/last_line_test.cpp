@@ -200,6 +200,27 @@ TEST(LastLine, FindingsOfACheckAreCountedByWhatTheySay) {
   EXPECT_TRUE(end.stopped);
 }
 
+// A program is checked with its plan: what it repeats is one thing, told once, but for the digits it rounds.
+TEST(LastLine, WhatAProgramRepeatsOfItsPlanIsCountedOnce) {
+  Verdict verdict;
+  const auto add = [&](const char* file, bool program, const char* message, bool unproved = false) {
+    FileFinding f = finding(Severity::kWarning, "CHK-X", unproved);
+    f.file = file;
+    f.program = program;
+    f.finding.message = message;
+    verdict.findings.push_back(std::move(f));
+  };
+  add("plan.p21", false, "12.3456 mm of way");
+  add("plan.p21", false, "not seen", true);
+  add("a.ngc", true, "12.346 mm of way");
+  add("a.ngc", true, "not seen", true);
+  add("a.ngc", true, "13.5 mm of way");
+  Ending end;
+  take_verdict({}, verdict, end);
+  EXPECT_EQ(end.warned, 2U);
+  EXPECT_EQ(end.unproved, 1U);
+}
+
 /// Whatever else is said: only where nothing is open, unchecked, unread or condemned does the line say
 /// "Safe".
 TEST(LastLine, SaysSafeOnlyWhereEverythingIsProved) {

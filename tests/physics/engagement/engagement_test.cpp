@@ -253,6 +253,29 @@ TEST(Path, ARapidThroughStockIsCountedApart) {
   EXPECT_EQ(m->sections.size(), 0U);
 }
 
+// A drill of 6.6 mm in cells of 10 mm: each hole's edges cross cells that hold one edge only. Pecks and the
+// way out go where the drill has been; a rapid further down than that is in material.
+TEST(Path, RapidsWhereTheCutterHasBeenTouchNothingHoweverCoarseTheCells) {
+  const Cutter drill = cutter(CutterClass::kTwistDrill, 6.6, 0.0, 140.0 * kPi / 180.0);
+  CutterPath p;
+  p.start({13.0, 17.0, 10.0});
+  p.rapid({13.0, 17.0, 2.0});
+  p.line({13.0, 17.0, -6.0}, MoveRole::kPlunge);
+  p.rapid({13.0, 17.0, 2.0});
+  p.rapid({13.0, 17.0, -5.5});
+  p.line({13.0, 17.0, -12.0}, MoveRole::kPlunge);
+  p.rapid({13.0, 17.0, 10.0});
+  auto map = stock::from_box(kBlock, 10.0);
+  const auto free = measure(p, drill, map);
+  ASSERT_TRUE(free);
+  EXPECT_EQ(free->rapid_removed_mm3, 0.0);
+  p.rapid({13.0, 17.0, -15.0});
+  map = stock::from_box(kBlock, 0.1);
+  const auto into = measure(p, drill, map);
+  ASSERT_TRUE(into);
+  EXPECT_NEAR(into->rapid_removed_mm3, kPi * 3.3 * 3.3 * 3.0, 1.0);  // of 103 mm3
+}
+
 TEST(Path, EmptyStandingAndAirPathsGiveNoSamples) {
   auto map = stock::from_box(kBlock, 0.5);
   const auto before = map;

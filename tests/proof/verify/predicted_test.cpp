@@ -348,6 +348,18 @@ TEST(PredictedFeed, ThatSteelBearsRubsInWhatHardens) {
   EXPECT_TRUE(of(k, "CHK-RUB").empty());
 }
 
+// 5 mm/min at 3000 1/min with four teeth: 0.000417 mm, of which three decimals would say nothing.
+TEST(PredictedFeed, ThatIsFarTooSmallIsToldWithItsDigits) {
+  PlanMaker k = testing::good_plan();
+  k.plan.cutters[0].substrate = model::Substrate::kCarbide;
+  testing::edit_schedule(k.plan, 0, [](model::FeedSchedule& s) {
+    for (double& f : s.feed_mm_min) f = 5;
+  });
+  const auto found = of(k, "CHK-RUB");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("down to 0.00042 mm per tooth"));
+}
+
 // Planning has other depths, tools and ways; what a file states is the file's to know.
 TEST(PredictedFeed, ThatRubsIsAnErrorWherePlanningChoseItAndAWarningWhereAFileStatesIt) {
   PlanMaker k = testing::good_plan();

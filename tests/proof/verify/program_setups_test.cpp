@@ -198,5 +198,59 @@ TEST(CheckMachine, AnAccuracyCoarserThanTheTightestToleranceIsAWarning) {
   }
 }
 
+TEST(CheckMachine, AnAccuracyCoarserThanTheGeneralToleranceIsAWarning) {
+  // Nothing of the part states a tolerance of its own; the machine positions to 0.005 mm.
+  for (const auto& [general, told_so] : {std::pair{"+-0.001", true},
+                                         {"+-0.1", false},
+                                         {"ISO 22081 0.004", true},
+                                         {"ISO 22081 +-0.003", false},
+                                         {"ISO 2768-fH", false}}) {
+    PlanMaker k = testing::good_plan();
+    k.plan.machine.abilities.positioning_accuracy_mm = 0.005;
+    k.plan.provenance.push_back({"general tolerance", general, "named by the user"});
+    Job job;
+    const auto findings = check_plan(k.plan, job);
+    const auto* f = find(findings, "CHK-MACHINE-TOLERANCE");
+    ASSERT_EQ(f != nullptr, told_so) << general << "\n" << told(findings);
+    if (f != nullptr) {
+      EXPECT_EQ(f->severity, Severity::kWarning);
+      EXPECT_NE(f->message.find("what states no tolerance of its own"), std::string::npos) << f->message;
+    }
+  }
+}
+
+// The piece is 100 x 100 x 50 mm; axes travel 500 x 500 x 400.
+TEST(CheckMachine, APieceLargerThanTheTableOrTheTravelIsNotCalledSafe) {
+  const auto said = [](auto change) {
+    PlanMaker k = testing::good_plan();
+    change(k.plan.machine);
+    Job job;
+    const auto findings = check_plan(k.plan, job);
+    const auto* f = find(findings, "CHK-MACHINE-PIECE");
+    if (f != nullptr) {
+      EXPECT_TRUE(f->unproved) << f->message;
+    }
+    return f == nullptr ? std::string() : f->message;
+  };
+  EXPECT_EQ(said([](model::Machine&) {}), "");
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(said([](model::Machine& m) { m.abilities.table_length_mm = 90; }),
+                  "100 mm in X, where the table has 90 mm"));
+  EXPECT_TRUE(has(said([](model::Machine& m) { m.abilities.table_width_mm = 99; }),
+                  "100 mm in Y, where the table has 99 mm"));
+  EXPECT_TRUE(has(said([](model::Machine& m) { m.axes[2].travel_min_mm = -49; }),
+                  "50 mm in Z, where the axis travels 49 mm"));
+  EXPECT_TRUE(has(said([](model::Machine& m) { m.axes[0].travel_max_mm = 95; }),
+                  "100 mm in X, where the axis travels 95 mm"));
+  // What stands on the table may be longer than the travel.
+  EXPECT_EQ(said([](model::Machine& m) {
+              m.axes[0].travel_max_mm = 95;
+              m.abilities.table_length_mm = 120;
+            }),
+            "");
+}
+
 }  // namespace
 }  // namespace capstan::verify

@@ -84,6 +84,22 @@ TEST(FindMaterial, RefusesAFamilyWhereAMaterialIsToBeNamed) {
   EXPECT_TRUE(find_material({"mild steel"}, table(), job, Families::kRefused));
 }
 
+// "pure copper" is a name of copper; brasses are known by one of their names, or by the family's card alone;
+// an aluminium bronze is no aluminium, and no copper that somebody calls by that word.
+TEST(FindMaterial, OfAFamilyNamesThoseThatAreCalledByItsWordAndNoOthers) {
+  Job job;
+  const auto hint = [&](const char* text) {
+    const auto m = find_material({text}, table(), job, Families::kRefused);
+    return m ? "found" : m.error().expected;
+  };
+  EXPECT_EQ(hint("copper"), "'cu_etp'");
+  EXPECT_EQ(hint("brass"), "'cw614n', 'cw508l'");
+  EXPECT_EQ(hint("bronze"), "'cusn12', 'cual10ni5fe4'");
+  EXPECT_EQ(hint("aluminium"), "'wrought_aluminium', 'cast_aluminium'");
+  EXPECT_EQ(hint("inconel"), "'inconel_718', 'inconel_625'");
+  EXPECT_EQ(hint("titanium"), "'ti_grade_2', 'ti6al4v'");
+}
+
 TEST(FindMaterial, RefusesAnUnknownNameWithTheNearestOnes) {
   Job job;
   const auto m = find_material("steeel", table(), job);

@@ -20,23 +20,50 @@ constexpr std::size_t kMaterialBytesCap = std::size_t{1} << 20;
 /// Shorter names must match as a whole: "O1" must not claim "O1-tool".
 constexpr std::size_t kLeastPrefix = 4;
 
-/// A family's word where a material has to be named: with the names that have the word, else the nearest.
+/// Where in a plain name the last of the family's words ends; 0: it has none of them.
+std::size_t ends_in(const std::string& name, const MaterialFamily& family) {
+  std::size_t end = 0;
+  for (const std::string& word : family.words) {
+    const auto at = name.rfind(word);
+    if (at != std::string::npos) end = std::max(end, at + word.size());
+  }
+  return end;
+}
+
+/// Whether a name that people give is of the family: "aluminium bronze" is a bronze, for that word comes
+/// last.
+bool is_of(const std::string& name, const MaterialFamily& family,
+           const std::vector<MaterialFamily>& families) {
+  const std::string plain = plain_name(name);
+  const std::size_t own = ends_in(plain, family);
+  return own > 0 && std::all_of(families.begin(), families.end(),
+                                [&](const MaterialFamily& f) { return ends_in(plain, f) <= own; });
+}
+
+bool is_of(const WorkMaterial& m, const MaterialFamily& family, const std::vector<MaterialFamily>& families) {
+  if (ends_in(plain_name(m.id), family) > 0) return true;
+  const auto named = [&](const MaterialFamily& f) {
+    return std::any_of(m.names.begin(), m.names.end(),
+                       [&](const std::string& name) { return is_of(name, f, families); });
+  };
+  // The card that stands for the family, unless it is called by another one's word.
+  return named(family) || (m.id == family.material && std::none_of(families.begin(), families.end(), named));
+}
+
+/// A family's word where a material has to be named: with those of the family.
 Diagnostic only_a_family(const std::string& text, const MaterialFamily& family,
+                         const std::vector<MaterialFamily>& families,
                          const std::vector<WorkMaterial>& materials) {
   constexpr std::size_t kShown = 6;  // default, unsourced
   std::string names;
   std::size_t shown = 0;
   for (const WorkMaterial& m : materials) {
-    const bool of_it = m.id == family.material ||
-                       std::any_of(family.words.begin(), family.words.end(), [&](const std::string& word) {
-                         return plain_name(m.id).find(word) != std::string::npos;
-                       });
-    if (!of_it || shown == kShown) continue;
+    if (shown == kShown || !is_of(m, family, families)) continue;
     names += (shown++ == 0 ? "'" : ", '") + m.id + "'";
   }
   Diagnostic d = unknown_name("material", text, names_of(materials), kListMaterials);
   d.message = "'" + text + "' names a family of materials, not a material";
-  d.expected = names;
+  d.expected = names.empty() ? "'" + family.material + "'" : names;
   return d;
 }
 
@@ -323,7 +350,8 @@ Result<ChosenMaterial> choose_material(const std::vector<std::string>& texts,
     if (best == nullptr) continue;
     const WorkMaterial* m = by_id(materials, best->material);
     if (m == nullptr) continue;
-    if (families == Families::kRefused) return fail(only_a_family(asked_of(text), *best, materials));
+    if (families == Families::kRefused)
+      return fail(only_a_family(asked_of(text), *best, table->families, materials));
     job.warn("MATERIAL-FAMILY", "the material '" + text + "' names only a family; forces and speeds are " +
                                     "calculated for " + m->id + ", " + best->source +
                                     "; name the material with --material");

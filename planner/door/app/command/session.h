@@ -5,6 +5,7 @@
 
 #include "planner/door/app/command/options.h"
 #include "planner/door/app/command/run.h"
+#include "planner/door/service/ending/repeats.h"
 #include "planner/door/service/planning.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
@@ -23,15 +24,12 @@ struct Session {
   /// Reports a fault that ends the command, and returns the exit code: that of wrong usage for an unknown
   /// name, wherever it was given.
   int end(const Diagnostic& d, int code);
-  /// Whether a finding says what none before it said: of a program that a plan is checked with, one that
-  /// repeats the plan's says nothing, unless it names a line of a program that is there to be read (`check`).
-  /// Diagnostics as JSON keep all.
+  /// Whether a finding says what none before it said (service::Repeats). Diagnostics as JSON keep all.
   [[nodiscard]] bool is_new(const service::FileFinding& f);
   int end(const service::Failure& failure) { return end(failure.what, static_cast<int>(failure.code)); }
 
  private:
-  std::vector<model::Finding> of_plan_;  ///< that `is_new` was given, of the first plan's file
-  std::string plan_file_;
+  service::Repeats repeats_;
 };
 
 /// Prints the job's diagnostics and the summary line on standard error, as `--diagnostics` says.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "planner/door/service/ending/repeats.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/step/record/expected_by_cases.h"
 #include "planner/physics/motion/time.h"
@@ -156,9 +157,11 @@ void take_plan(const model::Plan& plan, Ending& into) {
 
 namespace {
 
-/// Findings that condemn nothing, by what they say.
+/// Findings that condemn nothing, by what they say; what a program repeats of its plan counts once.
 void count_findings(const std::vector<FileFinding>& findings, Ending& into) {
+  Repeats repeats(into.verb);
   for (const FileFinding& f : findings) {
+    if (!repeats.is_new(f)) continue;
     if (f.finding.code == verify::kStopped) into.stopped = true;
     if (f.finding.code == verify::kFacesLeft) into.faces_left = true;
     if (f.schema || f.finding.severity == Severity::kError) continue;

@@ -38,7 +38,8 @@ struct GivenPath {
                                                               const model::CutterPath& path, Stocks& stocks,
                                                               Job& job);
 
-/// Says PIP-RAPID where rapids of a path that is kept cut material.
+/// Says PIP-RAPID where rapids of a path that is kept cut material by planning's account: a note, for the
+/// check judges every rapid by itself.
 void tell_rapids(const model::Model& m, const draft::StepDraft& step, double removed_mm3, Job& job);
 
 }  // namespace capstan::step

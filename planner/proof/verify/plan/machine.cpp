@@ -2,12 +2,15 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 
+#include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/volumes/form/limits.h"
 
 // What a plan (or the part's file) says that a machine must have, against the machine.
@@ -158,8 +161,26 @@ void check_steps(const model::Plan& plan, Findings& findings) {
   }
 }
 
+/// What holds for sizes and places that state nothing of their own; depths never do. The plan's provenance
+/// says it, by the operator's word or the file's, else the workpiece. Classes of ISO 2768 are not read: the
+/// finest of them is 0.1 mm wide. 0: nothing.
+double general_width(const model::Plan& plan) {
+  constexpr std::string_view kBetween = "+-";
+  for (const model::Provenance& row : plan.provenance) {
+    if (row.what != "general tolerance") continue;
+    const std::string_view value = row.value;
+    if (value.find("2768") != std::string_view::npos) return 0.0;
+    const bool both_ways = value.find(kBetween) != std::string_view::npos;
+    const auto last = value.find_last_of(both_ways ? "-" : " ");
+    const auto read = parse_double(value.substr(last == std::string_view::npos ? 0 : last + 1));
+    return read.value_or(0.0) * (both_ways ? 2.0 : 1.0);
+  }
+  const auto* piece = workpiece_of(plan);
+  return piece == nullptr ? 0.0 : 2.0 * general_tolerance_of(*piece).value_or(0.0);
+}
+
 /// The widths of tolerances that the axes must keep: sizes but for holes, whose diameter is their tool's,
-/// and zones of location.
+/// zones of location, and what holds where nothing is stated.
 class Tightest {
  public:
   explicit Tightest(const model::Plan& plan) {
@@ -168,6 +189,7 @@ class Tightest {
       const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
       if (ws != nullptr) roots.emplace_back(ws->its_feature);
     }
+    if (!roots.empty()) add(general_width(plan), "what states no tolerance of its own");
     const std::vector<model::AnyRef> all = model::reachable(plan.model, roots);
     std::set<model::AnyRef> bores;
     for (const model::AnyRef r : all) {
@@ -208,6 +230,35 @@ void check_accuracy(const model::Plan& plan, Findings& findings) {
                     "' positions to " + mm(accuracy));
 }
 
+/// The raw piece, as the set-ups lay it, against the table, where that is known, else against the travel; its
+/// height against the travel. A long bar may well stand out on both sides: how it is held, and whether it
+/// moves clear of what is around the machine, no plan says.
+void check_piece(const model::Plan& plan, Findings& findings) {
+  const Machine& m = plan.machine;
+  std::set<std::size_t> seen;
+  for (const model::StepResult& step : plan.steps) {
+    if (plan.stock.box.empty() || !seen.insert(step.setup).second) continue;
+    const geometry::Vec3 size = placed(plan.stock.box, workpiece_in(plan, step.setup)).size();
+    std::string beyond;
+    const auto compare = [&](double mm_there, double table_mm, std::string_view axis) {
+      const double travel = travel_of(m, axis), room = table_mm > 0.0 ? table_mm : travel;
+      if (!(room > 0.0) || mm_there <= room * (1.0 + kSlack) + kSlack) return;
+      beyond += (beyond.empty() ? "" : ", ") + mm(mm_there) + " in " + std::string(axis) + ", where " +
+                (table_mm > 0.0 ? "the table has " : "the axis travels ") + mm(room);
+    };
+    compare(size.x, m.abilities.table_length_mm, "X");
+    compare(size.y, m.abilities.table_width_mm, "Y");
+    compare(size.z, 0.0, "Z");
+    if (beyond.empty()) continue;
+    findings.unproved(
+        Severity::kWarning, 22, "CHK-MACHINE-PIECE", {Findings::kWhole, "", -1},
+        "the raw piece is larger than the machine '" + m.id + "': " + beyond +
+            "; whether it can be held there and moved is not looked at: state the raw piece as it "
+            "is (--stock), or take a larger machine");
+    return;
+  }
+}
+
 }  // namespace
 
 void check_tool_size(const ToolSize& tool, const Machine& m, const Findings::Where& at, Findings& findings) {
@@ -225,6 +276,7 @@ void check_tool_size(const ToolSize& tool, const Machine& m, const Findings::Whe
 
 void check_machine(const model::Plan& plan, Findings& findings) {
   check_steps(plan, findings);
+  check_piece(plan, findings);
   check_accuracy(plan, findings);
   const std::vector<model::AnyRef> roots = {plan.project};
   for (const model::AnyRef r : model::reachable(plan.model, roots)) {

@@ -260,8 +260,8 @@ void StepChecks::rubbing() {
   constexpr double kHarmlessMm = 1.0;  // default, unsourced
   if (rubbed_mm_ <= kHarmlessMm) return;
   const std::string text = "over " + mm(rubbed_mm_) + " of way in material the feed is down to " +
-                           mm(rubbed_at_mm_) + " per tooth, where an edge rubs; at least " +
-                           mm(least_chip_mm_) + " in " + plan_.material.id +
+                           fine_mm(rubbed_at_mm_) + " per tooth, where an edge rubs; at least " +
+                           fine_mm(least_chip_mm_) + " in " + plan_.material.id +
                            ": feed faster, cut less deep, or use a stiffer cutter";
   // What a file or the operator states is theirs to know; planning has other depths, tools and ways.
   if (feed_chosen_) {

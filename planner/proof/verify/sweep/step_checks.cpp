@@ -18,11 +18,8 @@ using model::MoveKind;
 
 namespace {
 
-constexpr double kRapidClearanceMm = 1e-3;  ///< least gap under a rapid; more than a program's last decimal
-constexpr double kTouchMm3 = 1e-6;          ///< less than this is not a cut
-constexpr double kSlackMm = 0.02;           ///< of lengths measured on heights
-
-std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
+constexpr double kTouchMm3 = 1e-6;  ///< less than this is not a cut
+constexpr double kSlackMm = 0.02;   ///< of lengths measured on heights
 
 /// Whether a shank goes into the hole behind the flutes without touching it. A reamer cuts with its lead:
 /// once that is through, what it goes further cuts nothing, and the flutes need not stand out of the hole's
@@ -94,6 +91,8 @@ void of_a_ring(Bite& bite, double height_mm) {
 
 }  // namespace
 
+std::string here(Vec2 p) { return "(" + plain(p.x) + ", " + plain(p.y) + ")"; }
+
 StepChecks::StepChecks(const model::Plan& plan, const StepMoves& step, Grid& grid, Target& target,
                        EarlierCuts& earlier, Findings& findings)
     : plan_(plan),
@@ -158,35 +157,10 @@ void StepChecks::run() {
     } else if (m.kind != MoveKind::kDwell) {
       feed(m);
     }
+    follow(m);
   }
   settle();
   rubbing();
-}
-
-void StepChecks::rapid(const Move& m) {
-  helix_turned_ = 0.0;
-  descent_ = {};
-  body(m);
-  ring_up(m);
-  Vec2 where;
-  const double dip = rapid_collision(grid_, m, *outline_, kRapidClearanceMm, where);
-  if (dip > 0.0) {
-    const bool falls = m.to.z < m.from.z - 1e-9 && norm(xy(m.to) - xy(m.from)) < 1e-9;
-    const double into = std::max(0.0, dip - kRapidClearanceMm);
-    out_.error(falls ? 10 : 9, falls ? "CHK-RAPID-DOWN" : "CHK-RAPID", at(m),
-               (falls ? "a rapid goes down to z = " + plain(m.to.z)
-                      : "a rapid at z = " + plain(std::min(m.from.z, m.to.z)) +
-                            ", axes taken as not arriving together,") +
-                   (into > 0.0 ? " runs " + mm(into) + " into material at " : " touches material at ") +
-                   here(where) + " (cells of " + mm(grid_.cell()) + ")",
-               dip);
-  }
-  if (m.spindle_rpm == 0.0 && hole_tool() && cutter_.cutter_class != CutterClass::kBoringTool && in_hole(m) &&
-      m.to.z > m.from.z) {
-    out_.error(15, "CHK-SPINDLE-STOPPED", at(m),
-               "the tool is withdrawn from z = " + plain(m.from.z) + " with the spindle stopped",
-               m.to.z - m.from.z);
-  }
 }
 
 void cut_before(EarlierCuts& earlier, const StepMoves& step) {

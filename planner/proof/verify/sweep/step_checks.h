@@ -20,6 +20,13 @@ struct FeedLimit {
   std::string source;
 };
 
+/// Cells over a cutter's diameter that show what it meets: default, unsourced. On a piece that is too large
+/// for so many, cells are wider.
+inline constexpr double kCellsPerCutter = 8.0;
+
+/// "(12.5, 3)", mm.
+[[nodiscard]] std::string here(geometry::Vec2 p);
+
 /// The checks of one step's moves while they cut. What they ask of the plan is listed in the key of known
 /// steps (known/known_steps.cpp).
 class StepChecks {
@@ -39,6 +46,10 @@ class StepChecks {
 
  private:
   void rapid(const Move& m);
+  /// A rapid that the cells show as free, where they are coarse for the cutter.
+  void closer(const Move& m);
+  /// Where the tip is after a move.
+  void follow(const Move& m);
   void feed(const Move& m);
   void gouge(const Move& m, const Bite& bite);
   void neck(const Move& m, const Grid& grid);
@@ -88,7 +99,9 @@ class StepChecks {
   double radius_, tip_mm_;
   FeedLimit feed_limit_;
   double least_chip_mm_;
-  int looks_ = 8;  ///< closer looks at chips that are left for this step; default, unsourced
+  double lowest_here_ = 1e300;  ///< of the tip since it came to its place across
+  int rapid_looks_ = 400;       ///< closer looks at rapids that are left for this step; default, unsourced
+  int looks_ = 8;               ///< closer looks at chips that are left for this step; default, unsourced
   bool judge_gouge_ = true;
   double rubbed_mm_ = 0.0;     ///< way in material at feeds below the thinnest chip
   double rubbed_at_mm_ = 0.0;  ///< the lowest feed per tooth there

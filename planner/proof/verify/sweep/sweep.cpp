@@ -14,6 +14,7 @@
 #include "planner/proof/verify/sweep/grid/carry.h"
 #include "planner/proof/verify/sweep/grip.h"
 #include "planner/proof/verify/sweep/known/known_steps.h"
+#include "planner/proof/verify/sweep/step_checks.h"
 #include "planner/proof/verify/sweep/target/corners.h"
 #include "planner/proof/verify/verify.h"
 
@@ -86,7 +87,7 @@ double cell_of(const model::Plan& plan) {
     if (c.cutting_diameter_mm > 0.0) smallest = std::min(smallest, c.cutting_diameter_mm);
   }
   return std::max({0.02, std::sqrt(area / static_cast<double>(kMaximumCells)),
-                   std::min(std::sqrt(area / kUsualCells), smallest / 8.0)});
+                   std::min(std::sqrt(area / kUsualCells), smallest / kCellsPerCutter)});
 }
 
 bool sound(const model::Cutter* c) {

@@ -233,6 +233,21 @@ TEST(NeededTools, OneThatBendsIsNotNamedAndTheOthersPlanMoreOfThePart) {
   EXPECT_THAT(p.said, ::testing::Not(HasSubstr("'FITTED'")));
 }
 
+// With a wide mill alone the pocket is planned, but not as it is stated.
+TEST(NeededTools, OneThatLeavesRestInTheCornersIsNotNamed) {
+  const Lacking l;
+  const Planned p = l.named(
+      [&](const Inputs&, Job&) -> Result<model::Plan> {
+        model::Plan out = l.without({});
+        out.provenance.push_back(model::provenance_of({"POCKET", 3.0, 12.5, "no mill is narrower"}));
+        return out;
+      },
+      l.poor);
+  EXPECT_EQ(entries_of(p.plan).size(), 2U) << p.said;
+  EXPECT_THAT(p.said, HasSubstr("to plan more of this part you need: "));
+  EXPECT_THAT(p.said, ::testing::Not(HasSubstr("'POCKET'")));
+}
+
 TEST(NeededTools, WhereTheSecondProofDropsOneTooTheRestIsToldAsNotProved) {
   const Lacking l;
   int plannings = 0;

@@ -303,4 +303,42 @@ bool EarlierCuts::takes(const Grid& grid, const std::vector<Move>& moves, const 
   return false;
 }
 
+/// The lowest that the beginning had around a point; kNothing beside the piece.
+double EarlierCuts::least_begun(const Grid& grid, Vec2 at) const {
+  const double reach = 1.01 * grid.cell();
+  const auto [x0, x1] = grid.columns(at.x - reach, at.x + reach);
+  const auto [y0, y1] = grid.rows(at.y - reach, at.y + reach);
+  if (x1 - x0 < 2 || y1 - y0 < 2) return Grid::kNothing;
+  double least = 1e300;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) least = std::min(least, stock_[grid.index(x, y)]);
+  return least;
+}
+
+std::optional<Touch> EarlierCuts::meets(const Grid& grid, const Move& m, const CutterOutline& cutter,
+                                        double close_mm, int& pieces) {
+  constexpr double kGrazing = 1e-3;  // mm: more than the last decimal of a program
+  if (stock_.cells() != grid.stock.size()) return std::nullopt;
+  Move fed = m;
+  fed.kind = model::MoveKind::kLine;
+  const int n = pieces_of_way(fed, cutter.radius());
+  Touch out;
+  for (int i = 0; i < n; ++i) {
+    const Place place(fed, i, n, cutter.radius(), grid.cell());
+    if (pieces-- <= 0 || place.raster().cell() > close_mm) return std::nullopt;
+    const std::vector<const Cut*> cuts = met(place, cuts_.size());
+    along_way(cutter, place.part, [&](const auto& way) {
+      for (const Point& p : left(grid, place, way, nullptr, kGrazing, cuts)) {
+        if (!out.at) out.at = p.at;
+        out.sure = least_begun(grid, p.at) - p.under > kGrazing;
+        if (!out.sure) continue;
+        out.at = p.at;
+        return;
+      }
+    });
+    if (out.sure) return out;
+  }
+  return out;
+}
+
 }  // namespace capstan::verify

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Front;
 struct Chip {
   double mm = 0.0;
   geometry::Vec2 at;
+};
+
+/// Whether a move touches what stands.
+struct Touch {
+  std::optional<geometry::Vec2> at;  ///< where; nothing: it is free
+  bool sure = false;  ///< false: only if the beginning had material there that not all cells around show
 };
 
 /// What a set-up began with and what has been cut since: to look again, closer, at a place.
@@ -38,6 +45,11 @@ class EarlierCuts {
   /// point has it.
   [[nodiscard]] bool takes(const Grid& grid, const std::vector<Move>& moves, const CutterOutline& cutter,
                            std::size_t mark, double& cell_mm);
+  /// Whether a straight move touches what stands, on points as close as those of `look`. Nothing where it
+  /// cannot be told: points would lie farther apart than `close_mm`, or no more pieces of its way may be
+  /// looked at; `pieces`: how many more may be, counted down.
+  [[nodiscard]] std::optional<Touch> meets(const Grid& grid, const Move& m, const CutterOutline& cutter,
+                                           double close_mm, int& pieces);
 
  private:
   struct Cut {
@@ -63,6 +75,8 @@ class EarlierCuts {
   [[nodiscard]] std::vector<Point> left(const Grid& grid, const Place& place, const Way& way,
                                         const Front* front, double least_mm,
                                         const std::vector<const Cut*>& cuts) const;
+
+  [[nodiscard]] double least_begun(const Grid& grid, geometry::Vec2 at) const;
 
   HeightsBefore stock_, base_;
   std::vector<Cut> cuts_;
