@@ -4,7 +4,7 @@
 
 #include "planner/proof/verify/verify.h"
 #include "tests/proof/verify/checked.h"
-#include "tests/proof/verify/two_setups.h"
+#include "tests/proof/verify/told/two_setups.h"
 
 namespace capstan::verify {
 namespace {
