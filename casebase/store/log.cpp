@@ -339,7 +339,11 @@ std::vector<std::optional<Case>> Log::load(std::span<const std::uint32_t> wanted
     out[i] = verified(entries_[wanted[i]], body, why[i]);
   });
   if (!read) {  // a file in use, a lost connection: the rows are none the worse for it
-    shared_->faults.push_back(read.error());
+    const auto same = [&](const Diagnostic& d) {
+      return d.code == read.error().code && d.message == read.error().message;
+    };
+    if (std::none_of(shared_->faults.begin(), shared_->faults.end(), same))
+      shared_->faults.push_back(read.error());
     return out;
   }
   for (std::size_t i = 0; i < out.size(); ++i) {

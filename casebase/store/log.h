@@ -90,7 +90,8 @@ class Log {
   [[nodiscard]] std::vector<std::optional<Case>> load(std::span<const std::uint32_t> entries) const;
   /// The remark of a note; nothing when it is not what was stored. Fails as reading the store does.
   [[nodiscard]] Result<std::optional<Remark>> remark(const Note& note) const;
-  /// What `load` found altered or gone since this was asked last, each row once.
+  /// What `load` found altered or gone since this was asked last, each row once, and why it could not read,
+  /// once.
   [[nodiscard]] std::vector<Diagnostic> take_faults() const;
 
  private:
