@@ -144,9 +144,9 @@ std::string hint_for(const std::vector<const Inspected*>& rows, const AskedSizes
   for (const Inspected* row : rows) {
     for (const double mm : sizes.of(*row)) {
       if (same(row->nominal_mm * kMmPerInch, mm)) {
-        return "it is asked for in inches: say so by a column 'unit', or by --unit inch; import the log "
-               "again, "
-               "and remove the cases without";
+        return "the nominal is the asked size in inches: say so by a column 'unit', or by --unit inch; "
+               "import "
+               "the log again, and remove the cases without";
       }
     }
   }
