@@ -131,6 +131,7 @@ TEST_P(DiskFaultProperty, BelievesNothingAlteredWhereTheJournalOfAProgramThatEnd
       EXPECT_EQ(next->cases().size(), given.size() + 1) << how;
     }
   }
+  EXPECT_FALSE(outcomes.empty()) << "no program that ended left a journal";
   for (const auto& [outcome, times] : outcomes) RecordProperty(outcome, times);
 }
 
