@@ -364,12 +364,14 @@ int run_cases_tune(Session& s) {
   const std::vector<MaterialCorrections> materials = correct_models(*base, *cards);
   if (!report_faults(s, *base)) {
     return s.end(
-        Diagnostic{.code = "CASE-LOST",
-                   .message =
-                       "cases of it were altered or are gone, and they may speak against what the others "
-                       "say: nothing is proposed",
-                   .file = casebase::name_of(*s.options.inputs.cases),
-                   .hint = "restore it from a copy, or export its cases into a new one"},
+        Diagnostic{
+            .code = "CASE-LOST",
+            .message =
+                "cases of it were altered, are gone or could not be read now, and they may speak against "
+                "what the others say: nothing is proposed",
+            .file = casebase::name_of(*s.options.inputs.cases),
+            .hint = "try again where reading failed, else restore it from a copy, or export its cases into a "
+                    "new one"},
         kImpossible);
   }
   if (!s.options.outputs.empty()) {
