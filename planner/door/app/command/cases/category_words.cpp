@@ -77,7 +77,7 @@ std::string some_of(const std::vector<std::string>& words) {
 
 std::vector<std::string> planned_operations() {
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < model::kTypeCount; ++i) {
+  for (std::size_t i = 1; i < model::kTypeCount; ++i) {
     const auto type = static_cast<model::TypeId>(i);
     const model::NounType& noun = model::noun_type(type);
     if (!noun.abstract && !noun.keyword.empty() && model::is_a(type, model::TypeId::kMachiningOperation))
