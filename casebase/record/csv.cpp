@@ -174,6 +174,8 @@ HeadRow head_row_of(const std::vector<std::string>& names) {
 Fault read_case(const HeadRow& head, const SeparatedRow& row, Case& c) {
   if (row.cells.size() != head.of_cell.size())
     return fmt::format("{} fields instead of {}", row.cells.size(), head.of_cell.size());
+  // A base of an earlier version holds such text and days, under an id that fits: its export is read whole.
+  Fault unfit;
   // The case's own origin is what figures have that say none; then values; then what stands beside them.
   for (const int turn : {0, 1, 2}) {
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
@@ -185,15 +187,16 @@ Fault read_case(const HeadRow& head, const SeparatedRow& row, Case& c) {
       }
       const int its_turn = column.name == "origin" ? 0 : column.part == Part::kValue ? 1 : 2;
       if (cell.empty() || its_turn != turn) continue;
-      if (!is_utf8(cell)) return column.name + ": the text is not UTF-8; save the table as UTF-8";
+      if (!is_utf8(cell) && !unfit) unfit = column.name + ": the text is not UTF-8; save the table as UTF-8";
       if (auto wrong = turn == 2 ? put_beside(column, cell, c) : put_value(*column.field, cell, c))
         return column.name + ": " + *wrong;
     }
   }
   if (auto wrong = fault_of(c)) return wrong;
-  if (!c.from.time_utc.empty() && !is_of_calendar(c.from.time_utc))
-    return "time_utc: there is no day " + c.from.time_utc.substr(0, 10);
+  if (!c.from.time_utc.empty() && !is_of_calendar(c.from.time_utc) && !unfit)
+    unfit = "time_utc: there is no day " + c.from.time_utc.substr(0, 10);
   const std::string id = id_of(c);
+  if (unfit && c.id != id) return unfit;
   if (!c.id.empty() && c.id != id)
     return "the id does not fit the case: it was altered; leave it empty if that is meant";
   c.id = id;

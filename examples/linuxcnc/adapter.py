@@ -168,9 +168,11 @@ class ToolStates:
         if not self.path:
             return ''
         try:
-            return pathlib.Path(self.path).read_text()
+            return pathlib.Path(self.path).read_text(encoding='utf-8')
         except OSError as error:
             raise Refused(f'{self.path} cannot be read: {error.strerror}') from error
+        except UnicodeDecodeError as error:
+            raise Refused(f'{self.path} is not UTF-8, byte {error.start + 1}; save it as UTF-8') from error
 
 
 class Journal:

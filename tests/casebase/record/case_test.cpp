@@ -188,8 +188,9 @@ TEST(CaseCsv, RefusesADayThatIsNone) {
     Case c = sample();
     c.from.time_utc = time;
     EXPECT_FALSE(fault_of(c)) << time;  // what earlier versions kept is read
-    c.id = id_of(c);
     EXPECT_EQ(from_csv(to_csv(std::vector{c}), "cases.csv").has_value(), taken) << time;
+    c.id = id_of(c);  // as a base of an earlier version exports it
+    EXPECT_TRUE(from_csv(to_csv(std::vector{c}), "cases.csv")) << time;
     EXPECT_EQ(fault_of(Remark{"Smith", time, "chatter"}).has_value(), !taken) << time;
   }
 }

@@ -53,9 +53,17 @@ int said(Session& s, const Say& say, const std::string& done, OfRemoved of_remov
   }
   ids = std::move(there);
   const CaseJudgement& j = s.options.judgement;
+  const casebase::Remark remark{j.by, j.time_utc, j.reason};
+  if (const auto fault = casebase::fault_of(remark)) {
+    return s.end(Diagnostic{.code = "CASE-REMARK",
+                            .message = *fault,
+                            .file = casebase::name_of(*s.options.inputs.cases),
+                            .expected = "who says it, why, and a time such as 2026-03-01T08:00:00Z"},
+                 kUsage);
+  }
   if (auto later = of_the_future({j.time_utc}, "time is", "times are")) s.job.report(*std::move(later));
   if (!ids.empty()) {
-    const Status status = say(*base, ids, casebase::Remark{j.by, j.time_utc, j.reason});
+    const Status status = say(*base, ids, remark);
     if (!status) return s.end(status.error(), kImpossible);
   }
   s.summary = counted(ids.size(), "case", "cases") + ' ' + done + "; the base holds " +
