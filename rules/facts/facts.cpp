@@ -212,8 +212,8 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   const bool corners = corner > 0.0 && s.kind != ShapeKind::kFace && s.kind != ShapeKind::kOutside;
   out.facts.set("corner_radius_mm", corners ? std::min(corner, kUnknownLength) : kUnknownLength);
   out.facts.set("corner_ratio", corners && across > 0.0 ? ratio(2.0 * corner, across, kNotAsked) : kNotAsked);
-  const double widest = corners ? std::min(2.0 * corner, across) : across;
-  out.facts.set("slenderness", corners && widest > 0.0 ? ratio(s.depth_mm, widest, kUnknownLength) : 0.0);
+  out.facts.set("slenderness",
+                corners ? ratio(s.depth_mm, std::min(2.0 * corner, across), kUnknownLength) : 0.0);
   if (!s.through && c.floor_thickness_mm)
     out.facts.set("floor_ratio", ratio(out.passage.widest_mm, *c.floor_thickness_mm, kUnknownLength));
   out.facts.set("depth_ratio", across > 0.0 ? s.depth_mm / across : 9999.0);

@@ -26,7 +26,8 @@ struct CutSample {
   double csa_mm2 = 0.0;
   double top_mm = 0.0;   ///< highest contact above the tip; 0: not known, the depth counts from the tip
   double end_mm2 = 0.0;  ///< part of the area that no flank sweeps: the cutter's end cuts it on the way down.
-                         ///< Of a plunge: area below the end, no less than anywhere in the step; 0: csa_mm2
+                         ///< Of a plunge: area below the end where the step is deepest, on a level top; on an
+                         ///< uneven one the mean over the length in contact; 0: csa_mm2
   double end_slope = 0.0;       ///< slope of the end's way down, per length of path
   double chip_over_feed = 0.0;  ///< thickest chip over the feed per tooth, as measured; 0: not measured
 };
@@ -99,10 +100,11 @@ class KnownFeeds {
 /// within `group_ratio` share the lower feed, and no run of moves asks for more than its fastest move
 /// reaches.
 ///
-/// Plunges: a fraction of the step's feed at most, below it what torque and power of drilling allow, into as much
-/// as lies below the cutter's end (where no area is known: into the solid). Ramps and helices: what the sections measured along them allow, as in a slot; at most model::Ramp's
-/// share of the feed of the largest chip, and no chip of the end's edges (feed per tooth times the sine of
-/// the slope) thicker than in a plunge.
+/// Plunges: a fraction of the step's feed at most, below it what torque and power of drilling allow, into as
+/// much as lies below the cutter's end (where no area is known: into the solid). Ramps and helices: what the
+/// sections measured along them allow, as in a slot; at most model::Ramp's share of the feed of the largest
+/// chip, and no chip of the end's edges (feed per tooth times the sine of the slope) thicker than in a
+/// plunge.
 ///
 /// Shape         the schedule has one entry per move of `path`.
 /// Determinism   same question, same answer; sections are compared on a grid, rounded to the heavier side.

@@ -80,9 +80,9 @@ Box3 part_box(const Piece& piece) {
   } else if (grown > 0.0) {
     out.lo = out.lo + geometry::Vec3{grown, grown, grown};
     out.hi = out.hi - geometry::Vec3{grown, grown, grown};
-  } else if (const auto stated = made != nullptr
-                                     ? model::box_of(piece.plan.model, model::raw_solid(piece.plan.model, *made))
-                                     : std::nullopt) {
+  } else if (const auto stated =
+                 made != nullptr ? model::box_of(piece.plan.model, model::raw_solid(piece.plan.model, *made))
+                                 : std::nullopt) {
     // A larger piece than the file's, by --stock: the part is drawn in the file's.
     out.lo = {std::max(out.lo.x, stated->lo.x), std::max(out.lo.y, stated->lo.y),
               std::max(out.lo.z, stated->lo.z)};

@@ -36,8 +36,8 @@ struct Piece {
   double grown_mm = 0.0;  ///< how far the raw piece was grown over the finished part, mm; 0: not
 };
 
-/// The box of the finished part, workpiece coordinates: its own, else the file's raw piece where a larger one is
-/// cut. Raw material beyond it belongs to no feature.
+/// The box of the finished part, workpiece coordinates: its own, else the file's raw piece where a larger one
+/// is cut. Raw material beyond it belongs to no feature.
 [[nodiscard]] geometry::Box3 part_box(const Piece& piece);
 
 /// The shapes of a feature in this raw piece: a hole right through reaches the underside.

@@ -113,8 +113,9 @@ std::pair<double, double> mean_extents(const model::SectionSeries& s) {
   return all > 0.0 ? std::pair(ad / all, rd / all) : std::pair(0.0, 0.0);
 }
 
-/// The area below the cutter's end where a step of a plunge is deepest, mm2. What a step removes, it removes
-/// in the part of its length that is in contact. A round nose's area grows from nothing, ever slower, so that
+/// The area below the cutter's end where a step of a plunge is deepest, mm2. What a step removes of a level
+/// top, it removes in the part of its length that is in contact; where the top is uneven, this is the mean
+/// area over the length in contact of the highest part. A round nose's area grows from nothing, ever slower, so that
 /// its mean over the last length c of a depth a is at least (1 - c / (2 a)) of the last (derived).
 double below_end(const engagement::Engagement& e, const model::Cutter& cutter) {
   const double contact = std::min(e.ap_mm, e.step_mm);

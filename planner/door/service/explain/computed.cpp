@@ -74,8 +74,8 @@ std::vector<Computed> computed_of(const Plan& plan, const StepView& v) {
   // Makers state that of the edge (mechanics/force/thread_cut.h).
   add("fz", r->fz_mm, " mm",
       cutting != nullptr && model::mills_threads(cutting->cutter_class)
-          ? "feed per tooth of the cutter's centre: feed / (teeth n); at the thread's diameter D the edge of a mill of "
-            "diameter d goes D / (D - d) times as fast"
+          ? "feed per tooth of the cutter's centre: feed / (teeth n); at the thread's diameter D the edge of "
+            "a mill of diameter d goes D / (D - d) times as fast"
           : "feed per tooth: feed / (teeth n)");
   add("peak_force", r->loads.peak_force_n, " N", "largest cutting force along the path");
   const bool milled =

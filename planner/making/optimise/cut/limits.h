@@ -126,9 +126,9 @@ inline constexpr double kSlowestSpeedShare = 0.25;
 [[nodiscard]] double slender_depth(const CutQuestion& q);
 
 /// Depth of a level at most. A rough one: model::kDeepestSlotRatio diameters, sourced there for slots and
-/// taken for wider cuts, too, whose ways begin and end in slots; in steel above 50 HRC model::kHardCut. Where the engagement is constant there is no
-/// slot but the entry, which is a ramp or a helix. What the material allows of either (model::Ramp) comes by
-/// CutQuestion::ap_most_mm.
+/// taken for wider cuts, too, whose ways begin and end in slots; in steel above 50 HRC model::kHardCut. Where
+/// the engagement is constant there is no slot but the entry, which is a ramp or a helix. What the material
+/// allows of either (model::Ramp) comes by CutQuestion::ap_most_mm.
 [[nodiscard]] double deepest_level(const CutQuestion& q);
 
 /// Depth of a slot, in diameters, up to which speed and feed are those of the table, and what remains of each

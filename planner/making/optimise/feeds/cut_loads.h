@@ -88,8 +88,8 @@ class CutLoads {
 
   /// Loads at a feed of the cutter's centre; nothing outside the formulas' range.
   [[nodiscard]] std::optional<State> at(const Cut& cut, double feed_mm_min) const;
-  /// Torque and power of plunging into material of this area, seen along the axis; 0, or more than the cutter's
-  /// disc: into the solid. The other columns are 0. Drilling's specific force times what is removed:
+  /// Torque and power of plunging into material of this area, seen along the axis; 0, or more than the
+  /// cutter's disc: into the solid. The other columns are 0. Drilling's specific force times what is removed:
   ///
   ///     M = kc f A / (2 pi)      derived: of the disc, A = pi D^2 / 4, it is drilling.h's kc f D^2 / 8
   [[nodiscard]] std::optional<State> plunging(double area_mm2, double feed_mm_min) const;

@@ -382,8 +382,10 @@ optimise::CutQuestion question_of(const PlanSoFar& p, const StepDraft& step,
     q.vc_start_m_min = start.vc_m_min;
     q.fz_start_mm = start.fz_mm;
   }
-  // What is milled through is cut below its bottom, and levels are divided over all of that.
-  const double below = job.shape.through && q.kind != CutKind::kAxial ? job.break_through_mm : 0.0;
+  // What is milled through is cut below its bottom, inside by the cutter's corner, too (region/area.cpp), and
+  // levels are divided over all of that.
+  const double corner = job.shape.kind == ShapeKind::kOutside ? 0.0 : step.cutter.corner_radius_mm;
+  const double below = job.shape.through && q.kind != CutKind::kAxial ? job.break_through_mm + corner : 0.0;
   const double bottom = job.feature_in_setup.origin.z - job.shape.depth_mm - below + job.allowance_bottom_mm;
   q.depth_mm = std::max(0.0, job.start_z_mm - bottom);
   q.width_mm = width_of(job.shape);

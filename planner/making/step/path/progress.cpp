@@ -103,7 +103,11 @@ void Progress::done(const StepDraft& step) {
   for (const auto& shape : step.shapes) {
     const auto job = job_of(p_, step, shape);
     if (p_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {
-      left_[{step.feature, shape.member}] = {job.allowance_side_mm, job.allowance_bottom_mm};
+      Left& left =
+          left_.try_emplace({step.feature, shape.member}, Left{0.0, job.allowance_bottom_mm}).first->second;
+      left.side_mm = job.allowance_side_mm;
+      // What finishes walls alone leaves the floor as it was.
+      if (step.operation.type != model::TypeId::kSideFinishMilling) left.bottom_mm = job.allowance_bottom_mm;
       if (model::has(step.cutter.cutter_class, model::CutterTrait::kEndMill)) {
         milled_[{step.feature, shape.member}].push_back({job.operation, step.cutter.cutting_diameter_mm,
                                                          step.cutter.corner_radius_mm, job.allowance_side_mm,

@@ -63,7 +63,8 @@ double hard_level_mm(const Cutter& c, const WorkMaterial& m) {
 Ramp ramp_of(const Cutter& c, const WorkMaterial& m) {
   const double most = c.maximum_ramp_angle_rad;
   const Row& row = row_of(m);
-  const double slot = std::min(row.slot_in_d() * c.cutting_diameter_mm, hard_level_mm(c, m)), bore = row.bore_in_d * c.cutting_diameter_mm;
+  const double slot = std::min(row.slot_in_d() * c.cutting_diameter_mm, hard_level_mm(c, m));
+  const double bore = row.bore_in_d * c.cutting_diameter_mm;
   if (!(most > 0.0))
     return {.angle_rad = 0.0, .feed_share = kHalf, .slot_depth_mm = slot, .bore_depth_mm = bore};
   const double usual_rad = kDegree * (c.substrate == Substrate::kCarbide ? row.carbide_deg : row.hss_deg);

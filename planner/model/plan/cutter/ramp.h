@@ -18,19 +18,21 @@ inline constexpr double kMiddleOfRadius = 0.3;
 ///         catalogue 2021-22, p. 114, solid carbide mills, correction factors.
 inline constexpr double kDeepestSlotRatio = 1.5;
 
-/// What mills with edges of their own rough of steel that is harder than 50 HRC, in diameters: either a level, at
-/// most this deep wherever the cut is wide, or a narrow cut of constant engagement, at most this wide and deep.
-/// Source  narrow: D x 0.1 D up to 55 HRC (Osawa, catalogue 2021, p. 455, HF451; docs.steelcam.org). Levels: 0.02 D
-///         and 0.05 D in the hard materials of a table that ends with 55 to 60 HRC, whose widest cut on the side is
-///         1.3 D x 0.05 D (Karnasch, in ATA Americas catalogue 2022, p. 1283; read from its text, in which
-///         pictures and columns stand apart, so the larger is taken). Slots half a diameter deep at 20 to 30 m/min
-///         (Tungaloy catalogue 2020-21, p. 1091) name no hardness; up to 50 HRC they hold.
+/// What mills with edges of their own rough of steel that is harder than 50 HRC, in diameters: either a
+/// level, at most this deep wherever the cut is wide, or a narrow cut of constant engagement, at most this
+/// wide and deep.
+///
+/// Source  narrow: D x 0.1 D up to 55 HRC (Osawa, catalogue 2021, p. 455, HF451; docs.steelcam.org). Levels:
+///         0.02 D and 0.05 D in the hard materials of a table that ends with 55 to 60 HRC, whose widest cut on
+///         the side is 1.3 D x 0.05 D (Karnasch, in ATA Americas catalogue 2022, p. 1283; read from its text,
+///         in which pictures and columns stand apart, so the larger is taken). Slots half a diameter deep at
+///         20 to 30 m/min (Tungaloy catalogue 2020-21, p. 1091) name no hardness; up to 50 HRC they hold.
 struct HardCut {
   double level = 0.05, narrow_width = 0.1, narrow_depth = 1.0;
 };
 inline constexpr HardCut kHardCut{};
-/// Brinell hardness of the sources' 50 HRC and a little: above it kHardCut holds. Source: 481 HB are 50 HRC, 560 HB
-/// 55 HRC (materials.yaml, @pulley).
+/// Brinell hardness of the sources' 50 HRC and a little: above it kHardCut holds.
+/// Source  481 HB are 50 HRC, 560 HB 55 HRC (materials.yaml, @pulley).
 inline constexpr double kHardHb = 500.0;
 /// Levels are no thinner than this for the sake of kHardCut, mm: small mills would smear. Default, unsourced.
 inline constexpr double kThinnestHardMm = 0.1;

@@ -33,14 +33,14 @@ double speed_by_arc(double width_ratio, const std::string& group) {
   constexpr double kWidth[] = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5};
   constexpr double kOthers[] = {1.48, 1.35, 1.27, 1.22, 1.19, 1.16, 1.11, 1.0};
   constexpr double kAlloys[] = {1.48, 1.35, 1.27, 1.22, 1.189, 1.136, 1.057, 1.0};
-  const double* kSpeed = group == "S" ? kAlloys : kOthers;
+  const auto& speeds = group == "S" ? kAlloys : kOthers;
   if (group != "P" && group != "M" && group != "K" && group != "S" && group != "H") return 1.0;
   double speed = 1.0;
   for (int i = 0; i + 1 < 8; ++i) {
     if (width_ratio < kWidth[i] || width_ratio >= kWidth[i + 1]) continue;
-    speed = kSpeed[i] + (width_ratio - kWidth[i]) / (kWidth[i + 1] - kWidth[i]) * (kSpeed[i + 1] - kSpeed[i]);
+    speed = speeds[i] + (width_ratio - kWidth[i]) / (kWidth[i + 1] - kWidth[i]) * (speeds[i + 1] - speeds[i]);
   }
-  if (width_ratio > 0.0 && width_ratio < kWidth[0]) speed = kSpeed[0];
+  if (width_ratio > 0.0 && width_ratio < kWidth[0]) speed = speeds[0];
   return speed;
 }
 

@@ -14,7 +14,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double kRapidClearanceMm = 1e-3;  ///< least gap under a rapid; more than a program's last decimal
 constexpr double kSame = 1e-9;
 
 bool straight_down_or_up(const Move& m) { return norm(xy(m.to) - xy(m.from)) < kSame; }
@@ -49,8 +48,8 @@ void StepChecks::rapid(const Move& m) {
   } else {
     closer(m);
   }
-  if (m.spindle_rpm == 0.0 && hole_tool() && cutter_.cutter_class != model::CutterClass::kBoringTool && in_hole(m) &&
-      m.to.z > m.from.z) {
+  if (m.spindle_rpm == 0.0 && hole_tool() && cutter_.cutter_class != model::CutterClass::kBoringTool &&
+      in_hole(m) && m.to.z > m.from.z) {
     out_.error(15, "CHK-SPINDLE-STOPPED", at(m),
                "the tool is withdrawn from z = " + plain(m.from.z) + " with the spindle stopped",
                m.to.z - m.from.z);

@@ -86,8 +86,7 @@ double cell_of(const model::Plan& plan) {
   for (const auto& c : plan.cutters) {
     if (c.cutting_diameter_mm > 0.0) smallest = std::min(smallest, c.cutting_diameter_mm);
   }
-  return std::max({0.02, std::sqrt(area / static_cast<double>(kMaximumCells)),
-                   std::min(std::sqrt(area / kUsualCells), smallest / kCellsPerCutter)});
+  return cell_for(area, smallest);
 }
 
 bool sound(const model::Cutter* c) {
@@ -117,6 +116,11 @@ void check_left(const model::Plan& plan, const PartShapes& part,
 }
 
 }  // namespace
+
+double cell_for(double area_mm2, double smallest_mm) {
+  return std::max({0.02, std::sqrt(area_mm2 / static_cast<double>(kMaximumCells)),
+                   std::min(std::sqrt(area_mm2 / kUsualCells), smallest_mm / kCellsPerCutter)});
+}
 
 bool check_removal(const model::Plan& plan, const PartShapes& part, const std::vector<StepMoves>& steps,
                    Findings& findings, Job& job, std::vector<double>* speed_shares, memo::Memo* known,

@@ -14,6 +14,9 @@ namespace capstan::verify {
 struct PartShapes;
 using model::CutBefore;
 
+/// How wide a set-up's cells are, mm: on a face of this area, with this cutter as the smallest.
+[[nodiscard]] double cell_for(double area_mm2, double smallest_mm);
+
 /// Cuts the raw piece with every move, in order, and says what must not happen: rapids through material (9,
 /// 10), gouges (11), contact beyond the flutes (13), plunges and ramps (14), a stopped spindle in the
 /// material (15), torque and power (17), chips (18), depth and width (20), holders in the way (12), fixtures

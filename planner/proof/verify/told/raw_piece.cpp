@@ -6,14 +6,12 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/copies/copies.h"
 #include "planner/proof/verify/sweep/grid/grid.h"
+#include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/told/phrases.h"
 
 namespace capstan::verify {
 namespace {
 
-constexpr double kUsualCells = 250e3;       // as in the sweep with a plan; default, unsourced
-constexpr double kRapidClearanceMm = 1e-3;  // likewise: more than a program's last decimal
-constexpr double kCellsOfDiameter = 8.0;    // likewise
 /// Of the cell: a disc so wide holds a centre wherever it stands, for half a cell's diagonal is 0.71 of it.
 constexpr double kPin = 0.75;
 /// By which a ball's or a drill's end stands back from its tip that near the axis; default, unsourced.
@@ -82,10 +80,8 @@ void check_told_raw(const ProgramCase& c, const ToldRaw& raw, const std::vector<
     if (sound(s.cutter)) smallest = std::min(smallest, s.cutter->cutting_diameter_mm);
   }
   const geometry::Vec3 size = raw.box.size();
-  const double area = size.x * size.y;
-  const double cell = std::max({0.02, std::sqrt(area / static_cast<double>(kMaximumCells)),
-                                std::min(std::sqrt(area / kUsualCells), smallest / kCellsOfDiameter)});
-  Grid grid({raw.box.lo.x, raw.box.lo.y}, {raw.box.hi.x, raw.box.hi.y}, cell, kMaximumCells);
+  Grid grid({raw.box.lo.x, raw.box.lo.y}, {raw.box.hi.x, raw.box.hi.y}, cell_for(size.x * size.y, smallest),
+            kMaximumCells);
   grid.begin_level(raw.box.hi.z, raw.box.lo.z);
   grid.floor = raw.box.lo.z;
   for (const StepMoves& s : steps) {

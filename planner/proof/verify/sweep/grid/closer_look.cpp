@@ -317,7 +317,6 @@ double EarlierCuts::least_begun(const Grid& grid, Vec2 at) const {
 
 std::optional<Touch> EarlierCuts::meets(const Grid& grid, const Move& m, const CutterOutline& cutter,
                                         double close_mm, int& pieces) {
-  constexpr double kGrazing = 1e-3;  // mm: more than the last decimal of a program
   if (stock_.cells() != grid.stock.size()) return std::nullopt;
   Move fed = m;
   fed.kind = model::MoveKind::kLine;
@@ -328,9 +327,9 @@ std::optional<Touch> EarlierCuts::meets(const Grid& grid, const Move& m, const C
     if (pieces-- <= 0 || place.raster().cell() > close_mm) return std::nullopt;
     const std::vector<const Cut*> cuts = met(place, cuts_.size());
     along_way(cutter, place.part, [&](const auto& way) {
-      for (const Point& p : left(grid, place, way, nullptr, kGrazing, cuts)) {
+      for (const Point& p : left(grid, place, way, nullptr, kRapidClearanceMm, cuts)) {
         if (!out.at) out.at = p.at;
-        out.sure = least_begun(grid, p.at) - p.under > kGrazing;
+        out.sure = least_begun(grid, p.at) - p.under > kRapidClearanceMm;
         if (!out.sure) continue;
         out.at = p.at;
         return;

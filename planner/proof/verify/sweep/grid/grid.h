@@ -130,6 +130,9 @@ struct CutAsks {
 /// depend on their order.
 Bite cut(Grid& grid, const Move& m, const CutterOutline& cutter, const CutAsks& asks);
 
+/// Least gap under a rapid, mm: more than a program's last decimal.
+inline constexpr double kRapidClearanceMm = 1e-3;
+
 /// How deep a rapid would dip into what stands there, > 0: it does, also when axes do not arrive together:
 /// the box that the two ends span, swept by the cutter. `at` says where.
 [[nodiscard]] double rapid_collision(const Grid& grid, const Move& m, const CutterOutline& cutter,
