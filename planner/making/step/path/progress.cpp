@@ -70,6 +70,7 @@ void Progress::prepare(const StepDraft& step, const stock::HeightMap& map, toolp
   if (it != left_.end()) {
     job.left_on_side_mm = it->second.side_mm;
     job.left_on_bottom_mm = it->second.bottom_mm;
+    job.floor_made = it->second.floor_made;
   }
   take_rest(step, job);
 }
@@ -103,11 +104,14 @@ void Progress::done(const StepDraft& step) {
   for (const auto& shape : step.shapes) {
     const auto job = job_of(p_, step, shape);
     if (p_.plan.model.holds<model::Two5dMillingOperation>(step.operation)) {
-      Left& left =
-          left_.try_emplace({step.feature, shape.member}, Left{0.0, job.allowance_bottom_mm}).first->second;
+      Left& left = left_.try_emplace({step.feature, shape.member}, Left{0.0, job.allowance_bottom_mm, false})
+                       .first->second;
       left.side_mm = job.allowance_side_mm;
       // What finishes walls alone leaves the floor as it was.
-      if (step.operation.type != model::TypeId::kSideFinishMilling) left.bottom_mm = job.allowance_bottom_mm;
+      if (step.operation.type != model::TypeId::kSideFinishMilling) {
+        left.bottom_mm = job.allowance_bottom_mm;
+        left.floor_made = model::has(step.operation.type, model::OperationTrait::kFinishes);
+      }
       if (model::has(step.cutter.cutter_class, model::CutterTrait::kEndMill)) {
         milled_[{step.feature, shape.member}].push_back({job.operation, step.cutter.cutting_diameter_mm,
                                                          step.cutter.corner_radius_mm, job.allowance_side_mm,

@@ -25,6 +25,7 @@ class Progress {
   /// Allowance on a feature's walls and floor after the steps so far.
   struct Left {
     double side_mm = 0.0, bottom_mm = 0.0;
+    bool floor_made = false;  ///< by a step that finishes it
   };
   /// A milling step done, for those after it that cut only what it could not reach.
   struct Milled {

@@ -132,8 +132,9 @@ Result<GeneratedPath> area_path(const PathJob& task, Job& job) {
   LevelCutter c(task, *w, writer, job);
   Clearings clearings;
   const bool finish = model::has(task.operation, model::OperationTrait::kFinishes);
-  // A step before may have made the floor: its last pass goes round the walls alone.
-  const bool made = task.left_on_bottom_mm && *task.left_on_bottom_mm <= task.allowance_bottom_mm + 1e-6;
+  // A step before may have finished the floor: its last pass goes round the walls alone.
+  const bool made =
+      task.floor_made && task.left_on_bottom_mm && *task.left_on_bottom_mm <= task.allowance_bottom_mm + 1e-6;
   const bool floor = task.operation != TypeId::kSideFinishMilling && !made;
   const bool plane = model::has(task.operation, model::OperationTrait::kPlane);
   // Side finishing after an earlier step: only a shell is left on the walls.

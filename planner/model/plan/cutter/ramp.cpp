@@ -52,7 +52,9 @@ const Row& row_of(const WorkMaterial& m) {
 }  // namespace
 
 bool cuts_hard_steel(const Cutter& c, const WorkMaterial& m) {
-  return m.iso_group == "H" && m.hardness_hb > kHardHb && c.cutter_class != CutterClass::kFacemill;
+  // A card of the group that states no hardness is taken for hard.
+  const bool softer = m.hardness_hb > 0.0 && m.hardness_hb <= kHardHb;
+  return m.iso_group == "H" && !softer && c.cutter_class != CutterClass::kFacemill;
 }
 
 double hard_level_mm(const Cutter& c, const WorkMaterial& m) {

@@ -38,6 +38,16 @@ Asked asked_at(const Place& place, Saying saying) {
   return out;
 }
 
+/// Programs by other hands have no header to hold them to.
+bool of_capstan(const ProgramCase& c) {
+  static const std::vector<Phrase> kFirst = phrases_of("CAPSTAN PROGRAM");
+  const auto& markers = c.program.markers;
+  return !c.program.setups.empty() ||
+         std::any_of(markers.begin(), markers.end(), [](const StepMarker& m) { return m.setup > 0; }) ||
+         std::any_of(c.program.told.begin(), c.program.told.end(),
+                     [](const Told& t) { return stands_at(kFirst, phrases_of(t.text), 0, 0.0); });
+}
+
 /// The machine that the header names, against the one that the program is judged by. Whether it names one.
 bool check_machine(const ProgramCase& c, Findings& findings) {
   static const std::vector<Phrase> kHead = phrases_of("machine:");
@@ -53,7 +63,7 @@ bool check_machine(const ProgramCase& c, Findings& findings) {
     const std::string text =
         "the header says '" + t.text + "'; the program is judged by '" + c.machine.id + "'";
     const Findings::Where at{1, "", t.line};
-    if (c.plan != nullptr) {
+    if (c.plan != nullptr && of_capstan(c)) {
       findings.error(22, "CHK-HEADER-MACHINE", at, text + ", the plan's machine; write the program for that");
     } else {
       findings.note(22, "CHK-HEADER-MACHINE", at, text + "; name the machine on which it is to run");
@@ -80,7 +90,7 @@ class ToldChecks {
   }
 
   void run(bool names_machine) {
-    if (!of_capstan()) return;
+    if (!of_capstan(c_)) return;
     if (!names_machine)
       out_.error(22, "CHK-HEADER-MACHINE", {1, "", -1},
                  "the header does not say that the program is for machine '" + c_.machine.id +
@@ -93,16 +103,6 @@ class ToldChecks {
   }
 
  private:
-  /// Programs by other hands have no header to hold them to.
-  [[nodiscard]] bool of_capstan() const {
-    static const std::vector<Phrase> kFirst = phrases_of("CAPSTAN PROGRAM");
-    const auto& markers = c_.program.markers;
-    return !c_.program.setups.empty() ||
-           std::any_of(markers.begin(), markers.end(), [](const StepMarker& m) { return m.setup > 0; }) ||
-           std::any_of(said_.begin(), said_.end(),
-                       [&](const auto& s) { return stands_at(kFirst, s, 0, unit_); });
-  }
-
   /// CAPSTAN SETUP: which offsets there are, and from where on rapids are safe.
   void setups() {
     for (const std::size_t i : used_setups_) {
