@@ -38,7 +38,7 @@ inline std::string text_of_two() {
                   "(CAPSTAN TOOL T1 H1 length=100 diameter=10 id=\"em10\" endmill)\n"
                   "(CAPSTAN TOOL T2 H2 length=130 diameter=8 id=\"d8\" twist_drill)\n" +
                       lines_of_setup("1", "G54"));
-  text = replaced(text, "n=1)", "n=1 tool=1 setup=1)");
+  text = replaced(text, " n=1)", " n=1 tool=1 setup=1)");
   const auto second = text.find("n=2)");
   const std::string anew =
       "(set-up 2: the workpiece is not turned after set-up 1)\n" + lines_of_setup("2", "G55") +
