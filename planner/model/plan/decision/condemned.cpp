@@ -105,7 +105,14 @@ std::string text_of(const Plan& plan, const Condemnation& reason) {
   return "step " + reason.step + ": " + reason.text;
 }
 
+namespace {
+/// Says that nobody knows what the plan is.
+bool of_unknown(const Condemnation& c) { return c.code == kOfUnreadable || c.code == kOfContradicted; }
+}  // namespace
+
 const Condemnation& foremost(const std::vector<Condemnation>& reasons) {
+  const auto unknown = std::find_if(reasons.begin(), reasons.end(), of_unknown);
+  if (unknown != reasons.end()) return *unknown;
   const auto of_step =
       std::find_if(reasons.begin(), reasons.end(), [](const Condemnation& c) { return !c.step.empty(); });
   return of_step == reasons.end() ? reasons.front() : *of_step;
@@ -118,9 +125,7 @@ std::string text_of(const Plan& plan, const std::vector<Condemnation>& reasons) 
 }
 
 bool never_written(const std::vector<Condemnation>& reasons) {
-  return std::any_of(reasons.begin(), reasons.end(), [](const Condemnation& c) {
-    return c.code == kOfUnreadable || c.code == kOfContradicted;
-  });
+  return std::any_of(reasons.begin(), reasons.end(), of_unknown);
 }
 
 std::vector<Condemnation> condemned(const Plan& plan, const std::vector<Finding>& findings) {

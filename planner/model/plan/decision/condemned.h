@@ -42,8 +42,8 @@ struct Condemnation {
 [[nodiscard]] std::string text_of(const ExceededLimit& limit);
 /// "step 5 SLOT: spindle torque 1.11 of 0.48 Nm at X12.4 Y30.1; use a smaller tool or depth".
 [[nodiscard]] std::string text_of(const Plan& plan, const Condemnation& reason);
-/// The first reason that names a step, for it says more than one of the whole plan; else the first. Needs one
-/// at least.
+/// The first reason that says that nobody knows what the plan is (never_written), else the first that names a
+/// step, for it says more than one of the whole plan, else the first. Needs one at least.
 [[nodiscard]] const Condemnation& foremost(const std::vector<Condemnation>& reasons);
 /// The text of the foremost reason, with "(and 2 more)". Needs one at least.
 [[nodiscard]] std::string text_of(const Plan& plan, const std::vector<Condemnation>& reasons);
