@@ -97,6 +97,8 @@ std::vector<Class> told_otherwise() {
        [](const Emitted& e, Random& r) {
          const bool brackets = e.dialect != "siemens" && e.dialect != "heidenhain";
          return with_text(e, r, "set-up ", [&](Lines& lines, std::size_t i, std::size_t /*at*/) {
+           // A block of Heidenhain's that goes on in the next line is not to be parted.
+           while (i > 0 && lines[i - 1].ends_with("~")) --i;
            const char* const kWords[] = {"JAWS GREASED", "SET-UP 1: USE THE TORQUE WRENCH"};
            const std::string words = kWords[r.below(2)];
            lines.insert(lines.begin() + static_cast<long>(i), brackets ? "(" + words + ")" : "; " + words);
