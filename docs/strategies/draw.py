@@ -4,12 +4,13 @@
     docs/strategies/draw.py CAPSTAN [NAME...]      CAPSTAN: the built command; NAMEs: these pictures only
 
 Left: the step from above, with what the cutter sweeps in grey; of drilled holes the height of the tip over time.
-Right: the same in cabinet projection, z upright. Lengths in mm. Lines are straightened by a third of a pixel at most.
+Right: the same in cabinet projection, z upright. Lengths in mm. Lines are straightened by half a pixel at most.
 Prints for each step its time, and the length and time of moves at feed that cut nothing.
 """
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -148,7 +149,7 @@ COLOURS = {  # kind of move: colour, width, dashes
 SAID = {"rapid": "rapid", "way": "approach, retract", "down": "plunge, ramp, helix", "cut": "cut", "link": "link",
         "air": "at feed, cuts nothing"}
 PANEL, HEIGHT, MARGIN = 400.0, 300.0, 14.0
-STRAIGHT_PX = 0.33
+STRAIGHT_PX = 0.5
 
 
 def points_of(path, i):
@@ -210,7 +211,14 @@ def number(v):
 
 
 def line_of(points):
-    return "M" + "L".join(number(x) + " " + number(y) for x, y in straightened(points, STRAIGHT_PX))
+    """The straightened line; steps from one rounded point to the next are shorter than places."""
+    tenths = [(round(10 * x), round(10 * y)) for x, y in straightened(points, STRAIGHT_PX)]
+    steps = ((x - px, y - py) for (px, py), (x, y) in zip(tenths, tenths[1:]))
+    first = "M%s %s" % (number(0.1 * tenths[0][0]), number(0.1 * tenths[0][1]))
+    rest = " ".join(number(0.1 * dx) + " " + number(0.1 * dy) for dx, dy in steps)
+    # A sign parts two numbers by itself, and no number needs the zero before its point.
+    rest = re.sub(r"\b0\.", ".", rest).replace(" -", "-")
+    return first + ("l" if rest else "") + rest
 
 
 class Step:

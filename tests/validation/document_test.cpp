@@ -111,7 +111,7 @@ TEST(Document, IsQuotedByTheReadmeAsItStands) {
 }
 
 TEST(Document, ShowsPicturesThatAreThere) {
-  constexpr std::size_t kLargest = 100000;  // bytes, of a drawn path
+  constexpr std::size_t kLargest = 60000;  // bytes, of a drawn path
   for (const std::string name : {"validation", "strategies"}) {
     const std::string folder = capstan::testing::source_dir() + "/docs/",
                       text = testing::slurp(folder + name + ".md");

@@ -41,8 +41,13 @@ TEST(Options, NamesAreUniqueAndEachHasAVerbAndASetter) {
     EXPECT_TRUE(seen.insert(o.name).second) << o.name;
     EXPECT_NE(o.set, nullptr) << o.name;
     EXPECT_TRUE(o.help_of(Verb::kPlan) || o.help_of(Verb::kBind) || o.help_of(Verb::kCheck)) << o.name;
-    // A text may have names among what it takes; a word is always one of its own.
-    if (o.value != Value::kText) {
+    // A word is always one of its own; a text may name some of those that it takes.
+    if (o.value == Value::kText) {
+      for (const std::string& word : o.words) {
+        Request r;
+        EXPECT_TRUE(set(r, o.name, word)) << o.name << " " << word;
+      }
+    } else {
       EXPECT_EQ(o.words.empty(), o.value != Value::kWord) << o.name;
     }
     EXPECT_EQ(find_option(o.name), &o);
