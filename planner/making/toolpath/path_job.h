@@ -93,8 +93,8 @@ struct PathJob {
   double allowance_side_mm = 0.0, allowance_bottom_mm = 0.0;  ///< to be left
   /// Allowance that an earlier step left on walls and floor; unset: the feature is still solid.
   std::optional<double> left_on_side_mm, left_on_bottom_mm;
-  bool floor_made =
-      false;  ///< an earlier step finished the floor: where it left no more, it is not cut again
+  /// An earlier step finished the floor: where it left no more, it is not cut again.
+  bool floor_made = false;
 
   /// Rest machining of areas between upright walls: only the area that this cutter did not reach is cut.
   std::optional<Cleared> cleared_by;

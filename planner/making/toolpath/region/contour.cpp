@@ -13,8 +13,6 @@ using model::MoveRole;
 
 namespace {
 
-Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
-
 /// Tracks of a ring's loops, in the sense that the job asks for.
 std::vector<Track> tracks_of(const Region& piece, Loops which, bool natural, bool wall) {
   std::vector<Track> out;
@@ -312,9 +310,7 @@ class Contours {
       const double s = further * step_;
       if (s > 0.5 * length) break;
       const Spot leaves = at_length(ring, s);
-      const Vec2 from = leaves.segment == 0 ? ring.start : ring.segments[leaves.segment - 1].to;
-      const auto over = crossing(leaves.point, direction_at(from, ring.segments[leaves.segment], leaves.t), t,
-                                 level_.inside);
+      const auto over = crossing(leaves.point, direction_at(ring, leaves), t, level_.inside);
       if (!over) continue;
       if (s > 0.0) c_.writer.follow(part_of(ring, 0.0, s), level_.z_mm, MoveRole::kCut);
       c_.writer.follow(over->way, level_.z_mm, MoveRole::kCut);

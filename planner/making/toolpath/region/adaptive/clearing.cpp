@@ -36,8 +36,6 @@ constexpr double kLeftOver =
     0.02;  // of the radius squared: centres that fronts may miss, as in a corner's tip
 constexpr std::size_t kMostPasses = 20'000;
 
-Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
-
 /// A stretch of a front, in the sense of its loop: material on its right.
 struct Front {
   std::size_t loop = 0, first = 0, edges = 0;  ///< vertex where it begins

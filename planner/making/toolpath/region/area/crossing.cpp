@@ -13,14 +13,13 @@ namespace {
 /// the least takes the least time (pocket of 304: 0.6, 1.1 and 1.3 % more than a straight step), and the
 /// cutter's front meets as much of the material in all three.
 constexpr double kAhead = 1.0;
-/// How far along the next ring a place is looked for, and in what steps, over the distance of the rings.
+/// How far along the next ring a place is looked for, and in what steps, over the distance of the rings;
+/// default, unsourced.
 constexpr double kFarthest = 6.0, kLook = 0.25;
 /// Cosine of the angle by which headings at both ends may differ; default, unsourced.
 constexpr double kStraightEnough = 0.94;
 /// Chords by which an arc is held against the region.
 constexpr int kChords = 8;
-
-Vec2 left_of(Vec2 d) { return {-d.y, d.x}; }
 
 /// The arc from a, along `heading` there, to b; a line where it hardly bends.
 Segment arc_to(Vec2 a, Vec2 heading, Vec2 b) {
@@ -72,8 +71,7 @@ std::optional<Crossing> crossing(Vec2 at, Vec2 heading, const Track& to, const I
   const double apart = near.distance_mm, most = std::min(kFarthest * apart, 0.5 * length_of(ring));
   for (double s = 0.0; s <= most; s += kLook * apart) {
     const Spot spot = at_length(ring, s);
-    const Vec2 from = spot.segment == 0 ? ring.start : ring.segments[spot.segment - 1].to;
-    const Vec2 there = direction_at(from, ring.segments[spot.segment], spot.t), v = spot.point - at;
+    const Vec2 there = direction_at(ring, spot), v = spot.point - at;
     if (dot(heading, there) < kStraightEnough) continue;
     if (dot(heading, v) < kAhead * std::max(apart, std::abs(cross(heading, v)))) continue;
     auto way = biarc(at, heading, spot.point, there);

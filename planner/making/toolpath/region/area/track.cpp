@@ -122,6 +122,11 @@ Spot at_length(const Track& t, double s_mm) {
   return {.segment = 0, .t = 0.0, .point = t.start, .distance_mm = 0.0};
 }
 
+Vec2 direction_at(const Track& t, const Spot& s) {
+  const Vec2 from = s.segment == 0 ? t.start : t.segments[s.segment - 1].to;
+  return direction_at(from, t.segments[s.segment], s.t);
+}
+
 Track begun_at(const Track& t, const Spot& s) {
   if (t.segments.empty()) return t;
   Track out{.start = s.point, .segments = {}, .closed = t.closed};

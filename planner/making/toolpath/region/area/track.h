@@ -53,6 +53,8 @@ inline constexpr double kFitTolerance = 0.001;
 /// Unit direction of travel at fraction t.
 [[nodiscard]] geometry::Vec2 direction_at(geometry::Vec2 from, const Segment& s, double t);
 [[nodiscard]] Track reversed(const Track& t);
+/// A quarter turn to the left.
+[[nodiscard]] inline geometry::Vec2 left_of(geometry::Vec2 d) { return {-d.y, d.x}; }
 
 struct Spot {
   std::size_t segment = 0;
@@ -63,6 +65,8 @@ struct Spot {
 [[nodiscard]] Spot nearest(const Track& t, geometry::Vec2 p);
 /// The spot at a given length from the start.
 [[nodiscard]] Spot at_length(const Track& t, double s_mm);
+/// Unit direction of travel at a spot of the track.
+[[nodiscard]] geometry::Vec2 direction_at(const Track& t, const Spot& s);
 /// A closed track that begins (and ends) at the spot.
 [[nodiscard]] Track begun_at(const Track& t, const Spot& s);
 /// The part between two lengths from the start, 0 <= from <= to <= length.
