@@ -88,6 +88,7 @@ TEST(BesideThePiece, ALastPassGoesRoundTheWallsAloneWhereTheFloorIsMade) {
   PathJob t = area_job(geometry::rectangle({0, 0}, {40, 30}), 6.0, 10.0);
   t.operation = model::TypeId::kBottomAndSideFinishMilling;
   t.left_on_side_mm = 0.1;
+  t.floor_made = true;
   const auto cut = [&](double left_on_floor_mm) {
     t.left_on_bottom_mm = left_on_floor_mm;
     Job job;
@@ -98,6 +99,9 @@ TEST(BesideThePiece, ALastPassGoesRoundTheWallsAloneWhereTheFloorIsMade) {
   EXPECT_GT(cut(0.2), 100.0 + 20.0);
   EXPECT_GT(cut(0.0), 100.0);
   EXPECT_LT(cut(0.0), 100.0 + 20.0);
+  // What roughing left without an allowance is not finished.
+  t.floor_made = false;
+  EXPECT_GT(cut(0.0), 100.0 + 20.0);
 }
 
 // 100 mm by passes of 45 mm at most: three of 33 mm and a tenth of a radius, not 45, 45 and 10.
