@@ -11,6 +11,7 @@
 #include "planner/physics/mechanics/force/immersion.h"
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/force/thread_cut.h"
+#include "planner/physics/mechanics/loads/width.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "planner/physics/mechanics/stability.h"
 #include "tooling/library/cutters/edge_kind.h"
@@ -32,9 +33,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNominalVolumeMm3 = 2000.0;
 /// A mill's cut at most, as parts of its diameter; default, unsourced (the optimiser's own bounds are wider).
 constexpr double kWidthRatio = 0.5, kDepthRatio = 1.0;
-/// Of a face: as wide as a single pass may be, and as each of several; the planner's own bounds
-/// (planner/making/step/cut/cuts.cpp, optimise::kRoughWidthRatio).
-constexpr double kOnePassRatio = 0.8, kPassRatio = 0.65;
 /// The usual side allowance of roughing, mm; default, unsourced.
 constexpr double kAllowanceMm = 0.3;
 /// Bending of the tip that roughing may have, mm: what that allowance leaves over the thinnest pass that
@@ -156,8 +154,8 @@ std::optional<double> helix_mm(const Cutter& c, const WorkMaterial& w, const Pre
 double passes_over(const Cutter& c, double width_mm) {
   constexpr double kSlack = 1e-9;
   const double d = c.cutting_diameter_mm, flat = std::max(d - 2.0 * c.corner_radius_mm, 0.1 * d);
-  if (width_mm <= std::min(kOnePassRatio * d, flat) * (1.0 + kSlack)) return 1.0;
-  return std::ceil(width_mm / std::min(kPassRatio * d, flat) - kSlack);
+  if (width_mm <= std::min(mechanics::kFaceWidthRatio * d, flat) * (1.0 + kSlack)) return 1.0;
+  return std::ceil(width_mm / std::min(mechanics::kRoughWidthRatio * d, flat) - kSlack);
 }
 
 double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s, const WorkMaterial& w,

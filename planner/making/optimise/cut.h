@@ -90,8 +90,6 @@ inline constexpr double kLevelOverheadS = 2.0;
 /// Largest deflection of the tip in facing, mm, where bending moves the edge along the face. Default,
 /// unsourced.
 inline constexpr double kFaceDeflectionMm = 0.2;
-/// Widest cut of a rough pass that is not a slot, as a fraction of the diameter. Default, unsourced.
-inline constexpr double kRoughWidthRatio = 0.65;
 /// Least feed at which a drill, reamer or countersink is worth choosing, as a fraction of the start value.
 /// Default, unsourced.
 inline constexpr double kLeastDrillFeed = 0.4;

@@ -8,6 +8,7 @@
 #include "planner/making/optimise/cut/law/law.h"
 #include "planner/model/plan/preset_feeds.h"
 #include "planner/physics/mechanics/force/immersion.h"
+#include "planner/physics/mechanics/loads/width.h"
 
 namespace capstan::optimise {
 namespace {
@@ -95,7 +96,7 @@ void Search::add_width() {
   } else if (q_.slot) {
     ae_fixed_ = d;
   } else {
-    const double most = std::min(widest, kRoughWidthRatio * d) * ease_of(q_, kWidth);
+    const double most = std::min(widest, mechanics::kRoughWidthRatio * d) * ease_of(q_, kWidth);
     add(kWidth, "mm", kNarrowest * std::min(widest, d), std::min(most, d));
   }
 }

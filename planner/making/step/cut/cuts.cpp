@@ -9,16 +9,9 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/step/cut/question.h"
 #include "planner/model/plan/decision/condemned.h"
+#include "planner/physics/mechanics/loads/width.h"
 
 namespace capstan::step {
-namespace {
-
-/// Widest face that one pass covers, as a fraction of the cutter's diameter.
-/// Source: Mitsubishi Materials, course on selecting tool diameter and setting position (mmc-carbide.com):
-/// for one pass a cutter of 1.2 to 1.3 times the face's width; the middle of it.
-constexpr double kFaceWidthRatio = 0.8;
-
-}  // namespace
 
 const optimise::CutAnswer* KnownCuts::find(const optimise::CutQuestion& q) const {
   const auto [first, last] = answers_.equal_range(shelf_of(q));
@@ -54,7 +47,8 @@ optimise::CutAnswer Cuts::in_one_pass(const optimise::CutQuestion& q, optimise::
   constexpr double kSlack = 1e-9;
   // Neighbouring passes overlap by the round part of the edge, as in toolpath/region/form/face.cpp.
   const double flat = q.cutter.cutting_diameter_mm - 2.0 * q.cutter.corner_radius_mm;
-  const double widest = std::min(kFaceWidthRatio * q.cutter.cutting_diameter_mm, flat) * (1.0 + kSlack);
+  const double widest =
+      std::min(mechanics::kFaceWidthRatio * q.cutter.cutting_diameter_mm, flat) * (1.0 + kSlack);
   const bool open = !q.ae_mm && q.kind == optimise::CutKind::kRough && several.feasible;
   if (!open || !(several.ae_mm > 0.0) || several.ae_mm >= q.width_mm || q.width_mm > widest) return several;
   optimise::CutQuestion one = q;

@@ -15,6 +15,7 @@
 #include "planner/making/step/cut/strategies.h"
 #include "planner/making/step/record/results.h"
 #include "planner/model/plan/preset_feeds.h"
+#include "planner/physics/mechanics/loads/width.h"
 
 namespace capstan::step {
 namespace {
@@ -83,7 +84,7 @@ Values heaviest(Values table, const optimise::CutQuestion& q) {
     table.ap_mm = least_of(least_of(q.depth_mm, q.cutter.maximum_depth_of_cut_mm), q.ap_most_mm);
   if (!(table.ae_mm > 0.0)) {
     const double d = q.cutter.cutting_diameter_mm;
-    table.ae_mm = q.slot ? d : least_of(optimise::kRoughWidthRatio * d, q.width_mm);
+    table.ae_mm = q.slot ? d : least_of(mechanics::kRoughWidthRatio * d, q.width_mm);
   }
   return table;
 }
