@@ -79,22 +79,22 @@ TEST(Ramp, ASlotIsNoDeeperThanABoreNorThanAnySlotIsMilled) {
       const Cutter c = mill(own_deg);
       const Ramp r = ramp_of(c, of(group));
       EXPECT_GT(r.slot_depth_mm, 0.0) << group;
-      EXPECT_EQ(r.slot_depth_mm, std::min(r.bore_depth_mm, kDeepestSlotRatio * c.cutting_diameter_mm))
-          << group;
+      const double deepest = std::min(r.bore_depth_mm, kDeepestSlotRatio * c.cutting_diameter_mm);
+      EXPECT_EQ(r.slot_depth_mm, std::min(deepest, hard_level_mm(c, of(group)))) << group;
     }
   }
   EXPECT_EQ(ramp_of(mill(5.0), of("P")).slot_depth_mm, 15.0);
-  EXPECT_EQ(ramp_of(mill(5.0), of("H")).slot_depth_mm, 5.0);
 }
 
-// Above 50 HRC makers of mills name slots of a twentieth of the diameter, not of half of it.
+// Above 50 HRC makers of mills name slots of a twentieth of the diameter, not of half of it. A card of the group
+// that states no hardness is taken for as hard.
 TEST(Ramp, ASlotInSteelAboveFiftyHrcIsShallow) {
   WorkMaterial m = of("H");
-  for (const double hb : {0.0, 421.0, 481.0}) {  // not known, 45 HRC, 50 HRC
+  for (const double hb : {421.0, 481.0}) {  // 45 HRC, 50 HRC
     m.hardness_hb = hb;
     EXPECT_EQ(ramp_of(mill(5.0), m).slot_depth_mm, 5.0) << hb;
   }
-  for (const double hb : {560.0, 654.0}) {  // 55 HRC, 60 HRC
+  for (const double hb : {0.0, 560.0, 654.0}) {  // not known, 55 HRC, 60 HRC
     m.hardness_hb = hb;
     EXPECT_NEAR(ramp_of(mill(5.0), m).slot_depth_mm, 0.5, 1e-12) << hb;
     EXPECT_EQ(ramp_of(mill(5.0), m).bore_depth_mm, 5.0) << hb;

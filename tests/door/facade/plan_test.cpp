@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <stop_token>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "capstan/capstan.h"
 #include "planner/door/service/options.h"
 #include "tests/support/corpus.h"
+#include "tests/support/scratch.h"
 
 // The library as other programs use it.
 
@@ -126,6 +131,21 @@ TEST(Facade, OptionsReachThePlan) {
   EXPECT_EQ(wrong.diagnostics.back().code, "OPTION-VALUE");
 }
 
+/// The file of a machine like `generic_vmc` with a table of 2,000 x 1,200 mm.
+std::string machine_with_a_large_table() {
+  std::ifstream in(capstan::testing::source_dir() + "/tooling/data/machines/generic_vmc.yaml");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  for (const auto& [field, now] : {std::pair{"table_length_mm: 900", "table_length_mm: 2000"},
+                                   std::pair{"table_width_mm: 410", "table_width_mm: 1200"}}) {
+    const auto at = text.find(field);
+    EXPECT_NE(at, std::string::npos) << field;
+    if (at != std::string::npos) text.replace(at, std::string_view(field).size(), now);
+  }
+  std::string file = capstan::testing::scratch_file("large_table.yaml");
+  std::ofstream(file) << text;
+  return file;
+}
+
 // Cells of the height map are 1.7 mm wide on a piece of 1,600 x 1,100 mm. Sections were sampled by them, and
 // cuts of a 3 mm mill that the map told wrongly by half went by the map: 45 min instead of 18, by a 1.5 mm
 // mill.
@@ -133,6 +153,7 @@ TEST(Facade, APocketIsCutTheSameInALargeRawPiece) {
   PlanOptions options;
   options.material = "6061";
   options.limit = {"tool.diameter<=3"};
+  options.machine = machine_with_a_large_table();
   const std::string part = capstan::testing::source_dir() + "/examples/reference_pocket.p21";
   options.stock = "box:-5,-5,-30,105,85,0";
   const PlanOutput small = plan_file(part, options);

@@ -9,6 +9,7 @@
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/feeds.h"
 #include "planner/model/plan/cutter/ramp.h"
+#include "planner/model/plan/resources/specific_force.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -172,14 +173,15 @@ FeedQuestion plunged(double area_mm2) {
   return q;
 }
 
-// A cutter that comes down on a small rest cuts that rest: drilling's specific force, kc1.1 (f / z)^-mc, times
-// the area times the feed, and no more torque than this power has at the speed.
+// A cutter that comes down on a small rest cuts that rest: drilling's specific force, kc1.1 (f / z)^-mc, with
+// the mill's rake, times the area times the feed, and no more torque than this power has at the speed.
 TEST(Feeds, OfAPlungeHaveThePowerOfTheAreaBelowTheCutter) {
   constexpr double kArea = 5.0;
   const FeedQuestion q = plunged(kArea);
   const auto a = feeds(q, down(MoveRole::kPlunge));
   const double feed = a.schedule.feed_mm_min[1];
-  const double kc = 1800.0 * std::pow(feed / 16000.0, -0.22);
+  const double share = model::kienzle_share(q.cut.material, q.cut.cutter);
+  const double kc = share * 1800.0 * std::pow(feed / 16000.0, -0.22);
   const double margin = drilling_margin_of(q.cut).factor();
   EXPECT_NEAR(a.peak.power_w, margin * kc * kArea * feed / 60000.0, 1e-6 * a.peak.power_w);
   EXPECT_NEAR(a.peak.torque_nm, a.peak.power_w * 60.0 / (2.0 * pi * 4000.0), 1e-9);
@@ -211,8 +213,8 @@ TEST(Feeds, OfAPlungeOntoASmallRestAreWithinASmallSpindle) {
   }
 }
 
-// A ramp goes at half the feed of a slot with a cutter that states no angle (model::ramp_of): 400 of 800, not at
-// the three tenths of a plunge, and that is what is told.
+// A ramp goes at half the feed of a slot with a cutter that states no angle (model::ramp_of): 400 of 800, not
+// at the three tenths of a plunge, and that is what is told.
 TEST(Feeds, TellOfARampTheFeedThatItsEndAllows) {
   FeedQuestion q = question();
   CutterPath p;
