@@ -205,9 +205,14 @@ double milling_s(const Cutter& c, const ToolRequirement& r, const StartValues& s
   if (p.bore_mm > 0.0) {
     if (const auto helix = helix_mm(c, w, p, ap)) return 60.0 * *helix / feed;
   }
-  // The edges come into the face and leave it within a diameter of the cutter's way.
-  if (face && p.depth_mm > 0.0)
-    return 60.0 * std::ceil(p.depth_mm / ap - 1e-9) * passes * (p.face_mm + d) / feed;
+  // The edges come into the face and leave it within a diameter of the cutter's way. What a limit asks is
+  // given by more levels or by less feed, whichever takes less: the force falls with the feed's power of
+  // 1 - mc.
+  if (face && p.depth_mm > 0.0) {
+    const auto levels = [&](double each_mm) { return std::ceil(p.depth_mm / each_mm - 1e-9); };
+    const double slowed = levels(ap / scale) / std::pow(scale, 1.0 / (1.0 - work.mc));
+    return 60.0 * std::min(levels(ap), slowed) * passes * (p.face_mm + d) / feed;
+  }
   // Levels are whole.
   if (p.depth_mm > 0.0) ap = p.depth_mm / std::ceil(p.depth_mm / ap - 1e-9);
   double minutes = volume / (ap * ae * feed);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -63,14 +64,14 @@ TEST(Estimate, KnowsThatASlenderCutterRoughsInThinLevels) {
 }
 
 /// The generic face mills of 45 degrees on an open face in C45, the quickest first.
-std::vector<model::Candidate> faced(double length_mm, double width_mm) {
+std::vector<model::Candidate> faced(double length_mm, double width_mm, double depth_mm = 0.5) {
   Job job;
   std::vector<model::Cutter> mills = generic_library().value();
   std::erase_if(mills, [](const auto& c) { return !c.id.starts_with("generic/face_mill_45/"); });
   ToolRequirement r;
   r.classes = {CutterClass::kFacemill};
   Preferences p;
-  p.depth_mm = 0.5;
+  p.depth_mm = depth_mm;
   p.width_mm = width_mm;
   p.face_mm = length_mm;
   p.volume_mm3 = length_mm * width_mm * p.depth_mm;
@@ -103,6 +104,20 @@ TEST(Estimate, TakesTheFaceMillThatCoversAWideFaceInOnePass) {
   EXPECT_EQ(faced(120.0, 80.0).front().cutter.id, "generic/face_mill_45/100");
   const auto ranked = faced(120.0, 80.0);
   EXPECT_GT(seconds_of(ranked, "generic/face_mill_45/80"), seconds_of(ranked, "generic/face_mill_45/100"));
+}
+
+// One pass of 80 mm by the 100 mm mill asks the spindle's whole torque at a depth of some 0.5 mm: deeper, a
+// little less feed does as well, and no second level is gone.
+TEST(Estimate, OfAFaceTakesLessFeedWhereASecondLevelWouldTakeLonger) {
+  double last = 0.0;
+  for (const double depth : {0.45, 0.5, 0.55, 0.6}) {
+    const double now = seconds_of(faced(120.0, 80.0, depth), "generic/face_mill_45/100");
+    // Of the force, depth times feed to the power of 1 - mc, with mc at most 0.3.
+    if (last > 0.0) {
+      EXPECT_LE(now, last * std::pow(depth / (depth - 0.05), 1.0 / 0.7) * 1.01) << depth;
+    }
+    last = now;
+  }
 }
 
 TEST(Estimate, CountsTheFloorThatAFinishGoesOver) {
