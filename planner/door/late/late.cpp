@@ -327,9 +327,11 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
   poll();
   if (call.brought != nullptr && !once_more) *call.brought = as_it_came();
   const model::Plan& brought = call.brought != nullptr ? **call.brought : as_it_came();
-  if (!matched->open.empty()) {
+  if (!matched->open.empty() || !matched->worn.empty()) {
     reopened = as_it_came();
     for (const model::DecisionKey& key : matched->open) reopened->ledger.reopen(key);
+    for (const auto& w : matched->worn)
+      given::give_tool(*reopened, w.operation, w.mill, {"late.worn", w.why, "the tool table"}, {});
     poll();
   }
   const model::Plan& plan = reopened ? *reopened : as_it_came();
@@ -369,9 +371,22 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
   if (policy.stop_at_deadline && job.stop_requested())
     return tl::unexpected(as_stopped(pipeline::stopped_planning(plan), policy, began, job));
   auto out = fallen_back();
-  const bool nothing_fits = !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
+  const auto nothing_fits = [&] {
+    return !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
+  };
+  if (nothing_fits() && !matched->worn.empty()) {
+    // As it was cut before a worn mill does not do: its operations are bound anew.
+    for (const auto& w : matched->worn) reopened->ledger.reopen({w.operation, "its_tool"});
+    auto said = job.take_diagnostics();
+    if (auto anew = fallen_back()) {
+      out = std::move(anew);
+    } else {
+      (void)job.take_diagnostics();
+      for (Diagnostic& d : said) job.report(std::move(d));
+    }
+  }
   const bool nothing_cut = !window || window->first == 0;
-  if (nothing_fits && nothing_cut && !matched->why.empty() && planning_chose_all(plan)) {
+  if (nothing_fits() && nothing_cut && !matched->why.empty() && planning_chose_all(plan)) {
     const std::string anew_for = "with the loaded tools alone the plan's operations cannot be made (" +
                                  out.error().message + "); all of them were chosen anew";
     auto said = job.take_diagnostics();

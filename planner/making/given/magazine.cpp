@@ -6,6 +6,8 @@
 #include <tuple>
 
 #include "planner/ground/base/number.h"
+#include "planner/making/draft/draft.h"
+#include "planner/making/step/path/job_of.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/assumed_tool_material.h"
@@ -123,6 +125,13 @@ void state_material(const Cutter& loaded, Cutter& c) {
   }
 }
 
+/// Whether the path of an operation is its file's, for the planned diameter.
+bool fixed_by_its_path(const model::Plan& plan, AnyRef operation) {
+  draft::StepDraft step;
+  step.operation = operation;
+  return step::has_given_path(plan, step);
+}
+
 /// How a planned tool is missing: not there, or of another size by the wear that is told of it.
 std::string missing_as(const std::vector<Cutter>& library, const Cutter& planned) {
   for (const Cutter& c : library) {
@@ -235,8 +244,20 @@ Result<Matched> match_loaded(const model::Plan& plan, std::vector<Cutter>& libra
     take_assumed(assumed, *wanted);
     const Cutter* there = loaded_like(library, *wanted);
     const bool has_worn = there == nullptr && (there = worn(library, *wanted)) != nullptr;
+    // The table knows pocket and sizes; class, flutes and tool material are the plan's.
+    const auto as_loaded = [&] {
+      Cutter c = *wanted;
+      c.pocket = there->pocket;
+      c.loaded = true;
+      if (has_worn) {
+        c.cutting_diameter_mm = there->cutting_diameter_mm;
+        c.id = model::name_with_size(wanted->id, c.cutting_diameter_mm);
+      }
+      if (there->substrate == c.substrate && states(*there, "substrate")) state_material(*there, c);
+      take_length(*there, c);
+      return c;
+    };
     if (there == nullptr || has_worn) {
-      out.open.push_back({r, "its_tool"});
       const std::string what =
           there == nullptr
               ? " " + out_of_use(gone, *wanted).value_or(missing_as(library, *wanted)) + "; re-opened"
@@ -245,20 +266,16 @@ Result<Matched> match_loaded(const model::Plan& plan, std::vector<Cutter>& libra
       out.why.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
                         std::string(model::to_text(wanted->cutter_class)) + " " +
                         trimmed(wanted->cutting_diameter_mm, 3) + " mm)" + what);
+      if (has_worn && !fixed_by_its_path(plan, r)) {
+        out.worn.push_back({r, as_loaded(), out.why.back()});
+      } else {
+        out.open.push_back({r, "its_tool"});
+      }
     }
     if (there == nullptr || !seen.insert(wanted->id).second) continue;
     const auto same_pocket = [&](const Cutter& m) { return m.pocket == there->pocket; };
     if (std::any_of(merged.begin(), merged.end(), same_pocket)) continue;  // the same tool under another name
-    // The table knows pocket and sizes; class, flutes and tool material are the plan's.
-    Cutter c = *wanted;
-    c.pocket = there->pocket;
-    c.loaded = true;
-    if (has_worn) {
-      c.cutting_diameter_mm = there->cutting_diameter_mm;
-      c.id = model::name_with_size(wanted->id, c.cutting_diameter_mm);
-    }
-    if (there->substrate == c.substrate && states(*there, "substrate")) state_material(*there, c);
-    take_length(*there, c);
+    Cutter c = as_loaded();
     if (std::string fault = model::offset_fault(c); !fault.empty()) {
       return fail({.code = "LATE-TOOL",
                    .message = "the tool '" + c.id + "' of operation '" + op->its_id.value_or("") +

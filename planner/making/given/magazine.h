@@ -22,14 +22,22 @@ inline constexpr const char* kLessWear = "stated: less the wear that the control
 
 /// What is open since the tools of a plan are held against those that are loaded.
 struct Matched {
+  /// The mill of an operation as it measures.
+  struct Measured {
+    model::AnyRef operation;
+    model::Cutter mill;
+    std::string why;
+  };
   std::vector<std::string> why;          ///< one sentence each, in the order of the plan
   std::vector<model::DecisionKey> open;  ///< to be re-opened (Ledger::reopen), in that order
+  std::vector<Measured> worn;            ///< mills of another diameter: only their paths are made anew
 };
 
 /// Holds the tools of a plan against what is in the magazine (of `library`, Cutter::pocket > 0).
 ///
 /// A tool that is there (same class and diameter, or the same id) keeps its decisions and takes pocket and
 /// length from the table; one that is not is to be re-opened, and with it, by the ledger, what depends on it.
+/// A mill that measures otherwise under its number, by wear or a regrind, is neither: it is `worn`.
 /// `library` then has the plan's tools as they are loaded, and the loaded ones that it does not name.
 /// `of`: of these operations only.
 /// `gone`: tools that `library` has not, for they may not be called; it says why one of them is re-opened.

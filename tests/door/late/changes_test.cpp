@@ -70,6 +70,8 @@ TEST(LateChanges, AWornToolIsToldWithItsSizeAndItsPathIsNoDecision) {
             std::string::npos)
       << worn->words;
   EXPECT_NE(worn->words.find("Time of the steps"), std::string::npos) << worn->words;
+  const auto alone = bound(bracket().plan, shop_of(with(bracket().table, mill, "D", -0.05)), "none");
+  EXPECT_TRUE(alone) << to_text(alone.error());
   for (const Change& c : worn->changes) {
     EXPECT_EQ(std::count(c.decided.begin(), c.decided.end(), Choice::kTools), 0) << c.text;
     EXPECT_EQ(std::count(c.decided.begin(), c.decided.end(), Choice::kStrategy), 0) << c.text;

@@ -371,6 +371,20 @@ TEST(Late, AWornMillKeepsWhatIsKnownOfItAndItsPathTakesTheMeasuredDiameter) {
   EXPECT_EQ(now->substrate, pocket->substrate);
   EXPECT_EQ(now->maximum_depth_of_cut_mm, pocket->maximum_depth_of_cut_mm);
   EXPECT_NEAR(bound->machining_s, early.machining_s, 0.05 * early.machining_s);
+  // What was decided of its cuts stays; nothing but the path is made anew.
+  std::size_t by_the_mill = 0;
+  ASSERT_EQ(bound->plan.steps.size(), early.plan.steps.size());
+  for (std::size_t i = 0; i < early.plan.steps.size(); ++i) {
+    const model::StepResult &a = early.plan.steps[i], &b = bound->plan.steps[i];
+    EXPECT_EQ(a.axial_depth_mm, b.axial_depth_mm) << i;
+    EXPECT_NEAR(a.radial_depth_mm, b.radial_depth_mm, 0.05) << i;  // as cut, of a finish to the rest
+    EXPECT_EQ(a.spindle_rpm, b.spindle_rpm) << i;
+    if (a.cutter_id != pocket->id) continue;
+    ++by_the_mill;
+    EXPECT_EQ(b.cutter_id, now->id) << i;
+    EXPECT_FALSE(*a.path == *b.path) << i;
+  }
+  EXPECT_GT(by_the_mill, 0U);
 }
 
 TEST(Late, ReopensAToolThatIsNotInTheMagazine) {
