@@ -5,9 +5,16 @@ constexpr int kParts = kLanes / kWidth;
 typedef float Native __attribute__((vector_size(4 * kWidth)));
 typedef int NativeMask __attribute__((vector_size(4 * kWidth)));
 
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
+#define CAPSTAN_MASKS_IN_BITS 1
+struct Mask {
+  __mmask8 p;
+};
+#else
 struct Mask {
   NativeMask p[kParts];
 };
+#endif
 
 struct Float {
   Native p[kParts];
@@ -36,14 +43,45 @@ inline Float operator+(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] + b.p[
 inline Float operator-(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] - b.p[i]); }
 inline Float operator*(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] * b.p[i]); }
 inline Float operator/(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] / b.p[i]); }
+#ifdef CAPSTAN_MASKS_IN_BITS
+inline Mask operator<(Float a, Float b) { return {_mm256_cmp_ps_mask(a.p[0], b.p[0], _CMP_LT_OQ)}; }
+inline Mask operator<=(Float a, Float b) { return {_mm256_cmp_ps_mask(a.p[0], b.p[0], _CMP_LE_OQ)}; }
+inline Mask operator&(Mask a, Mask b) { return {_kand_mask8(a.p, b.p)}; }
+inline Mask operator|(Mask a, Mask b) { return {_kor_mask8(a.p, b.p)}; }
+inline Mask operator~(Mask a) { return {_knot_mask8(a.p)}; }
+inline Float select(Mask m, Float a, Float b) {
+  CAPSTAN_LANES(r, Float, _mm256_mask_blend_ps(m.p, b.p[i], a.p[i]));
+}
+#else
 inline Mask operator<(Float a, Float b) { CAPSTAN_LANES(r, Mask, a.p[i] < b.p[i]); }
 inline Mask operator<=(Float a, Float b) { CAPSTAN_LANES(r, Mask, a.p[i] <= b.p[i]); }
 inline Mask operator&(Mask a, Mask b) { CAPSTAN_LANES(r, Mask, a.p[i] & b.p[i]); }
 inline Mask operator|(Mask a, Mask b) { CAPSTAN_LANES(r, Mask, a.p[i] | b.p[i]); }
 inline Mask operator~(Mask a) { CAPSTAN_LANES(r, Mask, ~a.p[i]); }
 inline Float select(Mask m, Float a, Float b) { CAPSTAN_LANES(r, Float, m.p[i] ? a.p[i] : b.p[i]); }
-inline Float greater(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] > b.p[i] ? a.p[i] : b.p[i]); }
-inline Float smaller(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] < b.p[i] ? a.p[i] : b.p[i]); }
+#endif
+
+// The instructions for the larger and the smaller are `a > b ? a : b` to the bit, signs of zero included.
+inline Native greater(Native a, Native b) {
+#if defined(__AVX2__)
+  return _mm256_max_ps(a, b);
+#elif defined(__SSE2__)
+  return _mm_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+inline Native smaller(Native a, Native b) {
+#if defined(__AVX2__)
+  return _mm256_min_ps(a, b);
+#elif defined(__SSE2__)
+  return _mm_min_ps(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+inline Float greater(Float a, Float b) { CAPSTAN_LANES(r, Float, greater(a.p[i], b.p[i])); }
+inline Float smaller(Float a, Float b) { CAPSTAN_LANES(r, Float, smaller(a.p[i], b.p[i])); }
 inline Float magnitude(Float a) { return greater(a, 0.0F - a); }
 
 inline Native root(Native v) {
@@ -60,7 +98,9 @@ inline Float root(Float a) { CAPSTAN_LANES(r, Float, root(a.p[i])); }
 
 /// Bit k: lane k.
 inline unsigned bits(Mask m) {
-#if defined(__AVX2__)
+#if defined(CAPSTAN_MASKS_IN_BITS)
+  return m.p;
+#elif defined(__AVX2__)
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m.p[0])));
 #elif defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m.p[0]))) |

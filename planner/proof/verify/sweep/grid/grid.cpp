@@ -2,12 +2,52 @@
 #include "planner/ground/base/stopping.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace capstan::verify {
 
 using geometry::Vec2;
+
+namespace {
+
+/// Heights of grids that are gone, for the next ones.
+class Spare {
+ public:
+  /// Empty heights with room for n of them.
+  std::vector<double> take(std::size_t n) {
+    std::vector<double>* best = nullptr;
+    for (std::vector<double>& s : spare_) {
+      if (s.capacity() >= n && (best == nullptr || s.capacity() < best->capacity())) best = &s;
+    }
+    std::vector<double> out;
+    if (best != nullptr) {
+      out.swap(*best);
+      numbers_ -= out.capacity();
+    }
+    out.clear();
+    out.reserve(n);
+    return out;
+  }
+  void keep(std::vector<double>& heights) noexcept {
+    if (heights.capacity() > kMost - std::min(kMost, numbers_)) return;
+    for (std::vector<double>& s : spare_) {
+      if (s.capacity() > 0) continue;
+      s.swap(heights);
+      numbers_ += s.capacity();
+      return;
+    }
+  }
+
+ private:
+  static constexpr auto kMost = static_cast<std::size_t>(kMostSpareMb * 1e6) / sizeof(double);
+  std::array<std::vector<double>, 6> spare_;
+  std::size_t numbers_ = 0;
+};
+thread_local Spare spare;
+
+}  // namespace
 
 Raster::Raster(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
   const double w = std::max(hi.x - lo.x, 1e-3);
@@ -25,7 +65,7 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : Raster(lo, hi
   constexpr std::size_t kAtOnce = 1 << 16;  // a new page costs more than its numbers
   for (std::vector<double>* heights : {&stock, &part, &base}) {
     const std::size_t n = index(0, ny_);
-    heights->reserve(n);
+    *heights = spare.take(n);
     while (heights->size() < n) {
       heights->resize(std::min(n, heights->size() + kAtOnce), kNothing);
       poll();
@@ -36,6 +76,10 @@ Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : Raster(lo, hi
   block_top_.assign(static_cast<std::size_t>(ny_) * static_cast<std::size_t>(blocks_), kNothing);
   cut_blocks_.assign(static_cast<std::size_t>(ny_), {blocks_, 0});
   cut_from_ = ny_;
+}
+
+Grid::~Grid() {
+  for (std::vector<double>* heights : {&stock, &part, &base}) spare.keep(*heights);
 }
 
 std::pair<int, int> Raster::columns(double a, double b) const {

@@ -10,6 +10,9 @@
 
 namespace capstan::verify {
 
+/// Memory that a thread keeps for its next grids, MB: two of the usual 250,000 cells. Default, unsourced.
+inline constexpr double kMostSpareMb = 12.0;
+
 /// Square cells over an area, by their centres.
 class Raster {
  public:
@@ -38,10 +41,18 @@ class Raster {
 /// Heights at the centres of the cells, seen along the tool axis: the raw piece as it is now, and the
 /// finished part. A point sample, not an average: what holds at a centre holds there exactly.
 ///
+/// Memory of a grid that is gone serves the next one of its thread: new pages cost more than all that is
+/// written to them. At most kMostSpareMb of it wait so.
+///
 /// Frame  the set-up's. Units  mm.
 class Grid : public Raster {
  public:
   Grid(geometry::Vec2 lo, geometry::Vec2 hi, double cell_mm, long maximum_cells);
+  Grid(const Grid&) = default;
+  Grid(Grid&&) = default;
+  Grid& operator=(const Grid&) = default;
+  Grid& operator=(Grid&&) = default;
+  ~Grid();
 
   std::vector<double> stock;  ///< in-process height; kNothing: no material
   std::vector<double> part;   ///< finished height; kNothing: nothing stays here

@@ -103,6 +103,7 @@ double lowest_on_line(const CutterOutline& o, double z0, double dz, double foot,
   // Downhill from the foot: before it the surface over the point only sinks.
   const double begin = dz < 0.0 ? from - foot : foot - to, end = dz < 0.0 ? to - foot : foot - from;
   const double z_foot = z0 + foot / length * dz;
+  if (o.flat()) return z_foot - fall * end;  // lowest where it was last over the point
   const double square = d * d;
   const auto f = [&](double v) { return z_foot - fall * v + o.height(std::sqrt(square + v * v)); };
   if (end <= 0.0) return f(end);

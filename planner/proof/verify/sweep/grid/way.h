@@ -316,7 +316,7 @@ class ArcWay : public Way {
   /// How far a point is from the arc, and as much more as its ends lie off it.
   [[nodiscard]] double distance(geometry::Vec2 p) const {
     const geometry::Vec2 q = p - centre_;
-    const double ends = std::min(norm(p - from_), norm(p - to_)), beside = std::abs(norm(q) - ra_);
+    const double ends = to_end(p), beside = std::abs(norm(q) - ra_);
     return gap_ + (ahead_of(q) <= sweep_ ? beside : std::max(beside, ends));
   }
 
@@ -333,7 +333,7 @@ class ArcWay : public Way {
     const double radial = std::abs(at.away - ra_);
     if (radial > r_ || stands <= zmin_ + o_.at_least(radial * radial)) return false;
     at.along = ahead_of(q);
-    at.near = at.along <= sweep_ ? radial : std::min(norm(p - from_), norm(p - to_));
+    at.near = at.along <= sweep_ ? radial : to_end(p);
     if (at.near > r_) return false;
     at.z = level_ ? zmin_ + o_.height(at.near)
                   : std::max(zmin_, lowest_on_helix(o_, z0_, rise_, ra_, sweep_, at.away, at.along));
@@ -381,6 +381,15 @@ class ArcWay : public Way {
   [[nodiscard]] double ahead_of(geometry::Vec2 q) const {
     const double ahead = std::fmod(sign_ * (std::atan2(q.y, q.x) - start_), kRadPerTurn);
     return ahead < 0.0 ? ahead + kRadPerTurn : ahead;
+  }
+  /// How far the nearer end is.
+  [[nodiscard]] double to_end(geometry::Vec2 p) const {
+    constexpr double kSurely = 1.0 - 1e-9;  // of a square: more than its rounding
+    const geometry::Vec2 a = p - from_, b = p - to_;
+    const double a2 = dot(a, a), b2 = dot(b, b);
+    if (a2 < kSurely * b2) return norm(a);
+    if (b2 < kSurely * a2) return norm(b);
+    return std::min(norm(a), norm(b));
   }
   /// Half of what the widest circle has in a row.
   [[nodiscard]] double across(double y) const {

@@ -135,6 +135,41 @@ TEST(Grid, KnowsTheTopOfEachRowAfterCuts) {
   }
 }
 
+TEST(Grid, ThatFollowsAnotherIsAsNew) {
+  for (const double size : {24.0, 8.0, 24.0, 60.0}) {
+    {
+      Grid gone({0, 0}, {24, 18}, 0.5, 100000);
+      for (auto* heights : {&gone.stock, &gone.part, &gone.base})
+        std::fill(heights->begin(), heights->end(), 7.0);
+      gone.find_top();
+      const Grid copy = gone;
+      EXPECT_EQ(copy.stock, gone.stock);
+      EXPECT_NE(copy.stock.data(), gone.stock.data());
+    }
+    const Grid g({0, 0}, {size, 18}, 0.5, 100000);
+    const std::vector<double> nothing(static_cast<std::size_t>(2 * size * 36), Grid::kNothing);
+    EXPECT_EQ(g.stock, nothing);
+    EXPECT_EQ(g.part, nothing);
+    EXPECT_EQ(g.base, nothing);
+    EXPECT_EQ(g.top(), Grid::kNothing);
+    EXPECT_EQ(g.row_top(0), Grid::kNothing);
+  }
+}
+
+TEST(Grid, HasTheMemoryOfTheOneBeforeAndIsNoOthers) {
+  const double* before = nullptr;
+  {
+    const Grid gone({0, 0}, {200, 200}, 0.5, 1000000);
+    before = gone.stock.data();
+  }
+  const Grid g({0, 0}, {200, 200}, 0.5, 1000000), other({0, 0}, {200, 200}, 0.5, 1000000);
+  const auto has = [&](const Grid& some) {
+    return some.stock.data() == before || some.part.data() == before || some.base.data() == before;
+  };
+  EXPECT_TRUE(has(g));
+  EXPECT_FALSE(has(other));
+}
+
 TEST(CutterOutline, IsNeverBelowItsFloor) {
   for (const CutterProfile& cutter : cutters()) {
     const CutterOutline outline(cutter);
