@@ -35,6 +35,7 @@ struct HoleCycle {
   std::optional<Pecks> pecks = {};          ///< none: in one feed
   double feed_mm_min = 0.0, dwell_s = 0.0;  ///< the dwell is at the bottom
   double rpm = 0.0, pitch_mm = 0.0;         ///< of a tap; rpm below 0 for a left-hand one
+  bool in_chuck = false;                    ///< of a tap: a compensating chuck holds it
   int decimals = 0, feed_decimals = 0;      ///< of the control
 };
 

@@ -10,6 +10,7 @@
 #include "planner/controls/gcode/moves/arcs.h"
 #include "planner/controls/gcode/moves/helices.h"
 #include "planner/controls/gcode/moves/hole_cycles.h"
+#include "planner/controls/gcode/moves/taps.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/controls/gcode/probing.h"
 #include "planner/controls/gcode/program.h"
@@ -36,8 +37,6 @@ using model::StepResult;
 
 // Characters of a line that a message leaves free; defaults, unsourced.
 constexpr std::size_t kFreeOfClamping = 22, kFreeOfProbing = 32, kFreeOfCondemned = 52;
-// Feed and pitch times speed of a tap may differ by what rounding of either explains.
-constexpr double kPitchAgreement = 0.01;
 
 class Writer {
  public:
@@ -426,45 +425,21 @@ class Writer {
     return holes->last_move;
   }
 
-  // The control goes down in step with the spindle, reverses it, and comes back to where it began: the move
-  // down, perhaps dwells, and the move up. Gives the index of the move up.
+  // A tap down and up again. Gives the index of the move up.
   Result<std::size_t> tap(const StepResult& step, const Cutter& cutter, std::size_t down) {
-    const CutterPath& path = *step.path;
     if (!words_.tap)
       return fail(
           {.code = "OUT-TAP",
            .message = "programs of this control cannot keep a tap and its feed in step",
            .hint = "mill the thread (a thread mill among the tools), or tap by hand and leave the step out"});
     const Vec3 top = *program_.at();
-    const Vec3 bottom = program_.round(path.point(down));
-    std::size_t up = down + 1;
-    while (up < path.size() && path.kind[up] == MoveKind::kDwell) ++up;
-    const bool back = up < path.size() && path.kind[up] == MoveKind::kLine &&
-                      path.role[up] == MoveRole::kTap && program_.round(path.point(up)) == top;
-    if (path.kind[down] != MoveKind::kLine || xy(bottom) != xy(top) || bottom.z >= top.z || !back) {
-      return fail("OUT-TAP", "a tapping move must run straight down and the same way back");
-    }
-    if (speed_ == 0.0) return fail("OUT-TAP", "the spindle stands still when tapping begins");
-    const double feed = step.schedule ? step.schedule->feed_mm_min[down] : step.feed_mm_min;
-    const double by_feed = feed / std::abs(speed_);
-    const double pitch = cutter.thread_pitch_mm > 0.0 ? cutter.thread_pitch_mm : by_feed;
-    if (std::abs(by_feed - pitch) > kPitchAgreement * pitch) {
-      return fail("OUT-TAP", "feed and speed make a pitch of " + trimmed(by_feed, 4) + " mm, the tap has " +
-                                 trimmed(pitch, 4) + " mm");
-    }
-    HoleCycle hole;
-    hole.at = xy(top);
-    hole.initial_z = hole.r_z = top.z;
-    hole.bottom_z = bottom.z;
-    hole.pitch_mm = pitch;
-    hole.rpm = speed_;
-    hole.decimals = plan_.machine.control.decimals;
-    hole.feed_decimals = plan_.machine.control.feed_decimals;
+    const auto hole = tap_at(plan_, step, cutter, down, top, speed_);
+    if (!hole) return tl::unexpected(hole.error());
     program_.write_waiting();
     forget_cycle();
-    program_.moved(words_.tap(hole), top);
+    program_.moved(words_.tap(hole->cycle), top);
     program_.forget_feed();
-    return up;
+    return hole->last_move;
   }
 
   const Plan& plan_;

@@ -35,7 +35,8 @@ inline constexpr std::array kControlOptions{
         "cycles", "feature explicit", 0, 0, false,
         "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
         "G82, G83, G73, G85, G86, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 83, 85, 84, with HOLES1 and "
-        "HOLES2; Heidenhain: CYCL DEF 200, 201, 207 with M99; LinuxCNC: G81, G82, G83, G73, G85, G86, G89, "
+        "HOLES2; Heidenhain: CYCL DEF 200, 201, 203, 205, 207 with M99; LinuxCNC: G81, G82, G83, G73, G85, "
+        "G86, G89, "
         "and G33.1 for threads; Mach3: G81, G82, G85, G86, G89), equal holes of a step at once; or explicit "
         "moves",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
@@ -136,6 +137,17 @@ inline constexpr std::array kControlOptions{
         "plane_reset", "no yes", 0, 0, false,
         "PLANE RESET STAY and M129 at the program's head, for machines that tilt the working plane",
         "Heidenhain, PLANE and M128; default, unsourced: an option of the control"},
+    ControlOptionRow{
+        "pecking_cycle", "explicit tnc430 itnc530 tnc640", 0, 0, false,
+        "which parameters the control's cycle 205 has, which clears holes between pecks: those of TNC 426 "
+        "and "
+        "430; with Q379 and Q253 of iTNC 530; with Q208 and Q395 of TNC 640, too; not stated: explicit moves",
+        "Heidenhain, cycle 205 in the manuals of each; tests/controls/heidenhain/golden/README.md"},
+    ControlOptionRow{"oriented_stop", "no yes", 0, 0, false,
+                     "the spindle can be stopped turned to an angle: CYCLE86 and CYCL DEF 202 bore with a "
+                     "bar that comes out "
+                     "stopped, straight up as planned; else that is explicit moves with M5",
+                     "Siemens, CYCLE86; Heidenhain, cycle 202: both want a machine that is prepared for it"},
     ControlOptionRow{"tool_change", "m6 m0", 0, 0, false,
                      "M6 is carried out by what sends the program (Grbl itself refuses it), or tools are "
                      "changed at a stop, M0, in which Grbl refuses to jog: with tool_length: g43.1 alone",

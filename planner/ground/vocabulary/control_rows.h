@@ -45,12 +45,14 @@ inline constexpr std::array kControlRows{
     // unsourced.
     ControlRow{"siemens", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called block_numbers=steps prove_out=m1 line_length=200 "
-               "tool_call=number smoothing=cycle832 turns=yes start_blocks= end_blocks= shop_codes= "
+               "tool_call=number smoothing=cycle832 turns=yes oriented_stop=no start_blocks= end_blocks= "
+               "shop_codes= "
                "through_coolant="},
     // Looks ahead 1,024 blocks (iTNC 530), also for lower feeds; shares of the axes' limits: default,
     // unsourced.
     ControlRow{"heidenhain", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called prove_out=m1 line_length=200 plane_reset=no "
+               "pecking_cycle=explicit oriented_stop=no "
                "start_blocks= end_blocks= shop_codes= through_coolant="},
     // Looks ahead over 16 moves, for lower feeds too (gnea/grbl, planner.c); shares of the axes' limits:
     // default, unsourced.

@@ -83,9 +83,13 @@ class Interpreter : private BlockState {
   void call_cycle();
   std::optional<Heights> heights(const CycleDefinition& c);
   bool complete(const CycleDefinition& c);
+  bool pecks_alike(const CycleDefinition& c);
   void to_height(double z, model::MoveKind kind) { to({at_.x, at_.y, z}, kind); }
   void drill(const CycleDefinition& c, const Heights& h);
   void ream(const CycleDefinition& c, const Heights& h);
+  void peck(const CycleDefinition& c, const Heights& h);
+  void bore(const CycleDefinition& c, const Heights& h);
+  void out_of(const CycleDefinition& c, const Heights& h);
   void tap(const CycleDefinition& c, const Heights& h);
 
   bool proves_out_ = false;
