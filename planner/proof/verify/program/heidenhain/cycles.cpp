@@ -211,6 +211,16 @@ bool Interpreter::pecks_alike(const CycleDefinition& c) {
     return unverifiable(
         "where it is fed again behind the last of Q213 breaks depends on the control's version");
   }
+  const bool knows_start = pecking_ == "itnc530" || pecking_ == "tnc640", knows_out = pecking_ == "tnc640";
+  if (pecking_ == "explicit") {
+    if (!c.has(kFeedOut))
+      return unverifiable(
+          "without Q208 how it comes out is the version's; state pecking_cycle of the machine");
+  } else if (c.has(kStart) != knows_start || c.has(kFeedToStart) != knows_start ||
+             c.has(kFeedOut) != knows_out || c.has(kDepthReference) != knows_out) {
+    return wrong("its parameters are not those of this control (pecking_cycle " + pecking_ +
+                 "): Q379 and Q253 of itnc530 and tnc640, Q208 and Q395 of tnc640");
+  }
   if (c.of(kStart) != 0.0) return unverifiable("a deepened starting point (Q379) is not followed; state 0");
   if (c.of(kBreakDepth) != 0.0)
     return unverifiable("chips broken within a plunge (Q257) are not followed; state 0");

@@ -93,6 +93,7 @@ class Interpreter : private BlockState {
   void tap(const CycleDefinition& c, const Heights& h);
 
   bool proves_out_ = false;
+  std::string pecking_;            ///< which parameters cycle 205 has
   std::size_t longest_block_ = 0;  ///< characters
   std::string name_;               ///< of BEGIN PGM
   bool begun_ = false, closed_ = false;

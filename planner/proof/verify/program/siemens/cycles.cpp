@@ -437,7 +437,11 @@ void Interpreter::ream(const CycleCall& c, const Planes& p) {
 void Interpreter::bore(const CycleCall& c, const Planes& p) {
   if (c.of(kSdir) != 3.0 && c.of(kSdir) != 4.0)
     fault(26, "CHK-CYCLE", "CYCLE86: SDIR is " + plain(c.of(kSdir)) + "; it says 3 or 4, as M3 and M4");
-  start(c.of(kSdir) == 4.0 ? -1 : 1);
+  const int way = c.of(kSdir) == 4.0 ? -1 : 1;
+  if (spindle_ != way)
+    fault(15, "CHK-SPINDLE",
+          "CYCLE86 would start or reverse the spindle itself (SDIR), and feeds at once; start it before");
+  start(way);
   const geometry::Vec3 hole = at_;
   const double u = units();
   to_height(p.bottom, MoveKind::kLine);

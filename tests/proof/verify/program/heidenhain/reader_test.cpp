@@ -28,8 +28,8 @@ constexpr const char* kStart =
     "L X+5 Y+6 R0 FMAX\nL Z+20 R0 FMAX\n";
 constexpr long kLinesOfStart = 7;
 
-Program read(const std::string& body) {
-  return read_program(kStart + body + "M5\nM30\nEND PGM A MM\n", machine());
+Program read(const std::string& body, const char* pecking_cycle = "tnc430") {
+  return read_program(kStart + body + "M5\nM30\nEND PGM A MM\n", machine({{"pecking_cycle", pecking_cycle}}));
 }
 
 /// "R 5 6 2" for a rapid to X5 Y6 Z2, "L" a line, "A" an arc, "T" tapping, "D 0.5" a dwell; those behind the
@@ -125,13 +125,20 @@ TEST(HeidenhainCycles, UniversalDrillingBreaksTheChipByItsDistance) {
 
 // 205: each plunge ends at Q203 + Q200 by rapid, and begins by rapid Q258 above the last bottom.
 TEST(HeidenhainCycles, UniversalPeckingComesBackToAboveTheLastBottom) {
-  for (const std::string& more : {std::string(), std::string(" ~\n  Q379=+0 ~\n  Q253=750"),
-                                  std::string(" ~\n  Q379=+0 ~\n  Q253=750 ~\n  Q208= MAX ~\n  Q395=+0")}) {
-    const auto p = read(pecking("205 UNIVERSAL PECKING", kOf205 + more));
-    EXPECT_EQ(faults(p), "");
+  const std::string start = " ~\n  Q379=+0 ~\n  Q253=750", out = start + " ~\n  Q208= MAX ~\n  Q395=+0";
+  for (const auto& [version, more] : {std::pair{"tnc430", std::string()}, std::pair{"itnc530", start},
+                                      std::pair{"tnc640", out}, std::pair{"explicit", out}}) {
+    const auto p = read(pecking("205 UNIVERSAL PECKING", kOf205 + more), version);
+    EXPECT_EQ(faults(p), "") << version;
     EXPECT_EQ(moves(p), (Moves{"R 5 6 3", "L 5 6 -7", "R 5 6 3", "R 5 6 -6.6", "L 5 6 -15", "R 5 6 3",
                                "R 5 6 -14.6", "L 5 6 -19", "D 0.5", "R 5 6 3", "R 5 6 16"}));
   }
+  // A parameter that the control does not have, or one that it misses: what it does then is not known.
+  for (const auto& [version, more] : {std::pair{"tnc430", start}, std::pair{"itnc530", std::string()},
+                                      std::pair{"itnc530", out}, std::pair{"tnc640", start}})
+    EXPECT_TRUE(finds(read(pecking("205 UNIVERSAL PECKING", kOf205 + more), version), "CHK-CYCLE"))
+        << version;
+  EXPECT_TRUE(finds(read(pecking("205 UNIVERSAL PECKING", kOf205 + start), "explicit"), "CHK-UNVERIFIABLE"));
 }
 
 // 202: the spindle stands on the way out, at Q208, and turns again behind the cycle.
@@ -173,9 +180,9 @@ TEST(HeidenhainCycles, PecksThatTheVersionsOfTheControlMakeOtherwiseAreNotFollow
   EXPECT_EQ(faults(with("203 UNIVERSAL DRILLING", kOf203, "Q213=+4", "Q213=+3")), "");
   EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q257=+0", "Q257=+3"), "CHK-UNVERIFIABLE"));
   EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q259=+0.4", "Q259=+1"), "CHK-UNVERIFIABLE"));
-  EXPECT_TRUE(
-      finds(with("205 UNIVERSAL PECKING", kOf205, "Q256=+0.2", "Q256=+0.2 ~\n  Q379=-5 ~\n  Q253=750"),
-            "CHK-UNVERIFIABLE"));
+  const std::string deepened =
+      pecking("205 UNIVERSAL PECKING", std::string(kOf205) + " ~\n  Q379=-5 ~\n  Q253=750");
+  EXPECT_TRUE(finds(read(deepened, "itnc530"), "CHK-UNVERIFIABLE"));
   EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q202=+8", "Q202=+0"), "CHK-CYCLE"));
   EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q258=+0.4 ~\n  Q259=+0.4", "Q258=+0 ~\n  Q259=+0"),
                     "CHK-CYCLE"));

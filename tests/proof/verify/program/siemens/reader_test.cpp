@@ -190,6 +190,8 @@ TEST(SiemensCycles, BoringLiftsOffTheWallBeforeItComesUp) {
   const auto p = read("F100\nCYCLE86(15,1,1,-8,,0,3,-0.5,0.25,0,45)\n");
   EXPECT_EQ(faults(p), "");
   EXPECT_EQ(moves(p), (Moves{"R 5 6 2", "L 5 6 -8", "R 4.5 6.25 -8", "R 4.5 6.25 15", "R 5 6 15"}));
+  for (const char* before : {"M5\n", "M4\n"})
+    EXPECT_TRUE(finds(read(before + std::string("F100\nCYCLE86(15,1,1,-8,,0,3,0,0,0,0)\n")), "CHK-SPINDLE"));
 }
 
 TEST(SiemensCycles, WhatWouldBreakTheToolOrIsNotFollowedIsAFault) {
