@@ -156,6 +156,12 @@ struct Words {
   bool quadrants = false;
   double largest_radius_mm = 0.0;
   bool helices = true;
+  /// Calls subprogram `number`, a line; a subprogram of these lines. Null: the control or the machine has
+  /// none.
+  std::function<std::string(int number)> call = {};
+  std::function<std::string(int number, const std::string& lines)> subprogram = {};
+  int first_subprogram = 0, last_subprogram = 0;  ///< their numbers
+  std::string behind = {};                        ///< lines behind `last` and the subprograms; may be empty
   bool turns = false;      ///< a helix of more than one turn is one block, TURN= with the further ones
   std::string codes = {};  ///< those that the machine has, "G0 G1 M3", with blanks between; empty: all
 };

@@ -121,6 +121,28 @@ inline constexpr std::array kControlOptions{
         "the M codes that switch coolant through the spindle on and off, as M88/M89; not stated: no "
         "program of a plan that cuts with it",
         "Haas 96-8000, M88, M89; else the machine builder's list of codes", ControlOptionRow::Form::kMPair},
+    ControlOptionRow{
+        "probe_macro", "", 0, 0, false,
+        "the blocks of the machine's macro for one touch, with | between, and in them {feature}, {probe} "
+        "(its "
+        "number), {axis} (X, Y or Z), {nominal} (of the wall along it), {x}, {y} and {z} (of the ball's "
+        "centre "
+        "at the start), of the work offset: takes the probe, goes over the start at the top of Z, straight "
+        "down, touches, and comes back the same way. Written where that way is clear of the raw piece and of "
+        "what holds it; the stop for the operator stays",
+        "the maker of the probe or the shop"},
+    ControlOptionRow{"probe_radius_mm", "", 0, 200, false,
+                     "radius of the probe above its stylus; not stated: no macro is written",
+                     "the maker of the probe"},
+    ControlOptionRow{"probe_stylus_mm", "", 0, 1000, false,
+                     "how far its ball's centre is below the probe; not stated: no macro is written",
+                     "the maker of the probe"},
+    ControlOptionRow{
+        "subprograms", "", 0, 9999, true,
+        "O of the first subprogram of the file, which M98 P calls at each of three or more equal holes of "
+        "explicit "
+        "moves; 0: none. Programs of that number and above in the control's memory are overwritten",
+        "0i 13.3 (M98, M99); Haas M98, M99"},
     ControlOptionRow{"tool_call", "number name", 0, 0, false,
                      "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
                      "tools names it",
