@@ -33,7 +33,7 @@ TOOLING = {"tooling": "shop library selection", "tooling/library": "formats"}
 FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
     "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/sweep/target": "target",
-    "planner/proof/verify/copies": "copies",
+    "planner/proof/verify/copies": "copies", "planner/proof/verify/touches": "touches",
     "planner/proof/verify/shape": "finished", **READER_ROOMS,
     "planner/model/features/fit": "fit",
     "planner/making/toolpath/freeform": "freeform",
@@ -104,8 +104,10 @@ ALLOWED = {
     "target": PROVEN + " volumes copies verify grid",
     # The finished part against a CAD shape: moves as the check reads them, swept over its own points.
     "finished": PROVEN + " copies verify grid target",
+    # Macros of touches: the plan's touches, where the piece lies, and what a text does around them.
+    "touches": PROVEN + " volumes verify target",
     **{room: GROUND + " plan copies verify" for room in READER_ROOMS.values()},
-    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid target", *READER_ROOMS.values()]),
+    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid target touches", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "report": MODEL + " mechanics motion optimise step",

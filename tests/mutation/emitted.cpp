@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "planner/controls/controls.h"
+#include "planner/model/nouns/executable.h"
+#include "planner/model/nouns/operation.h"
 #include "tests/proof/verify/plans.h"
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
@@ -143,6 +145,22 @@ model::Plan pecked(bool clears, double first_z, double step_mm) {
   return k.plan;
 }
 
+/// The drilled hole of the good plan, bored: the bar comes out by rapid with the spindle stopped.
+model::Plan bored() {
+  auto k = plans::empty_plan();
+  k.plan.machine.spindle.spin_up_s = 1.0;
+  model::CutterPath p;
+  p.start({15, 15, 10});
+  p.rapid({15, 15, 2}, MoveRole::kApproach);
+  p.line({15, 15, -20 - plans::point_length()}, MoveRole::kDrill);
+  p.rapid({15, 15, 10}, MoveRole::kRetract);
+  auto& s = k.step<model::Drilling>("drill", k.hole("H", 15, 15, 8, 20), "d8", p, 225, 1500);
+  s.path = std::make_shared<const model::CutterPath>(std::move(p));
+  s.schedule = std::make_shared<const model::FeedSchedule>(
+      model::FeedSchedule{{225.0, 225.0, 225.0, 225.0}, {1500.0, 1500.0, 1500.0, 0.0}, {0.0, 0.0, 0.0, 0.0}});
+  return k.plan;
+}
+
 /// Two turns and a half of a helix above the work.
 model::Plan with_helix(model::Plan plan) {
   verify::testing::edit_path(plan, 0, [](auto& p) {
@@ -217,6 +235,28 @@ std::vector<Emitted> emitted_pecked(const std::string& dialect) {
     out.push_back(written("cleared hole", on(pecked(true, bottom + 16, 8), {})));
     out.push_back(written("chips broken", on(pecked(false, bottom + 16, 8), {})));
   }
+  if (dialect == "heidenhain") {  // 16 mm first, then 8, and what is left
+    for (const char* version : {"tnc430", "itnc530", "tnc640"})
+      out.push_back(written(std::string("cleared by ") + version,
+                            on(pecked(true, -10, 8), {{"pecking_cycle", version}})));
+    out.push_back(written("chips broken", on(pecked(false, -10, 8), {})));
+  }
+  return out;
+}
+
+Emitted emitted_chuck(const std::string& dialect) {
+  model::Plan plan = on_control(tapped(), dialect);
+  const auto* step = plan.model.get<model::MachiningWorkingstep>(plan.steps[1].step);
+  plan.model.get<model::Tapping>(step->its_operation)->compensation_chuck = true;
+  return written("tap in a chuck", std::move(plan), {"CHK-GOUGE", "CHK-GOUGE-WALL"});
+}
+
+std::vector<Emitted> emitted_bored(const std::string& dialect) {
+  model::Plan plan = on_control(bored(), dialect);
+  plan.machine.control_options = model::ControlOptions{{{"oriented_stop", "yes"}}};
+  std::vector<Emitted> out;
+  // A drill is not drawn out so; the text is followed all the same.
+  out.push_back(written("bored hole", std::move(plan), {"CHK-SPINDLE-STOPPED"}));
   return out;
 }
 
@@ -237,6 +277,10 @@ std::vector<Emitted> emitted_for(const std::string& dialect) {
   if (dialect == "mach3") return out;  // nor does it
   out.push_back(written("tapped hole", on(tapped()), {"CHK-GOUGE", "CHK-GOUGE-WALL"}));
   for (Emitted& e : emitted_pecked(dialect)) out.push_back(std::move(e));
+  if (dialect == "siemens") out.push_back(emitted_chuck(dialect));
+  if (turns) {
+    for (Emitted& e : emitted_bored(dialect)) out.push_back(std::move(e));
+  }
   return out;
 }
 

@@ -43,7 +43,7 @@ inline bool is_retract(const std::string& l) {
 }
 inline bool is_cycle(const std::string& l) { return starts(l, "G98 ") || starts(l, "MCALL CYCLE"); }
 inline bool is_tapping(const std::string& l) {
-  return starts(l, "G33.1") || (is_cycle(l) && (holds(l, "G84") || holds(l, "G74") || holds(l, "CYCLE84")));
+  return starts(l, "G33.1") || (is_cycle(l) && (holds(l, "G84") || holds(l, "G74") || holds(l, "CYCLE84(")));
 }
 inline bool sets_length(const std::string& l) { return holds(l, "G43 H") || starts(l, "G0 D1 Z"); }
 inline bool is_motion(const std::string& l) { return is_cut(l) || starts(l, "G0 "); }

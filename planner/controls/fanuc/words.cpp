@@ -18,7 +18,8 @@ using gcode::HoleCycle;
 using model::control_number;
 using model::control_option;
 
-constexpr int kPitchDecimals = 4;  // FANUC B-63833EN-1/02, 9: F in G95 counts 0.0001 mm/rev
+constexpr int kPitchDecimals = 4;    // FANUC B-63833EN-1/02, 9: F in G95 counts 0.0001 mm/rev
+constexpr int kMostPrograms = 9999;  // 0i 12.1: O of four digits
 constexpr double kClosureMm =
     0.002;  // of arcs; the least that B-63844EN/02, 4.4, is met with (parameter 3410)
 
@@ -94,8 +95,8 @@ std::string tap_text(const HoleCycle& h, const Tapping& t) {
   return out + (t.per_revolution ? "\nG80\nG94" : "\nG80");
 }
 
-std::string program_number(const model::Machine& machine) {
-  const std::string digits = trimmed(control_number(machine, "program_number", 1.0), 0);
+std::string program_number(double number) {
+  const std::string digits = trimmed(number, 0);
   return "O" + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
 }
 
@@ -116,8 +117,9 @@ gcode::Words words_of(const model::Machine& machine) {
   w.longest_line = static_cast<std::size_t>(control_number(machine, "line_length", 200.0));
   w.speed_decimals = 0;
   w.dwell_decimals = 3;
-  w.first = "%\n" + program_number(machine);
-  w.last = "M30\n%";
+  w.first = "%\n" + program_number(control_number(machine, "program_number", 1.0));
+  w.last = "M30";
+  w.behind = "%";
   // The unit stands in a block of its own (B-63844EN/02, 8.3). A length offset that is on moves Z where G49
   // stands alone (14.1): the retract takes it away.
   w.first_state = w.step_state = "G21\nG17 G40 G80 G90 G94 G98";
@@ -157,6 +159,15 @@ gcode::Words words_of(const model::Machine& machine) {
   w.largest_radius_mm = control_number(machine, "largest_radius_mm", 0.0);
   w.helices = is("helices", "yes");
   w.codes = std::string(control_option(machine, "codes"));
+  w.first_subprogram = static_cast<int>(control_number(machine, "subprograms", 0.0));
+  // The numbers of their blocks would be those of the program again.
+  if (w.first_subprogram > 0 && w.block_numbers != gcode::BlockNumbers::kAll) {
+    w.last_subprogram = kMostPrograms;
+    w.call = [](int number) { return "M98 P" + std::to_string(number); };
+    w.subprogram = [](int number, const std::string& lines) {
+      return program_number(number) + "\n" + lines + "M99";
+    };
+  }
   return w;
 }
 

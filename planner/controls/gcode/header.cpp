@@ -96,4 +96,13 @@ void write_header(const model::Plan& plan, const std::vector<model::Condemnation
   write_warnings(plan, condemned, out);
 }
 
+const model::Cutter* next_tool(const model::Plan& plan, std::size_t step) {
+  const int now = model::find_cutter(plan, plan.steps[step].cutter_id)->pocket;
+  for (std::size_t i = step + 1; i < plan.steps.size(); ++i) {
+    const model::Cutter* then = model::find_cutter(plan, plan.steps[i].cutter_id);
+    if (then->pocket != now) return then;
+  }
+  return nullptr;
+}
+
 }  // namespace capstan::controls::gcode

@@ -15,4 +15,7 @@ namespace capstan::controls::gcode {
 /// back by the check), tools that are not measured, and why it must not be run.
 void write_header(const model::Plan& plan, const std::vector<model::Condemnation>& condemned, Program& out);
 
+/// The tool of the next step behind that one which has another; null: none has.
+[[nodiscard]] const model::Cutter* next_tool(const model::Plan& plan, std::size_t step);
+
 }  // namespace capstan::controls::gcode

@@ -1,5 +1,7 @@
 #include "planner/controls/gcode/options.h"
 
+#include <algorithm>
+
 #include "planner/model/plan/resources/control_options.h"
 
 namespace capstan::controls::gcode {
@@ -24,6 +26,19 @@ std::optional<ThroughCodes> through_codes_of(const model::Machine& machine) {
     return std::nullopt;
   const std::size_t slash = stated.value.find('/');
   return ThroughCodes{stated.value.substr(0, slash), stated.value.substr(slash + 1)};
+}
+
+std::vector<std::string> blocks_of(std::string_view option) {
+  std::vector<std::string> out;
+  while (!option.empty()) {
+    const std::size_t bar = std::min(option.find('|'), option.size());
+    std::string_view block = option.substr(0, bar);
+    option.remove_prefix(std::min(bar + 1, option.size()));
+    while (!block.empty() && block.front() == ' ') block.remove_prefix(1);
+    while (!block.empty() && block.back() == ' ') block.remove_suffix(1);
+    if (!block.empty()) out.emplace_back(block);
+  }
+  return out;
 }
 
 Status options_right(const model::Plan& plan) {

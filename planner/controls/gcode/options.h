@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "planner/controls/gcode/words.h"
 #include "planner/ground/base/result.h"
@@ -20,6 +22,9 @@ struct ThroughCodes {
 };
 /// Nothing where the machine's file does not state both.
 [[nodiscard]] std::optional<ThroughCodes> through_codes_of(const model::Machine& machine);
+
+/// The blocks of an option that has some, with | between.
+[[nodiscard]] std::vector<std::string> blocks_of(std::string_view option);
 
 /// Fails  OUT-OPTION for an option of the plan's machine that its control does not have, or not so.
 [[nodiscard]] Status options_right(const model::Plan& plan);

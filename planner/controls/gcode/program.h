@@ -56,6 +56,8 @@ class Program {
   /// across says both X and Y.
   void moved(std::string_view text, geometry::Vec3 to, bool restate = false);
 
+  /// The tool stands there, though nothing is written.
+  void stands_at(geometry::Vec3 to) { arrive(to); }
   /// The last known position; nothing after `forget` or a move in machine coordinates.
   [[nodiscard]] std::optional<geometry::Vec3> at() const;
   void lost_z() { z_.reset(); }

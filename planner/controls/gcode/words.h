@@ -35,6 +35,7 @@ struct HoleCycle {
   std::optional<Pecks> pecks = {};          ///< none: in one feed
   double feed_mm_min = 0.0, dwell_s = 0.0;  ///< the dwell is at the bottom
   double rpm = 0.0, pitch_mm = 0.0;         ///< of a tap; rpm below 0 for a left-hand one
+  bool in_chuck = false;                    ///< of a tap: a compensating chuck holds it
   int decimals = 0, feed_decimals = 0;      ///< of the control
 };
 
@@ -155,6 +156,12 @@ struct Words {
   bool quadrants = false;
   double largest_radius_mm = 0.0;
   bool helices = true;
+  /// Calls subprogram `number`, a line; a subprogram of these lines. Null: the control or the machine has
+  /// none.
+  std::function<std::string(int number)> call = {};
+  std::function<std::string(int number, const std::string& lines)> subprogram = {};
+  int first_subprogram = 0, last_subprogram = 0;  ///< their numbers
+  std::string behind = {};                        ///< lines behind `last` and the subprograms; may be empty
   bool turns = false;      ///< a helix of more than one turn is one block, TURN= with the further ones
   std::string codes = {};  ///< those that the machine has, "G0 G1 M3", with blanks between; empty: all
 };

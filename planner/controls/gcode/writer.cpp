@@ -7,9 +7,12 @@
 
 #include "planner/controls/gcode/able.h"
 #include "planner/controls/gcode/header.h"
+#include "planner/controls/gcode/measuring/macros.h"
 #include "planner/controls/gcode/moves/arcs.h"
 #include "planner/controls/gcode/moves/helices.h"
 #include "planner/controls/gcode/moves/hole_cycles.h"
+#include "planner/controls/gcode/moves/repeats.h"
+#include "planner/controls/gcode/moves/taps.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/controls/gcode/probing.h"
 #include "planner/controls/gcode/program.h"
@@ -36,8 +39,6 @@ using model::StepResult;
 
 // Characters of a line that a message leaves free; defaults, unsourced.
 constexpr std::size_t kFreeOfClamping = 22, kFreeOfProbing = 32, kFreeOfCondemned = 52;
-// Feed and pitch times speed of a tap may differ by what rounding of either explains.
-constexpr double kPitchAgreement = 0.01;
 
 class Writer {
  public:
@@ -66,7 +67,7 @@ class Writer {
     for (std::size_t n = 0; n < plan_.steps.size(); ++n) {
       const StepResult& step = plan_.steps[n];
       const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
-      const bool measured = probe(step.step);
+      const bool measured = probe(step.step, &step);
       enter(step, cutter, ids[n], n, measured);
       by_cycles_ = cycles_[n].empty() ? words_.by_cycles : cycles_[n] == model::kFeatureCycles;
       const bool smooth = !words_.smooth_on.empty() && cuts_across(*step.path);
@@ -75,29 +76,24 @@ class Writer {
       if (smooth) program_.line(words_.smooth_off);
     }
     program_.blank();
-    (void)probe({});
+    (void)probe({}, nullptr);
     program_.comment("end");
     retract();
     stop();
     shop_blocks("end_blocks");
     program_.line(words_.last);
+    for (std::size_t n = 0; n < subprograms_.size(); ++n)
+      program_.line(words_.subprogram(words_.first_subprogram + static_cast<int>(n), subprograms_[n]));
+    if (!words_.behind.empty()) program_.line(words_.behind);
     return program_.take();
   }
 
  private:
   // The blocks of the shop that this option of the machine has, if there are any.
   bool shop_blocks(std::string_view option) {
-    std::string_view rest = model::control_option(plan_.machine, option);
-    const bool any = !rest.empty();
-    while (!rest.empty()) {
-      const std::size_t bar = std::min(rest.find('|'), rest.size());
-      std::string_view block = rest.substr(0, bar);
-      rest.remove_prefix(std::min(bar + 1, rest.size()));
-      while (!block.empty() && block.front() == ' ') block.remove_prefix(1);
-      while (!block.empty() && block.back() == ' ') block.remove_suffix(1);
-      if (!block.empty()) program_.line(std::string(block));
-    }
-    return any;
+    const std::string_view stated = model::control_option(plan_.machine, option);
+    for (const std::string& block : blocks_of(stated)) program_.line(block);
+    return !stated.empty();
   }
 
   // Characters of a message that leaves so many of the line free.
@@ -121,9 +117,9 @@ class Writer {
     return shortened(plain_text(text), longest - std::min(longest, after.size())) + after;
   }
 
-  // Measurements before a step (at the end: those that are left): a stop each, with nothing moving. Whether
-  // there was one.
-  bool probe(model::AnyRef before) {
+  // Measurements before a step (at the end: those that are left, `next` null): a stop each, with nothing
+  // moving but the machine's macro, where it states one and its way is clear. Whether there was one.
+  bool probe(model::AnyRef before, const StepResult* next) {
     const auto due = probings_.find(before);
     if (due == probings_.end()) return false;
     program_.blank();
@@ -135,12 +131,23 @@ class Writer {
       for (const std::string& line : lines) program_.comment(line);
       if (first.empty()) first = lines.front();
     }
+    by_macros(due->second, next);
     const std::size_t n = due->second.size();
     const std::string what = n == 1 ? first : std::to_string(n) + " touches as listed: " + first + ", ...";
     const Remedy remedy = remedy_of(plan_, due->second, before);
     for (const std::string& line : remedy.comments) program_.comment(line);
     tell(fitted(what, ", " + remedy.message, room(kFreeOfProbing)));
     return true;
+  }
+
+  // What the machine's macro measures. Behind it the tool is away, and is called again.
+  void by_macros(const std::vector<model::AnyRef>& touches, const StepResult* next) {
+    const MacroCalls calls = macro_calls(plan_, touches, next, {tool_, setup_}, words_);
+    for (const std::string& line : calls.comments) program_.comment(line);
+    for (const std::string& block : calls.blocks) program_.line(block);
+    if (calls.blocks.empty()) return;
+    retract();
+    stop();
   }
 
   // The reasons to stop before a step; those of the whole plan stop before its first.
@@ -221,7 +228,7 @@ class Writer {
     if (new_tool) {
       called_ = speed_text(speed(step, step.path->size() > 1 ? 1 : 0));
       program_.line(words_.change_tool(t, cutter.id, called_));
-      if (const Cutter* next = next_tool(n); next != nullptr && words_.stage_tool)
+      if (const Cutter* next = next_tool(plan_, n); next != nullptr && words_.stage_tool)
         program_.line(words_.stage_tool(std::to_string(next->pocket), next->id));
     }
     if (again) program_.line(words_.call_again(t, cutter.id, setup.work_offset));
@@ -253,16 +260,6 @@ class Writer {
     program_.rapid_xy(start);
     coolant(step);
     program_.rapid_z(start.z);
-  }
-
-  /// The tool of the next step that has another one; null: none has.
-  [[nodiscard]] const Cutter* next_tool(std::size_t n) const {
-    const int now = model::find_cutter(plan_, plan_.steps[n].cutter_id)->pocket;
-    for (std::size_t i = n + 1; i < plan_.steps.size(); ++i) {
-      const Cutter* then = model::find_cutter(plan_, plan_.steps[i].cutter_id);
-      if (then->pocket != now) return then;
-    }
-    return nullptr;
   }
 
   [[nodiscard]] bool roughs(const StepResult& step) const {
@@ -349,6 +346,10 @@ class Writer {
         i = *last;
         continue;
       }
+      if (const auto last = by_subprogram(step, i)) {
+        i = *last;
+        continue;
+      }
       if (const auto helix =
               words_.turns ? helix_at(step, i, *program_.at(), program_.arc_form()) : std::nullopt) {
         program_.helix(*helix, path.kind[i] == MoveKind::kArcCw, feed);
@@ -426,45 +427,41 @@ class Writer {
     return holes->last_move;
   }
 
-  // The control goes down in step with the spindle, reverses it, and comes back to where it began: the move
-  // down, perhaps dwells, and the move up. Gives the index of the move up.
+  // From move `i` on equal holes of explicit moves as calls of one subprogram. Gives their last move.
+  std::optional<std::size_t> by_subprogram(const StepResult& step, std::size_t i) {
+    if (!words_.call || !program_.at()) return std::nullopt;
+    const auto holes = repeats_at(step, i, *program_.at(), plan_.machine.control, words_);
+    if (!holes) return std::nullopt;
+    const auto known = std::find(subprograms_.begin(), subprograms_.end(), holes->lines);
+    const int number = words_.first_subprogram + static_cast<int>(known - subprograms_.begin());
+    if (number > words_.last_subprogram) return std::nullopt;
+    if (known == subprograms_.end()) subprograms_.push_back(holes->lines);
+    const double z = program_.at()->z;
+    program_.write_waiting();
+    for (std::size_t n = 0; n < holes->places.size(); ++n) {
+      const Vec3 place = program_.round({holes->places[n].x, holes->places[n].y, z});
+      if (n > 0) program_.rapid(place);
+      program_.moved(words_.call(number), place);
+    }
+    program_.forget_feed();
+    return holes->last_move;
+  }
+
+  // A tap down and up again. Gives the index of the move up.
   Result<std::size_t> tap(const StepResult& step, const Cutter& cutter, std::size_t down) {
-    const CutterPath& path = *step.path;
     if (!words_.tap)
       return fail(
           {.code = "OUT-TAP",
            .message = "programs of this control cannot keep a tap and its feed in step",
            .hint = "mill the thread (a thread mill among the tools), or tap by hand and leave the step out"});
     const Vec3 top = *program_.at();
-    const Vec3 bottom = program_.round(path.point(down));
-    std::size_t up = down + 1;
-    while (up < path.size() && path.kind[up] == MoveKind::kDwell) ++up;
-    const bool back = up < path.size() && path.kind[up] == MoveKind::kLine &&
-                      path.role[up] == MoveRole::kTap && program_.round(path.point(up)) == top;
-    if (path.kind[down] != MoveKind::kLine || xy(bottom) != xy(top) || bottom.z >= top.z || !back) {
-      return fail("OUT-TAP", "a tapping move must run straight down and the same way back");
-    }
-    if (speed_ == 0.0) return fail("OUT-TAP", "the spindle stands still when tapping begins");
-    const double feed = step.schedule ? step.schedule->feed_mm_min[down] : step.feed_mm_min;
-    const double by_feed = feed / std::abs(speed_);
-    const double pitch = cutter.thread_pitch_mm > 0.0 ? cutter.thread_pitch_mm : by_feed;
-    if (std::abs(by_feed - pitch) > kPitchAgreement * pitch) {
-      return fail("OUT-TAP", "feed and speed make a pitch of " + trimmed(by_feed, 4) + " mm, the tap has " +
-                                 trimmed(pitch, 4) + " mm");
-    }
-    HoleCycle hole;
-    hole.at = xy(top);
-    hole.initial_z = hole.r_z = top.z;
-    hole.bottom_z = bottom.z;
-    hole.pitch_mm = pitch;
-    hole.rpm = speed_;
-    hole.decimals = plan_.machine.control.decimals;
-    hole.feed_decimals = plan_.machine.control.feed_decimals;
+    const auto hole = tap_at(plan_, step, cutter, down, top, speed_);
+    if (!hole) return tl::unexpected(hole.error());
     program_.write_waiting();
     forget_cycle();
-    program_.moved(words_.tap(hole), top);
+    program_.moved(words_.tap(hole->cycle), top);
     program_.forget_feed();
-    return up;
+    return hole->last_move;
   }
 
   const Plan& plan_;
@@ -479,8 +476,9 @@ class Writer {
   double speed_ = 0.0;
   std::string called_;  // speed that the change of the tool stated, until the spindle starts
   bool flood_ = false, mist_ = false, through_ = false;
-  bool uses_through_ = false;  // a step of the plan does
-  std::string defined_;        // text of the cycle that a call would run
+  bool uses_through_ = false;             // a step of the plan does
+  std::vector<std::string> subprograms_;  // lines of each
+  std::string defined_;                   // text of the cycle that a call would run
 };
 
 }  // namespace

@@ -29,16 +29,18 @@ namespace capstan::controls::heidenhain {
 ///
 /// Arcs     `CC` and `C ... DR`; one that also goes up or down, of any number of turns, `CP IPA IZ DR`.
 ///
-/// Holes    `CYCL DEF 200`, `201` and `207`, called by `CYCL CALL` where the tool is; equal holes of a step
+/// Holes    `CYCL DEF 200`, `201`, `202`, `203`, `205` and `207`, called by `CYCL CALL` where the tool is;
+/// equal holes of a step
 ///          are called with one definition. Q203 + Q204 is where it
 ///          came from, Q203 + Q200 where it is fed from, Q203 + Q201 the bottom. Q202 is the depth: one
-///          plunge. Pecks are explicit moves.
+///          plunge. Equal pecks, the last one what is left: `203` where chips are broken, `205` where the
+///          hole is cleared and the machine's file states which parameters it has. `202` where the machine's
+///          spindle can be oriented and the bar comes out stopped.
 ///
 /// Stops    the message as a comment, then `M0`, which stops the spindle and the coolant, too: both are off
 ///          before it, and stated again before the next cut.
 ///
-/// Not written: 202 (it turns the spindle to an angle that is the machine's), 203, 205, 208, 251 to 253,
-/// PATTERN DEF, PLANE, RL and RR.
+/// Not written: 208 (its way to the wall is its own), 251 to 253, PATTERN DEF, PLANE, RL and RR.
 ///
 /// Source   tests/controls/heidenhain/golden/README.md says what is from where, and what is remembered.
 extern const Dialect kDialect;

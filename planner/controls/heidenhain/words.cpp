@@ -3,6 +3,7 @@
 #include <numbers>
 #include <string>
 
+#include "planner/controls/gcode/moves/hole_cycles.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/controls/heidenhain/heidenhain.h"
 #include "planner/ground/base/number.h"
@@ -20,6 +21,12 @@ using geometry::Vec2;
 
 /// The surface of a cycle lies so far below where the tool is fed from: Q200 is a distance above 0.
 constexpr double kClearanceMm = 1.0;
+/// A feed of a cycle that is a rapid; the control writes it so, with a blank.
+constexpr std::string_view kByRapid = " MAX";
+/// What Q256 and Q253 say of cycle 205 where nothing asks for them: Q257 is 0, and Q379.
+constexpr std::string_view kUnusedBreak = "+0.2", kUnusedFeed = "+750";
+/// The least that Q256 takes, mm (iTNC 530, cycles 203 and 205: 0.1000 to 99999.9999).
+constexpr double kLeastBreakMm = 0.1;
 /// Runs the cycle that is defined.
 constexpr std::string_view kCall = "CYCL CALL";
 /// Of BEGIN PGM: default, unsourced.
@@ -111,6 +118,70 @@ std::string hole_text(const HoleCycle& h) {
       .called();
 }
 
+/// Equal pecks of Q202 from the surface on, the last one what is left; so the surface lies one above the
+/// first bottom. Nothing where the pecks are others, or wait at their bottoms: Q211 waits at the last alone.
+struct PeckHeights {
+  std::string clearance, depth, surface, second, plunge;
+  static std::optional<PeckHeights> of(const HoleCycle& h) {
+    const auto sizes = gcode::peck_sizes(h);
+    if (!sizes || h.feeds_out || rounded(h.pecks->dwell_s, 3) > 0.0) return std::nullopt;
+    const double surface = rounded(h.pecks->bottoms_z.front() + sizes->step_mm, h.decimals);
+    const double clearance = rounded(h.r_z - surface, h.decimals);
+    if (clearance < 0.0) return std::nullopt;
+    const auto n = [&](double v) { return with_sign(v, h.decimals); };
+    return PeckHeights{n(clearance), n(h.bottom_z - surface), n(surface), n(h.initial_z - surface),
+                       n(sizes->step_mm)};
+  }
+};
+
+/// 203: up by Q256 after each peck. It comes out of the hole after Q213 breaks: more than there are.
+std::optional<std::string> broken_text(const HoleCycle& h) {
+  const auto at = PeckHeights::of(h);
+  if (!at || h.pecks->back_mm < kLeastBreakMm) return std::nullopt;
+  return Cycle("203 UNIVERSAL DRILLING")
+      .q(200, at->clearance, "SET-UP CLEARANCE")
+      .q(201, at->depth, "DEPTH")
+      .q(206, trimmed(h.feed_mm_min, h.feed_decimals), "FEED RATE FOR PLNGNG")
+      .q(202, at->plunge, "PLUNGING DEPTH")
+      .q(210, "+0", "DWELL TIME AT TOP")
+      .q(203, at->surface, "SURFACE COORDINATE")
+      .q(204, at->second, "2ND SET-UP CLEARANCE")
+      .q(212, "+0", "DECREMENT")
+      .q(213, "+" + std::to_string(h.pecks->bottoms_z.size() + 1), "NR OF BREAKS")
+      .q(205, "+0", "MIN. PLUNGING DEPTH")
+      .q(211, with_sign(h.dwell_s, 3), "DWELL TIME AT DEPTH")
+      .q(208, std::string(kByRapid), "RETRACTION FEED RATE")
+      .q(256, with_sign(h.pecks->back_mm, h.decimals), "DIST FOR CHIP BRKNG")
+      .called();
+}
+
+/// 205: out to Q203 + Q200 after each peck, and back by rapid to Q258 (Q259 at the last) above its bottom.
+/// `version` says which parameters the control's has.
+std::optional<std::string> cleared_text(const HoleCycle& h, std::string_view version) {
+  const auto at = PeckHeights::of(h);
+  if (!at) return std::nullopt;
+  const std::string back = with_sign(h.pecks->back_mm, h.decimals);
+  Cycle cycle("205 UNIVERSAL PECKING");
+  cycle.q(200, at->clearance, "SET-UP CLEARANCE")
+      .q(201, at->depth, "DEPTH")
+      .q(206, trimmed(h.feed_mm_min, h.feed_decimals), "FEED RATE FOR PLNGNG")
+      .q(202, at->plunge, "PLUNGING DEPTH")
+      .q(203, at->surface, "SURFACE COORDINATE")
+      .q(204, at->second, "2ND SET-UP CLEARANCE")
+      .q(212, "+0", "DECREMENT")
+      .q(205, "+0", "MIN. PLUNGING DEPTH")
+      .q(258, back, "UPPER ADV. STOP DIST.")
+      .q(259, back, "LOWER ADV. STOP DIST.")
+      .q(257, "+0", "DEPTH FOR CHIP BRKNG")
+      .q(256, std::string(kUnusedBreak), "DIST FOR CHIP BRKNG")
+      .q(211, with_sign(h.dwell_s, 3), "DWELL TIME AT DEPTH");
+  if (version != "tnc430")
+    cycle.q(379, "+0", "STARTING POINT").q(253, std::string(kUnusedFeed), "F PRE-POSITIONING");
+  if (version == "tnc640")
+    cycle.q(208, std::string(kByRapid), "RETRACTION FEED RATE").q(395, "+0", "DEPTH REFERENCE");
+  return cycle.called();
+}
+
 /// The pitch is below 0 for left-hand threads.
 std::string tap_text(const HoleCycle& h) {
   const Heights at(h);
@@ -121,6 +192,39 @@ std::string tap_text(const HoleCycle& h) {
       .q(203, at.surface, "SURFACE COORDINATE")
       .q(204, at.second, "2ND SET-UP CLEARANCE")
       .called();
+}
+
+/// 202: the spindle stands turned to Q336 while the bar comes out. Q214 0: it is not moved off the wall.
+std::string bored_text(const HoleCycle& h) {
+  const Heights at(h);
+  return Cycle("202 BORING")
+      .q(200, at.clearance, "SET-UP CLEARANCE")
+      .q(201, at.depth, "DEPTH")
+      .q(206, trimmed(h.feed_mm_min, h.feed_decimals), "FEED RATE FOR PLNGNG")
+      .q(211, with_sign(h.dwell_s, 3), "DWELL TIME AT DEPTH")
+      .q(208, std::string(kByRapid), "RETRACTION FEED RATE")
+      .q(203, at.surface, "SURFACE COORDINATE")
+      .q(204, at.second, "2ND SET-UP CLEARANCE")
+      .q(214, "+0", "DISENGAGING DIRECTN")
+      .q(336, "+0", "ANGLE OF SPINDLE")
+      .called();
+}
+
+/// What the machine can do of cycles.
+struct Abilities {
+  std::string pecking_cycle;
+  bool oriented_stop = false;
+};
+
+/// Nothing where no cycle makes these moves.
+std::optional<gcode::CycleText> cycle_text(const HoleCycle& h, const Abilities& machine) {
+  const auto made = [](const std::optional<std::string>& text) {
+    return text ? std::optional(gcode::CycleText{*text}) : std::nullopt;
+  };
+  if (h.stops) return made(machine.oriented_stop ? std::optional(bored_text(h)) : std::nullopt);
+  if (!h.pecks) return made(hole_text(h));
+  if (!h.pecks->clears) return made(broken_text(h));
+  return made(machine.pecking_cycle == "explicit" ? std::nullopt : cleared_text(h, machine.pecking_cycle));
 }
 
 std::string path_mode(const std::string& tolerance, bool finishes) {
@@ -217,9 +321,10 @@ gcode::Words words_of(const model::Plan& plan) {
   w.cycle_call = kCall;
   w.cycle_call_there = "M99";
   w.by_cycles = is("cycles", "feature");
-  w.cycle = [](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {
-    // Cycles 203 and 205 have other parameters in each version; 202 wants a spindle that can be oriented.
-    return h.pecks || h.stops ? std::nullopt : std::optional(gcode::CycleText{hole_text(h)});
+  const Abilities abilities{std::string(model::control_option(machine, "pecking_cycle")),
+                            is("oriented_stop", "yes")};
+  w.cycle = [abilities](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {
+    return cycle_text(h, abilities);
   };
   w.more_centre_decimals = std::max(0, kMostDecimals - machine.control.decimals);
   w.turns = true;

@@ -29,10 +29,10 @@ namespace capstan::controls::siemens {
 ///
 /// Holes    `MCALL CYCLE81`, `82`, `85` and `84`, a positioning block, `MCALL`: RTP is where the tool came
 ///          from, RFP + SDIS where it is fed from, DP absolute. `CYCLE83` where all pecks behind
-///          the first are equal; other pecks, and a bar that comes out of a hole with the spindle stopped
-///          (CYCLE86 orients it), are explicit moves. Equal holes of a step stand between one
-///          MCALL and its end: `HOLES1` for a row, `HOLES2` for a circle, else a block per place. Modes of
-///          the later lists of parameters
+///          the first are equal; other pecks are explicit moves. `CYCLE86` where the machine's spindle can be
+///          oriented and a bar comes out with it stopped. `CYCLE840` where the operation states a
+///          compensating chuck. Equal holes of a step stand between one MCALL and its end: `HOLES1` for a
+///          row, `HOLES2` for a circle, else a block per place. Modes of the later lists of parameters
 ///          (_GMODE, _DMODE, _AMODE) are left out: 0, as the shorter lists.
 ///
 /// Stops    `MSG("...")` of 124 characters at most, `M0`, and `MSG()`, which takes the text away.

@@ -89,6 +89,16 @@ std::optional<gcode::CycleText> pecked_text(const HoleCycle& h, Places places) {
   return out;
 }
 
+/// CYCLE86: the spindle stands turned to POSS 0 while the bar comes out, which RPA, RPO and RPAP 0 do not
+/// move off the wall.
+gcode::CycleText bored_text(const HoleCycle& h, Places places) {
+  gcode::CycleText out = called(
+      h, "CYCLE86(" + planes(h) + "," + trimmed(h.dwell_s, 3) + "," + (h.rpm < 0.0 ? "4" : "3") + ",0,0,0,0)",
+      places);
+  out.text.insert(0, "F" + trimmed(h.feed_mm_min, h.feed_decimals) + "\n");
+  return out;
+}
+
 /// SDAC 5: the spindle stands behind it; PIT below 0 for left-hand threads; POSS 0; SST and SST1 alike.
 std::string tap_text(const HoleCycle& h) {
   const std::string rpm = trimmed(rounded(std::abs(h.rpm), 0), 0);
@@ -98,6 +108,20 @@ std::string tap_text(const HoleCycle& h) {
                     ")",
                 {&h.at, 1})
       .text;
+}
+
+/// CYCLE840, for a tap in a compensating chuck: SDR the other way back, SDAC as before, ENC 0 by the encoder,
+/// PIT without sign, for the spindle turns as the thread does. The feed says the same, for a spindle without
+/// one.
+std::string chuck_text(const HoleCycle& h) {
+  const bool left = h.rpm < 0.0;
+  const std::string feed = trimmed(h.pitch_mm * rounded(std::abs(h.rpm), 0), h.feed_decimals);
+  return "F" + feed + "\n" +
+         called(h,
+                "CYCLE840(" + planes(h) + ",0," + (left ? "3,4" : "4,3") + ",0,," +
+                    trimmed(h.pitch_mm, kPitchDecimals) + ")",
+                {&h.at, 1})
+             .text;
 }
 
 std::string path_mode(std::string_view smoothing, const std::string& tolerance, bool finishes) {
@@ -156,11 +180,11 @@ gcode::Words words_of(const model::Machine& machine) {
   w.message_end = "MSG()";
   w.speed_in_move = true;
   w.dwell = [](const std::string& seconds) { return "G4 F" + seconds; };
-  w.tap = &tap_text;
+  w.tap = [](const HoleCycle& h) { return h.in_chuck ? chuck_text(h) : tap_text(h); };
   w.tap_stops_spindle = true;
   w.by_cycles = is("cycles", "feature");
-  w.cycle = [](const HoleCycle& h, Places places) {
-    if (h.stops) return std::optional<gcode::CycleText>();  // CYCLE86 orients the spindle, which not all can
+  w.cycle = [oriented = is("oriented_stop", "yes")](const HoleCycle& h, Places places) {
+    if (h.stops) return oriented ? std::optional(bored_text(h, places)) : std::nullopt;
     return h.pecks ? pecked_text(h, places) : std::optional(hole_text(h, places));
   };
   w.more_centre_decimals = kMoreCentreDecimals;

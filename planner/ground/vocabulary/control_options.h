@@ -35,7 +35,8 @@ inline constexpr std::array kControlOptions{
         "cycles", "feature explicit", 0, 0, false,
         "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
         "G82, G83, G73, G85, G86, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 83, 85, 84, with HOLES1 and "
-        "HOLES2; Heidenhain: CYCL DEF 200, 201, 207 with M99; LinuxCNC: G81, G82, G83, G73, G85, G86, G89, "
+        "HOLES2; Heidenhain: CYCL DEF 200, 201, 203, 205, 207 with M99; LinuxCNC: G81, G82, G83, G73, G85, "
+        "G86, G89, "
         "and G33.1 for threads; Mach3: G81, G82, G85, G86, G89), equal holes of a step at once; or explicit "
         "moves",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
@@ -120,6 +121,28 @@ inline constexpr std::array kControlOptions{
         "the M codes that switch coolant through the spindle on and off, as M88/M89; not stated: no "
         "program of a plan that cuts with it",
         "Haas 96-8000, M88, M89; else the machine builder's list of codes", ControlOptionRow::Form::kMPair},
+    ControlOptionRow{
+        "probe_macro", "", 0, 0, false,
+        "the blocks of the machine's macro for one touch, with | between, and in them {feature}, {probe} "
+        "(its "
+        "number), {axis} (X, Y or Z), {nominal} (of the wall along it), {x}, {y} and {z} (of the ball's "
+        "centre "
+        "at the start), of the work offset: takes the probe, goes over the start at the top of Z, straight "
+        "down, touches, and comes back the same way. Written where that way is clear of the raw piece and of "
+        "what holds it; the stop for the operator stays",
+        "the maker of the probe or the shop"},
+    ControlOptionRow{"probe_radius_mm", "", 0, 200, false,
+                     "radius of the probe above its stylus; not stated: no macro is written",
+                     "the maker of the probe"},
+    ControlOptionRow{"probe_stylus_mm", "", 0, 1000, false,
+                     "how far its ball's centre is below the probe; not stated: no macro is written",
+                     "the maker of the probe"},
+    ControlOptionRow{
+        "subprograms", "", 0, 9999, true,
+        "O of the first subprogram of the file, which M98 P calls at each of three or more equal holes of "
+        "explicit "
+        "moves; 0: none. Programs of that number and above in the control's memory are overwritten",
+        "0i 13.3 (M98, M99); Haas M98, M99"},
     ControlOptionRow{"tool_call", "number name", 0, 0, false,
                      "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
                      "tools names it",
@@ -136,6 +159,17 @@ inline constexpr std::array kControlOptions{
         "plane_reset", "no yes", 0, 0, false,
         "PLANE RESET STAY and M129 at the program's head, for machines that tilt the working plane",
         "Heidenhain, PLANE and M128; default, unsourced: an option of the control"},
+    ControlOptionRow{
+        "pecking_cycle", "explicit tnc430 itnc530 tnc640", 0, 0, false,
+        "which parameters the control's cycle 205 has, which clears holes between pecks: those of TNC 426 "
+        "and "
+        "430; with Q379 and Q253 of iTNC 530; with Q208 and Q395 of TNC 640, too; not stated: explicit moves",
+        "Heidenhain, cycle 205 in the manuals of each; tests/controls/heidenhain/golden/README.md"},
+    ControlOptionRow{"oriented_stop", "no yes", 0, 0, false,
+                     "the spindle can be stopped turned to an angle: CYCLE86 and CYCL DEF 202 bore with a "
+                     "bar that comes out "
+                     "stopped, straight up as planned; else that is explicit moves with M5",
+                     "Siemens, CYCLE86; Heidenhain, cycle 202: both want a machine that is prepared for it"},
     ControlOptionRow{"tool_change", "m6 m0", 0, 0, false,
                      "M6 is carried out by what sends the program (Grbl itself refuses it), or tools are "
                      "changed at a stop, M0, in which Grbl refuses to jog: with tool_length: g43.1 alone",

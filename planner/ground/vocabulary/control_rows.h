@@ -34,23 +34,26 @@ inline constexpr std::array kControlRows{
                "extended_offsets=0 ai_contour=no path_tolerance=assumed next_tool=staged arcs=half "
                "largest_radius_mm=99999.999 helices=yes block_numbers=steps program_number=1 "
                "prove_out=m1 comments=upper line_length=200 peck_clearance_mm= chip_break_mm= codes= "
-               "start_blocks= end_blocks= shop_codes= through_coolant="},
+               "start_blocks= end_blocks= shop_codes= through_coolant= probe_macro= probe_radius_mm= "
+               "probe_stylus_mm= subprograms=0"},
     ControlRow{"haas", 0.86602540378443864676, 0.5, false,
                "cycles=feature retract=g53 tap=g84 tap_feed=per_minute tap_retract=0 dwell=seconds "
                "extended_offsets=99 smoothness=yes next_tool=staged arcs=half "
                "largest_radius_mm=15404.000 helices=yes block_numbers=steps program_number=1 "
                "prove_out=m1 comments=mixed line_length=200 peck_clearance_mm= codes= "
-               "start_blocks= end_blocks= shop_codes= through_coolant=M88/M89"},
+               "start_blocks= end_blocks= shop_codes= through_coolant=M88/M89 probe_macro= probe_radius_mm= "
+               "probe_stylus_mm= subprograms=0"},
     // Looks ahead for lower feeds and corners (G64, LookAhead); shares of the axes' limits: default,
     // unsourced.
     ControlRow{"siemens", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called block_numbers=steps prove_out=m1 line_length=200 "
-               "tool_call=number smoothing=cycle832 turns=yes start_blocks= end_blocks= shop_codes= "
-               "through_coolant="},
+               "tool_call=number smoothing=cycle832 turns=yes oriented_stop=no start_blocks= end_blocks= "
+               "shop_codes= through_coolant= probe_macro= probe_radius_mm= probe_stylus_mm="},
     // Looks ahead 1,024 blocks (iTNC 530), also for lower feeds; shares of the axes' limits: default,
     // unsourced.
     ControlRow{"heidenhain", 0.86602540378443864676, 0.5, false,
                "cycles=feature next_tool=called prove_out=m1 line_length=200 plane_reset=no "
+               "pecking_cycle=explicit oriented_stop=no "
                "start_blocks= end_blocks= shop_codes= through_coolant="},
     // Looks ahead over 16 moves, for lower feeds too (gnea/grbl, planner.c); shares of the axes' limits:
     // default, unsourced.

@@ -212,6 +212,27 @@ TEST(FanucProgram, AnOptionThatTheControlDoesNotHaveIsRefused) {
   EXPECT_EQ(text.error().code, "OUT-OPTION");
 }
 
+TEST(FanucProgram, EqualHolesOfExplicitMovesAreCallsOfASubprogramWhereTheMachineStatesItsNumber) {
+  const auto with = [](const char* dialect, std::vector<geometry::Vec2> places, const char* number) {
+    Plan plan = plans::pattern_plan(dialect, places);
+    plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", number}}};
+    return program_of(plan);
+  };
+  const std::vector<geometry::Vec2> four{{10, 10}, {86, 10}, {10, 70}, {86, 70}};
+  for (const char* dialect : {"fanuc", "haas"}) {
+    const std::string text = with(dialect, four, "9001");
+    EXPECT_THAT(text,
+                HasSubstr("\nM98 P9001\nG0 X86.\nM98 P9001\nG0 X10. Y70.\nM98 P9001\nG0 X86.\nM98 P9001\n"));
+    EXPECT_THAT(text, HasSubstr("\nM30\nO9001\nG0 Z2.\nG1 Z-18.2 F180.\nG0 Z10.\nM99\n%\n"));
+  }
+  EXPECT_THAT(with("fanuc", four, "0"), Not(HasSubstr("M98")));
+  EXPECT_THAT(with("fanuc", {{10, 10}, {86, 10}}, "9001"), Not(HasSubstr("M98")));
+  Plan numbered = plans::pattern_plan("fanuc", four);
+  numbered.machine.control_options =
+      model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "9001"}, {"block_numbers", "all"}}};
+  EXPECT_THAT(program_of(numbered), Not(HasSubstr("M98")));
+}
+
 TEST(FanucProgram, ADrillThatPecksIsWrittenWithItsOwnMoves) {
   Plan plan = holes_plan("fanuc");
   CutterPath p;

@@ -144,6 +144,88 @@ TEST(HeidenhainProgram, EqualHolesOfAStepAreCallsOfOneDefinition) {
   EXPECT_EQ(count(other, " M99\n"), 1U);
 }
 
+// Fed from 2; pecks of 8 mm from Q203, which lies a peck above the first bottom, and 6 mm at the end.
+TEST(HeidenhainProgram, BrokenChipsAreCycle203) {
+  EXPECT_THAT(bare(plans::pecked_plan("heidenhain", {-10, -18, -24}, false)),
+              HasSubstr("\nCYCL DEF 203 UNIVERSAL DRILLING ~\n  Q200=+4 ;SET-UP CLEARANCE ~\n"
+                        "  Q201=-22 ;DEPTH ~\n  Q206=180 ;FEED RATE FOR PLNGNG ~\n"
+                        "  Q202=+8 ;PLUNGING DEPTH ~\n  Q210=+0 ;DWELL TIME AT TOP ~\n"
+                        "  Q203=-2 ;SURFACE COORDINATE ~\n  Q204=+12 ;2ND SET-UP CLEARANCE ~\n"
+                        "  Q212=+0 ;DECREMENT ~\n  Q213=+3 ;NR OF BREAKS ~\n"
+                        "  Q205=+0 ;MIN. PLUNGING DEPTH ~\n  Q211=+0 ;DWELL TIME AT DEPTH ~\n"
+                        "  Q208= MAX ;RETRACTION FEED RATE ~\n  Q256=+0.5 ;DIST FOR CHIP BRKNG\n"
+                        "CYCL CALL\n"));
+}
+
+// Straight up with the spindle stopped: off the wall it is not moved.
+TEST(HeidenhainProgram, ABarThatComesOutStoppedIsCycle202WhereTheSpindleCanBeOriented) {
+  Plan plan = plans::bored_plan("heidenhain");
+  EXPECT_THAT(bare(plan), Not(HasSubstr("CYCL DEF 202")));
+  choose(plan, "oriented_stop", "yes");
+  EXPECT_THAT(bare(plan),
+              HasSubstr("\nCYCL DEF 202 BORING ~\n  Q200=+1 ;SET-UP CLEARANCE ~\n  Q201=-19.2 ;DEPTH ~\n"
+                        "  Q206=180 ;FEED RATE FOR PLNGNG ~\n  Q211=+0 ;DWELL TIME AT DEPTH ~\n"
+                        "  Q208= MAX ;RETRACTION FEED RATE ~\n  Q203=+1 ;SURFACE COORDINATE ~\n"
+                        "  Q204=+9 ;2ND SET-UP CLEARANCE ~\n  Q214=+0 ;DISENGAGING DIRECTN ~\n"
+                        "  Q336=+0 ;ANGLE OF SPINDLE\nCYCL CALL\n"));
+}
+
+// Comes back to 6 after each, and is fed again 0.5 mm above the last bottom.
+TEST(HeidenhainProgram, AClearedHoleIsCycle205WithTheParametersOfTheControlsVersion) {
+  const auto with = [](const char* version) {
+    Plan plan = plans::pecked_plan("heidenhain", {-10, -18, -24}, true);
+    choose(plan, "pecking_cycle", version);
+    return bare(plan);
+  };
+  const std::string first =
+      "\nCYCL DEF 205 UNIVERSAL PECKING ~\n  Q200=+8 ;SET-UP CLEARANCE ~\n  Q201=-22 ;DEPTH ~\n"
+      "  Q206=180 ;FEED RATE FOR PLNGNG ~\n  Q202=+8 ;PLUNGING DEPTH ~\n"
+      "  Q203=-2 ;SURFACE COORDINATE ~\n  Q204=+12 ;2ND SET-UP CLEARANCE ~\n  Q212=+0 ;DECREMENT ~\n"
+      "  Q205=+0 ;MIN. PLUNGING DEPTH ~\n  Q258=+0.5 ;UPPER ADV. STOP DIST. ~\n"
+      "  Q259=+0.5 ;LOWER ADV. STOP DIST. ~\n  Q257=+0 ;DEPTH FOR CHIP BRKNG ~\n"
+      "  Q256=+0.2 ;DIST FOR CHIP BRKNG ~\n  Q211=+0 ;DWELL TIME AT DEPTH";
+  const std::string deepened = " ~\n  Q379=+0 ;STARTING POINT ~\n  Q253=+750 ;F PRE-POSITIONING";
+  EXPECT_THAT(with("tnc430"), HasSubstr(first + "\nCYCL CALL\n"));
+  EXPECT_THAT(with("itnc530"), HasSubstr(first + deepened + "\nCYCL CALL\n"));
+  EXPECT_THAT(with("tnc640"), HasSubstr(first + deepened +
+                                        " ~\n  Q208= MAX ;RETRACTION FEED RATE ~\n"
+                                        "  Q395=+0 ;DEPTH REFERENCE\nCYCL CALL\n"));
+  EXPECT_THAT(with("explicit"), Not(HasSubstr("CYCL DEF 205")));
+}
+
+TEST(HeidenhainProgram, PecksThatNoCycleMakesAreMoves) {
+  Plan none = plans::pecked_plan("heidenhain", {-10, -18, -24}, true);  // its version is not stated
+  EXPECT_THAT(bare(none), Not(HasSubstr("CYCL DEF 20")));
+  const std::vector<std::vector<double>> unlike = {
+      {-10, -14, -24}, {-10, -18, -24, -30}, {10.0 / 3.0 - 10, -8, -12}};
+  for (const bool clears : {true, false}) {
+    for (const auto& bottoms : unlike) {
+      Plan plan = plans::pecked_plan("heidenhain", bottoms, clears);
+      choose(plan, "pecking_cycle", "itnc530");
+      EXPECT_THAT(bare(plan), Not(HasSubstr("CYCL DEF 20"))) << clears << " " << bottoms[1];
+    }
+  }
+  // A wait at each bottom: Q211 waits at the last one only.
+  Plan waits = plans::pecked_plan("heidenhain", {-10, -18, -24}, false);
+  auto& step = waits.steps.back();
+  CutterPath p;
+  model::FeedSchedule s;
+  p.start({20, 20, 10});
+  p.rapid({20, 20, 2}, MoveRole::kApproach);
+  for (const double z : {-10.0, -18.0}) {
+    p.line({20, 20, z}, MoveRole::kDrill);
+    if (z == -10.0) p.dwell();
+    if (z == -10.0) p.line({20, 20, z + 0.5}, MoveRole::kLink);
+  }
+  p.rapid({20, 20, 10}, MoveRole::kRetract);
+  s.feed_mm_min.assign(p.size(), 180.0);
+  s.spindle_rpm.assign(p.size(), 1200.0);
+  s.dwell_s.assign(p.size(), 0.5);
+  step.path = std::make_shared<const CutterPath>(std::move(p));
+  step.schedule = std::make_shared<const model::FeedSchedule>(std::move(s));
+  EXPECT_THAT(bare(waits), Not(HasSubstr("CYCL DEF 203")));
+}
+
 TEST(HeidenhainProgram, AProgramIsNamedByThePartsFile) {
   Plan plan = pocket_plan("heidenhain");
   plan.file_name = "/parts/m\xc3\xbcller bracket-2.p21";

@@ -75,8 +75,12 @@ TEST(SiemensProgram, EqualPecksBehindTheFirstAreCYCLE83AndOthersAreMoves) {
   EXPECT_THAT(program_of(plans::pecked_plan("siemens", {-10, -18, -24}, true)), Not(HasSubstr("CYCLE83(")));
 }
 
-TEST(SiemensProgram, ABarThatComesOutWithTheSpindleStoppedIsMoves) {
-  EXPECT_THAT(program_of(plans::bored_plan("siemens")), HasSubstr("\nG1 Z-18.2 F180\nM5\nG0 Z10\n"));
+TEST(SiemensProgram, ABarThatComesOutStoppedIsCYCLE86WhereTheSpindleCanBeOrientedElseMoves) {
+  Plan plan = plans::bored_plan("siemens");
+  EXPECT_THAT(program_of(plan), HasSubstr("\nG1 Z-18.2 F180\nM5\nG0 Z10\n"));
+  choose(plan, "oriented_stop", "yes");
+  EXPECT_THAT(program_of(plan),
+              HasSubstr("\nF180\nMCALL CYCLE86(10,1,1,-18.2,,0,3,0,0,0,0)\nG0 X20 Y20\nMCALL\n"));
 }
 
 TEST(SiemensProgram, EachOptionOfTheMachineChangesWhatItSays) {

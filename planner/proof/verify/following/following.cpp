@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/nouns/executable.h"
+#include "planner/model/nouns/operation.h"
 #include "planner/model/plan/resources/control_options.h"
 
 // A path of the plan beside the text's blocks, one after the other. The reader of this room has made moves of
@@ -390,6 +392,12 @@ bool Following::tap_agrees(std::size_t i, const Block& b) {
                        : "the text taps; the plan feeds",
                static_cast<long>(i), 22, "CHK-TEXT-TAP");
   if (!planned || b.to.z >= b.from.z) return true;
+  const auto* step = c_.plan->model.get<model::MachiningWorkingstep>(step_.step);
+  const auto* tapping = step == nullptr ? nullptr : c_.plan->model.get<model::Tapping>(step->its_operation);
+  if (b.in_chuck && (tapping == nullptr || !tapping->compensation_chuck.value_or(false)))
+    return say(b.line,
+               "the text taps as with a compensating chuck; the operation states none (compensation_chuck)",
+               static_cast<long>(i), 22, "CHK-TEXT-TAP");
   const double pitch = cutter_ != nullptr && cutter_->thread_pitch_mm > 0.0
                            ? cutter_->thread_pitch_mm
                            : feed_of(i) / std::max(std::abs(speed_of(i)), 1e-9);

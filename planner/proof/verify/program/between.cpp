@@ -1,7 +1,8 @@
-#include <set>
+#include <map>
+#include <vector>
 
-#include "planner/model/nouns/all.h"
 #include "planner/model/plan/resources/control_options.h"
+#include "planner/proof/verify/touches/measured.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/reader_options.h"
 
@@ -11,43 +12,9 @@
 namespace capstan::verify {
 namespace {
 
-/// Steps of the plan that a measurement of the piece precedes; `at_end` when one follows the last.
-struct Measured {
-  std::set<model::AnyRef> before;
-  bool at_end = false;
-};
-
-/// In the order of the workplan, elements within elements; without recursion.
-Measured measured(const model::Plan& plan) {
-  Measured out;
-  const model::Model& m = plan.model;
-  const auto* project = m.get<model::Project>(plan.project);
-  if (project == nullptr) return out;
-  std::set<model::AnyRef> steps, seen;
-  for (const auto& s : plan.steps) steps.insert(s.step);
-  bool waiting = false;
-  std::vector<model::AnyRef> open{project->main_workplan};
-  while (!open.empty()) {
-    const model::AnyRef r = open.back();
-    open.pop_back();
-    if (const auto* plan_of = m.get<model::Workplan>(r)) {
-      if (!seen.insert(r).second) continue;
-      const auto& inner = plan_of->its_elements.items;
-      for (auto e = inner.rbegin(); e != inner.rend(); ++e) open.push_back(*e);
-    } else if (const auto* touch = m.get<model::WorkpieceProbing>(r)) {
-      waiting = waiting || touch->enabled.value_or(true);
-    } else if (waiting && steps.contains(r)) {
-      out.before.insert(r);
-      waiting = false;
-    }
-  }
-  out.at_end = waiting;
-  return out;
-}
-
 class Between {
  public:
-  Between(const ProgramCase& c, Findings& out) : c_(c), out_(out), measured_(measured(*c.plan)) {}
+  Between(const ProgramCase& c, Findings& out) : c_(c), out_(out), touches_(touches_before(*c.plan)) {}
 
   void run() {
     for (const Block& b : c_.program.blocks) {
@@ -153,14 +120,14 @@ class Between {
                  "set-up " + std::to_string(s->setup + 1) + " goes on with T" + std::to_string(loaded_) +
                      ", and nobody sets the zero of Z with it there; state T" + std::to_string(loaded_) +
                      " M6 behind its work offset");
-    if (measured_.before.contains(s->step)) ++wanted;
+    if (touches_.contains(s->step)) ++wanted;
     if (c_.program.markers[static_cast<std::size_t>(b.marker)].condemned) ++wanted;
     setup_ = s->setup;
     stops(c_.where(b), wanted);
   }
 
   void end(const Block& b) {
-    stops(c_.where(b), measured_.at_end ? 1 : 0);
+    stops(c_.where(b), touches_.contains({}) ? 1 : 0);
     if (!at_top(b, c_.machine))
       out_.error(32, "CHK-END-LOW", c_.where(b), "the program ends before the tool is at the top of Z");
   }
@@ -176,7 +143,7 @@ class Between {
 
   const ProgramCase& c_;
   Findings& out_;
-  Measured measured_;
+  std::map<model::AnyRef, std::vector<model::AnyRef>> touches_;
   /// The machine stops behind the last step of each tool.
   const bool proves_out_ = model::control_option(c_.machine, "prove_out") == "m0";
   const bool touches_off_ = touches_off(c_.machine);

@@ -1,5 +1,6 @@
 #include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/touches/macros.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/stopped.h"
@@ -16,7 +17,7 @@ namespace {
 std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& program,
                                   const ProgramText& text, const model::Plan* plan,
                                   const model::Machine& machine, const std::vector<model::Cutter>& cutters,
-                                  bool sweeps, Findings& findings) {
+                                  bool sweeps, const WithoutMacros& macros, Findings& findings) {
   ProgramCase c = make_case(reader, program, plan, machine, cutters);
   c.has_table = !text.tool_table.empty() && reader.tool_table != nullptr;
   for (const ReaderFault& f : program.faults) {
@@ -66,8 +67,14 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
   } else if (plan != nullptr) {
     compare(c, findings);
     check_between(c, findings);
+    check_macros(c, macros.touches, findings);
   }
   return steps;
+}
+
+/// The text as readers get it: without the macros of the shop that a plan's touches are made by.
+WithoutMacros readable(const ProgramText& text, const model::Plan* plan) {
+  return plan != nullptr ? without_macros(text.text, *plan) : WithoutMacros{std::string(text.text), {}};
 }
 
 /// The reader for the machine's control. Without one nothing of the program is proved, which is a finding.
@@ -89,10 +96,11 @@ std::vector<model::Finding> check_program_text(const ProgramText& text, const mo
   Findings findings;
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
-  const Program program = reader->program(text.text, machine);
+  const WithoutMacros macros = readable(text, plan);
+  const Program program = reader->program(macros.text, machine);
   const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
   (void)judge_text(*reader, program, text, plan, machine, none ? tools_of_header(program) : cutters, false,
-                   findings);
+                   macros, findings);
   return findings.take();
 }
 
@@ -104,13 +112,14 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
   check_to_its_end(job, findings, [&] {
-    const Program program = reader->program(text.text, machine);
+    const WithoutMacros macros = readable(text, plan);
+    const Program program = reader->program(macros.text, machine);
     poll();
     // Moves refer to the cutters.
     const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
     const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
     const std::vector<StepMoves> steps =
-        judge_text(*reader, program, text, plan, machine, tools, true, findings);
+        judge_text(*reader, program, text, plan, machine, tools, true, macros, findings);
     poll();
     if (plan != nullptr) {
       const PartShapes part = shapes_of_part(*plan);

@@ -55,6 +55,7 @@ struct Block {
   // Moves. Coordinates are the work offset's, mm.
   model::MoveKind move = model::MoveKind::kRapid;
   bool synchronised = false;              ///< G33.1 or a tapping cycle
+  bool in_chuck = false;                  ///< tapping that a compensating chuck must even out
   bool in_machine = false;                ///< G53: `to` is in machine coordinates where a word was given
   bool from_cycle = false;                ///< expanded from a canned cycle
   bool from_turns = false;                ///< half a turn of a helix that one block makes

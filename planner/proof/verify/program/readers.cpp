@@ -65,7 +65,7 @@ constexpr std::array kReaders{
                   .tool_table = nullptr,
                   .speed_decimals = 0,
                   .words = heidenhain::kWords,
-                  .options = "prove_out=m1 line_length=200 shop_codes= through_coolant=",
+                  .options = "prove_out=m1 line_length=200 shop_codes= through_coolant= pecking_cycle=explicit",
                   .numbered_code = 2470000,
                   .numbered_name = "PRESET",
                   .signs = heidenhain::kSigns},

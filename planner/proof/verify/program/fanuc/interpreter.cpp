@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "planner/proof/verify/findings.h"
+#include "planner/proof/verify/program/fanuc/subprograms.h"
 #include "planner/proof/verify/reader_options.h"
 
 // One block after another: the frame of the tape, words, codes before the move, the move, codes behind it.
@@ -331,11 +332,9 @@ Program read_program(std::string_view text, const model::Machine& machine) {
   Interpreter control(machine);
   Line line;
   long number = 0;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    split_line(text.substr(0, end), line);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    control.line(line, ++number);
+  for (const RunLine& row : run_lines(text, kCycleBlockCap)) {
+    split_line(row.text, line);
+    control.line(line, number = row.number);
   }
   return control.finish(number);
 }

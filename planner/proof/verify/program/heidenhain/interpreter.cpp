@@ -35,6 +35,7 @@ Interpreter::Interpreter(const model::Machine& machine) {
   builders_codes(option(machine, "shop_codes"), option(machine, "through_coolant"));
   const std::string_view proves = option(machine, "prove_out");
   proves_out_ = proves == "m1" || proves == "skip_m0";
+  pecking_ = option(machine, "pecking_cycle");
   longest_block_ = static_cast<std::size_t>(option_number(machine, "line_length"));
 }
 

@@ -83,12 +83,17 @@ class Interpreter : private BlockState {
   void call_cycle();
   std::optional<Heights> heights(const CycleDefinition& c);
   bool complete(const CycleDefinition& c);
+  bool pecks_alike(const CycleDefinition& c);
   void to_height(double z, model::MoveKind kind) { to({at_.x, at_.y, z}, kind); }
   void drill(const CycleDefinition& c, const Heights& h);
   void ream(const CycleDefinition& c, const Heights& h);
+  void peck(const CycleDefinition& c, const Heights& h);
+  void bore(const CycleDefinition& c, const Heights& h);
+  void out_of(const CycleDefinition& c, const Heights& h);
   void tap(const CycleDefinition& c, const Heights& h);
 
   bool proves_out_ = false;
+  std::string pecking_;            ///< which parameters cycle 205 has
   std::size_t longest_block_ = 0;  ///< characters
   std::string name_;               ///< of BEGIN PGM
   bool begun_ = false, closed_ = false;

@@ -42,6 +42,8 @@ enum Peck : std::size_t {
 };
 // CYCLE84
 enum Tap : std::size_t { kSdac = 6, kMpit, kPit, kPoss, kSst, kSst1 };
+// CYCLE840
+enum ChuckTap : std::size_t { kSdr = 6, kChuckSdac, kEnc, kChuckMpit, kChuckPit };
 // CYCLE85, CYCLE86
 enum Bore : std::size_t { kFfr = 6, kRff = 7, kSdir = 6, kRpa, kRpo, kRpap };
 
@@ -57,6 +59,7 @@ std::size_t known_parameters(int cycle) {
     case 85:
       return 8;
     case 86:
+    case 840:
       return 11;
     case 832:
       return 3;
@@ -99,7 +102,7 @@ std::optional<CycleCall> Interpreter::parameters(const Item& call) {
       {{"_OFF", 0.0}, {"_FINISH", 1.0}, {"_SEMIFIN", 2.0}, {"_ROUGH", 3.0}}};
   constexpr std::string_view kCycle = "CYCLE";
   CycleCall out;
-  for (const int known : {81, 82, 83, 84, 85, 86, 89, 832}) {  // by name: CYCLE081 is another subprogram
+  for (const int known : {81, 82, 83, 84, 85, 86, 89, 832, 840}) {  // by name: CYCLE081 is another subprogram
     if (call.name == std::string(kCycle) + std::to_string(known)) out.number = known;
   }
   if (out.number == 0) {
@@ -292,6 +295,9 @@ void Interpreter::run_cycle(const CycleCall& c) {
     case 86:
       bore(c, *p);
       break;
+    case 840:
+      tap_in_chuck(c, *p);
+      break;
     default:
       to_height(p->bottom, MoveKind::kLine);
       if (c.number != 81) pause(c.of(kDtb));
@@ -371,6 +377,49 @@ void Interpreter::tap(const CycleCall& c, const Planes& p) {
   if (sdac == 3.0 || sdac == 4.0) start(sdac == 3.0 ? 1 : -1);
 }
 
+/// With a compensating chuck and the spindle's encoder (ENC 0): the axis follows the turns of the spindle by
+/// the lead, down as the spindle turns, back with SDR; SDAC is how it turns behind the cycle. SDR 0 reverses
+/// by itself. Source: Cycles 11.02, 2.1.7.
+void Interpreter::tap_in_chuck(const CycleCall& c, const Planes& p) {
+  const auto wrong = [&](const std::string& why) { fault(26, "CHK-CYCLE", "CYCLE840: " + why); };
+  if (c.of(kEnc) != 0.0)
+    return fault(33, "CHK-UNVERIFIABLE",
+                 "CYCLE840 without the encoder (ENC " + plain(c.of(kEnc)) + ") is not followed; state 0",
+                 true);
+  double pitch = c.of(kChuckPit) * units();
+  if (c.of(kChuckMpit) != 0.0) {
+    const double coarse = coarse_pitch(std::abs(c.of(kChuckMpit)));
+    if (coarse == 0.0 || (pitch != 0.0 && std::abs(pitch - coarse) > kClose))
+      fault(22, "CHK-TAP-FEED",
+            "CYCLE840: MPIT " + plain(c.of(kChuckMpit)) + " is no thread's size, or PIT says another");
+    pitch = coarse;
+  }
+  if (!(pitch > 0.0))
+    fault(22, "CHK-TAP-FEED", "CYCLE840 has neither PIT nor MPIT above 0, the thread's pitch");
+  if (speed() == 0.0) fault(15, "CHK-SPINDLE", "CYCLE840 begins with the spindle standing");
+  const int way = spindle_;
+  const double back = c.of(kSdr), behind = c.of(kChuckSdac);
+  if (back != 0.0 && back != (way < 0 ? 3.0 : 4.0))
+    wrong("SDR is " + plain(back) +
+          ": the tap would not turn back as it came (3 as M3, 4 as M4, 0 by itself)");
+  if (back != 0.0 && behind != 3.0 && behind != 4.0 && behind != 5.0)
+    wrong("SDAC is " + plain(behind) + "; it says 3, 4 or 5, as M3, M4 and M5");
+  Block b = block();
+  b.from_cycle = b.synchronised = b.in_chuck = true;
+  b.move = MoveKind::kLine;
+  b.pitch_mm = pitch;
+  b.feed_mm_min = pitch * speed_;
+  b.to.z = p.bottom;
+  for (int i = 0; i < 3; ++i) b.words[i] = b.known_to[i] = true;
+  put(b);
+  pause(c.of(kDtb));
+  std::swap(b.from, b.to);
+  b.spindle_rpm = -b.spindle_rpm;
+  put(b);
+  spindle_ = 0;
+  if (back == 0.0 || behind != 5.0) start(back == 0.0 ? way : behind == 4.0 ? -1 : 1);
+}
+
 /// Down at FFR, up at RFF.
 void Interpreter::ream(const CycleCall& c, const Planes& p) {
   const double feed = feed_;
@@ -388,7 +437,11 @@ void Interpreter::ream(const CycleCall& c, const Planes& p) {
 void Interpreter::bore(const CycleCall& c, const Planes& p) {
   if (c.of(kSdir) != 3.0 && c.of(kSdir) != 4.0)
     fault(26, "CHK-CYCLE", "CYCLE86: SDIR is " + plain(c.of(kSdir)) + "; it says 3 or 4, as M3 and M4");
-  start(c.of(kSdir) == 4.0 ? -1 : 1);
+  const int way = c.of(kSdir) == 4.0 ? -1 : 1;
+  if (spindle_ != way)
+    fault(15, "CHK-SPINDLE",
+          "CYCLE86 would start or reverse the spindle itself (SDIR), and feeds at once; start it before");
+  start(way);
   const geometry::Vec3 hole = at_;
   const double u = units();
   to_height(p.bottom, MoveKind::kLine);

@@ -81,6 +81,7 @@ class Interpreter : private BlockState {
   void pause(double dtb);
   void peck(const CycleCall& c, const Planes& p);
   void tap(const CycleCall& c, const Planes& p);
+  void tap_in_chuck(const CycleCall& c, const Planes& p);
   void ream(const CycleCall& c, const Planes& p);
   void bore(const CycleCall& c, const Planes& p);
 

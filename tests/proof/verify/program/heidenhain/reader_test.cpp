@@ -28,8 +28,8 @@ constexpr const char* kStart =
     "L X+5 Y+6 R0 FMAX\nL Z+20 R0 FMAX\n";
 constexpr long kLinesOfStart = 7;
 
-Program read(const std::string& body) {
-  return read_program(kStart + body + "M5\nM30\nEND PGM A MM\n", machine());
+Program read(const std::string& body, const char* pecking_cycle = "tnc430") {
+  return read_program(kStart + body + "M5\nM30\nEND PGM A MM\n", machine({{"pecking_cycle", pecking_cycle}}));
 }
 
 /// "R 5 6 2" for a rapid to X5 Y6 Z2, "L" a line, "A" an arc, "T" tapping, "D 0.5" a dwell; those behind the
@@ -94,6 +94,102 @@ TEST(HeidenhainCycles, AReamerComesOutAtItsFeed) {
   }
 }
 
+std::string pecking(const std::string& cycle, const std::string& own) {
+  return "CYCL DEF " + cycle +
+         " ~\n  Q200=+2 ~\n  Q201=-20 ~\n  Q206=100 ~\n  Q202=+8 ~\n  Q203=+1 ~\n  Q204=+15 ~\n"
+         "  Q212=+0 ~\n  Q205=+0 ~\n  Q211=+0.5 ~\n" +
+         own + "\nCYCL CALL\n";
+}
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+constexpr const char* kOf203 = "  Q210=+0 ~\n  Q213=+4 ~\n  Q208= MAX ~\n  Q256=+0.3";
+constexpr const char* kOf205 = "  Q258=+0.4 ~\n  Q259=+0.4 ~\n  Q257=+0 ~\n  Q256=+0.2";
+
+// 203 with chips broken: Q202 from Q203 on, up by Q256 after each but the last, Q211 at the bottom, out at
+// Q208. The last peck is what is left: "the depth does not have to be a multiple of the plunging depth".
+TEST(HeidenhainCycles, UniversalDrillingBreaksTheChipByItsDistance) {
+  const auto p = read(pecking("203 UNIVERSAL DRILLING", kOf203));
+  EXPECT_EQ(faults(p), "");
+  EXPECT_EQ(moves(p), (Moves{"R 5 6 3", "L 5 6 -7", "R 5 6 -6.7", "L 5 6 -15", "R 5 6 -14.7", "L 5 6 -19",
+                             "D 0.5", "R 5 6 3", "R 5 6 16"}));
+  // At a feed it comes out by feed; 0 is that of plunging.
+  for (const auto& [out, feed] : {std::pair{"Q208=300", 300.0}, std::pair{"Q208=+0", 100.0}}) {
+    const auto fed = read(replaced(pecking("203 UNIVERSAL DRILLING", kOf203), "Q208= MAX", out));
+    EXPECT_EQ(faults(fed), "");
+    const Block& up = fed.blocks[fed.blocks.size() - 3];
+    EXPECT_EQ(up.move, MoveKind::kLine);
+    EXPECT_EQ(up.feed_mm_min, feed);
+  }
+}
+
+// 205: each plunge ends at Q203 + Q200 by rapid, and begins by rapid Q258 above the last bottom.
+TEST(HeidenhainCycles, UniversalPeckingComesBackToAboveTheLastBottom) {
+  const std::string start = " ~\n  Q379=+0 ~\n  Q253=750", out = start + " ~\n  Q208= MAX ~\n  Q395=+0";
+  for (const auto& [version, more] : {std::pair{"tnc430", std::string()}, std::pair{"itnc530", start},
+                                      std::pair{"tnc640", out}, std::pair{"explicit", out}}) {
+    const auto p = read(pecking("205 UNIVERSAL PECKING", kOf205 + more), version);
+    EXPECT_EQ(faults(p), "") << version;
+    EXPECT_EQ(moves(p), (Moves{"R 5 6 3", "L 5 6 -7", "R 5 6 3", "R 5 6 -6.6", "L 5 6 -15", "R 5 6 3",
+                               "R 5 6 -14.6", "L 5 6 -19", "D 0.5", "R 5 6 3", "R 5 6 16"}));
+  }
+  // A parameter that the control does not have, or one that it misses: what it does then is not known.
+  for (const auto& [version, more] : {std::pair{"tnc430", start}, std::pair{"itnc530", std::string()},
+                                      std::pair{"itnc530", out}, std::pair{"tnc640", start}})
+    EXPECT_TRUE(finds(read(pecking("205 UNIVERSAL PECKING", kOf205 + more), version), "CHK-CYCLE"))
+        << version;
+  EXPECT_TRUE(finds(read(pecking("205 UNIVERSAL PECKING", kOf205 + start), "explicit"), "CHK-UNVERIFIABLE"));
+}
+
+// 202: the spindle stands on the way out, at Q208, and turns again behind the cycle.
+TEST(HeidenhainCycles, BoringComesOutWithTheSpindleStoppedAndOverTheHole) {
+  const std::string boring =
+      "CYCL DEF 202 BORING ~\n  Q200=+2 ~\n  Q201=-8 ~\n  Q206=100 ~\n  Q211=+0.5 ~\n  Q208= MAX ~\n"
+      "  Q203=+1 ~\n  Q204=+15 ~\n  Q214=+0 ~\n  Q336=+0\nCYCL CALL\nL X+9 R0 FMAX\n";
+  const auto p = read(boring);
+  EXPECT_EQ(faults(p), "");
+  EXPECT_EQ(moves(p), (Moves{"R 5 6 3", "L 5 6 -7", "D 0.5", "R 5 6 3", "R 5 6 16", "R 9 6 16"}));
+  std::vector<double> rpm;
+  for (const Block& b : p.blocks) {
+    if (b.line > kLinesOfStart && b.kind == Kind::kMove) rpm.push_back(b.spindle_rpm);
+  }
+  EXPECT_EQ(rpm, (std::vector<double>{1000, 1000, 0, 0, 1000}));
+  EXPECT_TRUE(finds(read(replaced(boring, "Q214=+0", "Q214=+1")), "CHK-UNVERIFIABLE"));
+  EXPECT_TRUE(finds(read(replaced(boring, "  Q336=+0", "  Q335=+0")), "CHK-UNVERIFIABLE"));
+}
+
+// Each plunge is less by Q212, and none is less than Q205.
+TEST(HeidenhainCycles, PlungesBecomeLessByTheDecrement) {
+  const auto p = read(replaced(replaced(pecking("205 UNIVERSAL PECKING", kOf205), "Q212=+0", "Q212=+3"),
+                               "Q205=+0", "Q205=+4"));
+  EXPECT_EQ(faults(p), "");
+  std::vector<double> bottoms;
+  for (const Block& b : p.blocks) {
+    if (b.kind == Kind::kMove && b.move == MoveKind::kLine) bottoms.push_back(b.to.z);
+  }
+  EXPECT_EQ(bottoms, (std::vector<double>{-7, -12, -16, -19}));
+}
+
+TEST(HeidenhainCycles, PecksThatTheVersionsOfTheControlMakeOtherwiseAreNotFollowed) {
+  const auto with = [](const char* cycle, const char* own, const std::string& from, const std::string& to) {
+    return read(replaced(pecking(cycle, own), from, to));
+  };
+  // Cleared by 203, or after some breaks: from where it is fed again is each version's.
+  for (const char* breaks : {"Q213=+0", "Q213=+2"})
+    EXPECT_TRUE(finds(with("203 UNIVERSAL DRILLING", kOf203, "Q213=+4", breaks), "CHK-UNVERIFIABLE"));
+  EXPECT_EQ(faults(with("203 UNIVERSAL DRILLING", kOf203, "Q213=+4", "Q213=+3")), "");
+  EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q257=+0", "Q257=+3"), "CHK-UNVERIFIABLE"));
+  EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q259=+0.4", "Q259=+1"), "CHK-UNVERIFIABLE"));
+  const std::string deepened =
+      pecking("205 UNIVERSAL PECKING", std::string(kOf205) + " ~\n  Q379=-5 ~\n  Q253=750");
+  EXPECT_TRUE(finds(read(deepened, "itnc530"), "CHK-UNVERIFIABLE"));
+  EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q202=+8", "Q202=+0"), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q258=+0.4 ~\n  Q259=+0.4", "Q258=+0 ~\n  Q259=+0"),
+                    "CHK-CYCLE"));
+  EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "Q206=100", "Q206= MAX"), "CHK-UNVERIFIABLE"));
+  EXPECT_TRUE(finds(with("205 UNIVERSAL PECKING", kOf205, "  Q212=+0 ~\n", ""), "CHK-CYCLE"));
+}
+
 // 207: Q239 with the sign of the thread; the spindle stands behind it.
 TEST(HeidenhainCycles, TappingHoldsStepBothWaysAndStopsTheSpindle) {
   const auto p = read(tapping("+1.5") + "CYCL CALL\n");
@@ -150,7 +246,7 @@ TEST(HeidenhainCycles, WhatWouldBreakTheToolOrIsNotFollowedIsAFault) {
   EXPECT_TRUE(finds(read(tapping("+0") + "CYCL CALL\n"), "CHK-TAP-FEED"));
   EXPECT_TRUE(finds(read("CYCL CALL\n"), "CHK-CYCLE"));
   EXPECT_TRUE(finds(read("L X+9 R0 FMAX M99\n"), "CHK-CYCLE"));
-  for (const char* body : {"CYCL DEF 203 UNIVERSAL DRILLING\n",
+  for (const char* body : {"CYCL DEF 208 BORE MILLING\n",
                            "CYCL DEF 7.0 DATUM SHIFT\n",
                            "CYCL DEF 10.0 ROTATION\n",
                            "PLANE SPATIAL SPA+0 SPB+90 SPC+0 STAY\n",

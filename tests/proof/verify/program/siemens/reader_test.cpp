@@ -163,11 +163,35 @@ TEST(SiemensCycles, TappingHoldsStepBothWaysAndLeavesTheSpindleAsItSays) {
   EXPECT_TRUE(finds(read("CYCLE84(15,4,1,-12,,0,,,1,0,400,400)\n"), "CHK-CYCLE"));
 }
 
+// CYCLE840 with the encoder: down as the spindle turns (M3 S1000), back with SDR, behind it as SDAC says.
+TEST(SiemensCycles, TappingInAChuckFollowsTheSpindleByTheLead) {
+  const auto p = read("CYCLE840(15,4,1,-12,,0,4,3,0,,1.5)\nG0 X9\n");
+  EXPECT_EQ(faults(p), "");
+  EXPECT_EQ(moves(p), (Moves{"R 5 6 5", "T 5 6 -12", "T 5 6 5", "R 5 6 15", "R 9 6 15"}));
+  const Block &down = p.blocks[p.blocks.size() - 5], &up = p.blocks[p.blocks.size() - 4];
+  EXPECT_TRUE(down.in_chuck && up.in_chuck);
+  EXPECT_EQ(down.pitch_mm, 1.5);
+  EXPECT_EQ(down.feed_mm_min, 1500.0);
+  EXPECT_EQ(down.spindle_rpm, 1000.0);
+  EXPECT_EQ(up.spindle_rpm, -1000.0);
+  EXPECT_EQ(p.blocks[p.blocks.size() - 2].spindle_rpm, 1000.0);
+  EXPECT_EQ(read("CYCLE840(15,4,1,-12,,0,4,5,0,,1.5)\nG0 X9\n").blocks.rbegin()[1].spindle_rpm, 0.0);
+  // M8 has a pitch of 1.25 mm (ISO 261); SDR 0 reverses by itself.
+  EXPECT_EQ(faults(read("CYCLE840(15,4,1,-12,,0,0,,0,8)\n")), "");
+  EXPECT_TRUE(finds(read("CYCLE840(15,4,1,-12,,0,3,3,0,,1.5)\n"), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(read("CYCLE840(15,4,1,-12,,0,4,,0,,1.5)\n"), "CHK-CYCLE"));
+  EXPECT_TRUE(finds(read("CYCLE840(15,4,1,-12,,0,4,3,0)\n"), "CHK-TAP-FEED"));
+  EXPECT_TRUE(finds(read("M5\nCYCLE840(15,4,1,-12,,0,4,3,0,,1.5)\n"), "CHK-SPINDLE"));
+  EXPECT_TRUE(finds(read("F1500\nCYCLE840(15,4,1,-12,,0,4,3,1,,1.5)\n"), "CHK-UNVERIFIABLE"));
+}
+
 // CYCLE86: the spindle stands turned to POSS, off the wall by RPA and RPO, up, and back over the hole.
 TEST(SiemensCycles, BoringLiftsOffTheWallBeforeItComesUp) {
   const auto p = read("F100\nCYCLE86(15,1,1,-8,,0,3,-0.5,0.25,0,45)\n");
   EXPECT_EQ(faults(p), "");
   EXPECT_EQ(moves(p), (Moves{"R 5 6 2", "L 5 6 -8", "R 4.5 6.25 -8", "R 4.5 6.25 15", "R 5 6 15"}));
+  for (const char* before : {"M5\n", "M4\n"})
+    EXPECT_TRUE(finds(read(before + std::string("F100\nCYCLE86(15,1,1,-8,,0,3,0,0,0,0)\n")), "CHK-SPINDLE"));
 }
 
 TEST(SiemensCycles, WhatWouldBreakTheToolOrIsNotFollowedIsAFault) {
