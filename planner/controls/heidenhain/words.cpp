@@ -214,9 +214,11 @@ gcode::Words words_of(const model::Plan& plan) {
   };
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
+  w.pocket = &pocket_text;
   w.cycle_call = kCall;
   w.cycle_call_there = "M99";
-  w.by_cycles = is("cycles", "feature");
+  w.by_cycles = !is("cycles", "explicit");
+  w.by_pockets = is("cycles", "pocket");
   w.cycle = [](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {
     // Cycles 203 and 205 have other parameters in each version; 202 wants a spindle that can be oriented.
     return h.pecks || h.stops ? std::nullopt : std::optional(gcode::CycleText{hole_text(h)});

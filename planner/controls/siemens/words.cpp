@@ -158,11 +158,13 @@ gcode::Words words_of(const model::Machine& machine) {
   w.dwell = [](const std::string& seconds) { return "G4 F" + seconds; };
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
-  w.by_cycles = is("cycles", "feature");
+  w.by_cycles = !is("cycles", "explicit");
+  w.by_pockets = is("cycles", "pocket");
   w.cycle = [](const HoleCycle& h, Places places) {
     if (h.stops) return std::optional<gcode::CycleText>();  // CYCLE86 orients the spindle, which not all can
     return h.pecks ? pecked_text(h, places) : std::optional(hole_text(h, places));
   };
+  w.pocket = &pocket_text;
   w.more_centre_decimals = kMoreCentreDecimals;
   w.turns = is("turns", "yes");
   return w;

@@ -7,6 +7,7 @@
 
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/cutter_path.h"
+#include "planner/proof/verify/pocket/pocket.h"
 
 namespace capstan::verify {
 
@@ -54,10 +55,11 @@ struct Block {
 
   // Moves. Coordinates are the work offset's, mm.
   model::MoveKind move = model::MoveKind::kRapid;
-  bool synchronised = false;              ///< G33.1 or a tapping cycle
-  bool in_machine = false;                ///< G53: `to` is in machine coordinates where a word was given
-  bool from_cycle = false;                ///< expanded from a canned cycle
-  bool from_turns = false;                ///< half a turn of a helix that one block makes
+  bool synchronised = false;  ///< G33.1 or a tapping cycle
+  bool in_machine = false;    ///< G53: `to` is in machine coordinates where a word was given
+  bool from_cycle = false;    ///< expanded from a canned cycle
+  int pocket = -1;            ///< index into Program::pockets, of the cycle that made it; -1: none
+  bool from_turns = false;    ///< half a turn of a helix that one block makes
   bool words[3] = {false, false, false};  ///< which axes the block names
   bool known_from[3] = {false, false, false}, known_to[3] = {false, false, false};
   geometry::Vec3 from, to;
@@ -120,6 +122,7 @@ struct Program {
   std::vector<ReaderFault> faults;
   std::vector<HeaderSetup> setups;
   std::vector<HeaderTool> tools;
+  std::vector<Pocket> pockets;                    ///< in the order of the lines
   std::vector<Told> told;                         ///< in the order of the lines; markers left out
   std::string stock;                              ///< the header's `(stock: ...)`, as written; empty: none
   std::vector<Block> stops;                       ///< M0 and M60, with the state they stop in

@@ -7,9 +7,9 @@
 #include "planner/proof/verify/program/heidenhain/interpreter.h"
 #include "planner/proof/verify/program/peck.h"
 
-// Cycles. Those with lines .0, .1 act where they stand; of those with Q parameters 247 does, and 200, 201 and
-// 207 run where they are called, along Z below the tool. All begin by rapid at the set-up clearance Q200
-// above the surface Q203, and end by rapid at the second one, Q204, where that is higher.
+// Cycles. Those with lines .0, .1 act where they stand; of those with Q parameters 247 does, and 200, 201,
+// 207, 251 and 252 run where they are called, along Z below the tool. All begin by rapid at the set-up
+// clearance Q200 above the surface Q203, and end by rapid at the second one, Q204, where that is higher.
 
 namespace capstan::verify::heidenhain {
 
@@ -27,6 +27,7 @@ enum Q : int {
   kFeedOut = 208,
   kDwellTop = 210,
   kDwellDepth = 211,
+  kOperation = 215,
   kPitch = 239,
   kPreset = 339,
   kDepthReference = 395
@@ -34,14 +35,23 @@ enum Q : int {
 
 struct Known {
   int cycle;
-  std::array<int, 9> needed;    ///< 0: none
+  std::array<int, 20> needed;   ///< 0: none
   std::array<int, 1> may_have;  ///< with one value that changes nothing
 };
-constexpr std::array<Known, 4> kKnown = {{
+constexpr std::array<Known, 6> kKnown = {{
     {200, {kClearance, kDepth, kFeed, kPlunge, kDwellTop, kSurface, kSecond, kDwellDepth}, {kDepthReference}},
     {201, {kClearance, kDepth, kFeed, kDwellDepth, kFeedOut, kSurface, kSecond}, {}},
     {207, {kClearance, kDepth, kPitch, kSurface, kSecond}, {}},
     {247, {kPreset}, {}},
+    // Pockets (pockets.cpp). Lists: a public table of each cycle's parameters in the control's order.
+    {251,
+     {kOperation, 218, 219,   220, 368,        224,      367,     207, 351, kDepth,
+      kPlunge,    369, kFeed, 338, kClearance, kSurface, kSecond, 370, 366, 385},
+     {}},
+    {252,
+     {kOperation, 223, 368, 207, 351, kDepth, kPlunge, 369, kFeed, 338, kClearance, kSurface, kSecond, 370,
+      366, 385},
+     {}},
 }};
 
 bool in(std::span<const int> all, int one) {
@@ -186,6 +196,7 @@ void Interpreter::call_cycle() {
     fault(26, "CHK-CYCLE",
           "Q203 + Q200, " + mm(h->start) + ", is above the height from which the cycle is called, " +
               mm(at_.z));
+  if (c.number == 251 || c.number == 252) return pocket(c, *h);
   const double feed = feed_;
   to_height(h->start, MoveKind::kRapid);
   if (c.number == 200) drill(c, *h);
