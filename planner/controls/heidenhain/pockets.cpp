@@ -56,7 +56,7 @@ std::optional<std::string> pocket_text(const PocketCycle& p) {
     q(367, "+0", "POCKET POSITION");
   }
   q(207, feed, "FEED RATE FOR MILLNG");
-  q(351, "+1", "CLIMB OR UP-CUT");
+  q(351, p.climbs ? "+1" : "-1", "CLIMB OR UP-CUT");
   q(201, n(p.floor_z - p.reference_z), "DEPTH");
   q(202, n(p.level_mm), "PLUNGING DEPTH");
   q(369, n(p.bottom_mm), "ALLOWANCE FOR FLOOR");

@@ -9,8 +9,8 @@
 namespace capstan::controls::siemens {
 namespace {
 
-// _CDIR 0: climbing, for the spindle's own sense. _VARI, tens: in along a helix; ones: roughing.
-constexpr const char* kClimb = "0";
+// _CDIR: climbing or not, for the spindle's own sense. _VARI, tens: in along a helix; ones: roughing.
+constexpr const char *kClimb = "0", *kUpCut = "1";
 constexpr const char* kRoughAlongHelix = "21";
 
 }  // namespace
@@ -24,7 +24,8 @@ std::optional<std::string> pocket_text(const gcode::PocketCycle& p) {
   const std::string planes = n(p.back_z) + n(p.reference_z) + n(p.start_z - p.reference_z) + n(p.floor_z);
   const std::string place = n(p.centre.x) + n(p.centre.y);
   const std::string cut = n(p.level_mm) + n(p.side_mm) + n(p.bottom_mm) + f(p.feed_mm_min) +
-                          f(p.ramp_feed_mm_min) + kClimb + "," + kRoughAlongHelix + "," + n(p.over_mm);
+                          f(p.ramp_feed_mm_min) + (p.climbs ? kClimb : kUpCut) + "," + kRoughAlongHelix +
+                          "," + n(p.over_mm);
   const std::string in = n(p.helix_mm) + trimmed(p.turn_mm, p.decimals) + ")";
   if (p.round) return "POCKET4(" + planes + n(0.5 * p.length_mm) + place + cut + ",," + in;
   return "POCKET3(" + planes + n(p.length_mm) + n(p.width_mm) + n(p.corner_mm) + place +

@@ -4,15 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "planner/controls/controls.h"
+#include "planner/controls/suitability.h"
 #include "planner/door/service/options.h"
 #include "planner/door/service/planning.h"
+#include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/support/corpus.h"
 
@@ -42,6 +45,15 @@ std::string turned_pocket() {
   return with(bracket(), "#50=AXIS2_PLACEMENT_3D('POCKET',#49,#21,#22);",
               "#50=AXIS2_PLACEMENT_3D('POCKET',#49,#21,#900);\n#900=DIRECTION('',(0.939692620786,"
               "0.342020143326,0.));");
+}
+
+/// Its slot closed with round ends: 14 wide, 30 from middle to middle of these.
+std::string closed_slot() {
+  std::string text = with(bracket(), "'SLOT',(105.,0.,0.)", "'SLOT',(103.,25.,0.)");
+  text = with(text, "#67=TOLERANCED_LENGTH_MEASURE(80.,", "#67=TOLERANCED_LENGTH_MEASURE(30.,");
+  text = with(text, "#72=TOLERANCED_LENGTH_MEASURE(10.,", "#72=TOLERANCED_LENGTH_MEASURE(14.,");
+  for (int end = 0; end < 2; ++end) text = with(text, "OPEN_SLOT_END_TYPE()", "RADIUSED_SLOT_END_TYPE()");
+  return text;
 }
 
 /// The part's plan for a control with pockets as cycles.
@@ -98,6 +110,14 @@ std::string parameter(const std::string& call, std::size_t n) {
   return call.substr(begin, call.find_first_of(",)", begin) - begin);
 }
 
+/// How often a pocket is told that stays moves though it is asked for as a cycle.
+std::size_t notes_of(const char* control, const model::Plan& plan) {
+  std::size_t out = 0;
+  for (const auto& f : controls::suitability(plan, controls::find_dialect(control)->conformance))
+    out += f.code == "FIT-POCKET-CYCLE" ? 1 : 0;
+  return out;
+}
+
 struct Fault {
   std::size_t parameter;
   const char *value, *code;
@@ -123,6 +143,7 @@ TEST(PocketCycles, OfSiemensAreReadBackWithinWhatThePlanProves) {
   EXPECT_EQ(parameter(call, 16), "21");
   EXPECT_EQ(parameter(call, 17), "8");
   EXPECT_EQ(parameter(call, 21), "4.5");
+  EXPECT_THAT(text, HasSubstr("\n;it counts with the radius that the control's tool list has for T2: 5 mm\n"));
   EXPECT_THAT(against(text, plan, true), IsEmpty());
 }
 
@@ -164,6 +185,25 @@ TEST(PocketCycles, OfSiemensTakeRoundAndTurnedPockets) {
   EXPECT_EQ(parameter(turned_call, 9), "20");
   EXPECT_THAT(against(other, turned, true), IsEmpty());
   finds_all(turned, other, turned_call, {{9, "19.9", "CHK-POCKET-CYCLE"}, {9, "160", "CHK-POCKET-CYCLE"}});
+}
+
+// A slot with round ends is a rectangle with corners half as wide: 30 + 14 long, along Y, 8 deep.
+TEST(PocketCycles, TakeSlotsWithRoundEndsAsRectanglesWithRoundEnds) {
+  const model::Plan& plan = planned("siemens", closed_slot());
+  const std::string text = program_of(plan), call = call_in(text, "POCKET3(20,0.8,0.2,-8,");
+  EXPECT_THAT(call, ::testing::StartsWith("POCKET3(20,0.8,0.2,-8,44,14,7,103,40,90,"));
+  EXPECT_THAT(against(text, plan, true), IsEmpty());
+  finds_all(plan, text, call,
+            {{4, "44.01", "CHK-POCKET-CYCLE"},
+             {5, "14.02", "CHK-POCKET-CYCLE"},
+             {6, "6.9", "CHK-POCKET-CYCLE"},
+             {8, "40.01", "CHK-POCKET-CYCLE"},
+             {9, "90.1", "CHK-POCKET-CYCLE"},
+             {10, "8", "CHK-POCKET-CYCLE"},
+             {22, "3", "CHK-POCKET-CYCLE"}});
+  const model::Plan& other = planned("heidenhain", closed_slot());
+  EXPECT_THAT(program_of(other), HasSubstr("Q218=+44 ;"));
+  EXPECT_THAT(against(program_of(other), other, true), IsEmpty());
 }
 
 struct Other {
@@ -246,11 +286,84 @@ TEST(PocketCycles, AreMovesWhereTheControlHasNoneOrThePocketIsNoneForIt) {
   const model::Plan& fanuc = planned("fanuc", bracket());
   EXPECT_THAT(program_of(fanuc), HasSubstr("(NO CYCLE OF THE CONTROL FOR THIS POCKET: IT HAS NONE)"));
   EXPECT_THAT(against(program_of(fanuc), fanuc, true), IsEmpty());
+  EXPECT_EQ(notes_of("fanuc", fanuc), 1U);
+  EXPECT_EQ(notes_of("siemens", planned("siemens", bracket())), 0U);
   const model::Plan& one_sided = planned(
       "siemens", with(bracket(), "#57=PLUS_MINUS_VALUE(0.1,0.1,3);", "#57=PLUS_MINUS_VALUE(0.1,0.,3);"));
   EXPECT_THAT(program_of(one_sided),
               HasSubstr(";no cycle of the control for this pocket: its tolerances lie to one side"));
   EXPECT_THAT(program_of(one_sided), Not(HasSubstr("POCKET3(")));
+}
+
+// The path that is swept for a cycle: the mill's middle comes to 25 - 5 - 0.3 and 18 - 5 - 0.3 mm from the
+// pocket's at each level, and no farther; levels divide the way from 0.8 to -11.8 evenly.
+TEST(PocketCycles, AreFollowedUpToTheirContourLevelByLevel) {
+  for (const char* control : {"siemens", "heidenhain"}) {
+    const model::Plan& plan = planned(control, bracket());
+    const verify::Program p = verify::reader_of(control)->program(program_of(plan), plan.machine);
+    ASSERT_EQ(p.pockets.size(), 1U) << control;
+    const double depth = 12.6, levels = std::ceil(depth / p.pockets[0].level_mm - 1e-6);
+    std::map<long, std::pair<double, double>> reached;  // by level
+    for (const verify::Block& b : p.blocks) {
+      if (b.pocket < 0 || b.kind != verify::Block::Kind::kMove || b.move == model::MoveKind::kRapid) continue;
+      const double level = (0.8 - b.to.z) / (depth / levels);
+      if (std::abs(level - std::round(level)) > 1e-6) continue;
+      auto& [along, across] = reached[std::lround(level)];
+      along = std::max(along, std::abs(b.to.x - 48.0));
+      across = std::max(across, std::abs(b.to.y - 40.0));
+      EXPECT_GE(b.to.z, -11.8 - 1e-9);
+    }
+    EXPECT_EQ(static_cast<double>(reached.size()), levels) << control;
+    for (const auto& [level, reach] : reached) {
+      EXPECT_NEAR(reach.first, 19.7, 1e-6) << control << " " << level;
+      EXPECT_NEAR(reach.second, 12.7, 1e-6) << control << " " << level;
+    }
+  }
+}
+
+// What would become more moves than a reader follows, or none, is a fault.
+TEST(PocketCycles, ThatCannotBeFollowedAreFaults) {
+  const model::Plan& plan = planned("siemens", bracket());
+  const std::string text = program_of(plan), call = call_in(text, "POCKET3(");
+  for (const auto& [n, value] : std::vector<std::pair<std::size_t, const char*>>{{4, "1e9"},
+                                                                                 {4, "-50"},
+                                                                                 {6, "1e9"},
+                                                                                 {10, "1e-9"},
+                                                                                 {10, "0"},
+                                                                                 {10, "-4"},
+                                                                                 {17, "1e-9"},
+                                                                                 {13, "0"},
+                                                                                 {21, "20"},
+                                                                                 {22, "1e-9"},
+                                                                                 {22, "0"},
+                                                                                 {2, "-1"},
+                                                                                 {3, "R1"},
+                                                                                 {9, "1e300"},
+                                                                                 {11, "30"},
+                                                                                 {16, "1"}}) {
+    const std::string spoilt = with(text, call, with_parameter(call, n, value));
+    EXPECT_THAT(against(spoilt, plan), Not(IsEmpty())) << n << " as " << value;
+  }
+  EXPECT_THAT(against(with(text, call, "MCALL " + call), plan), Contains(HasSubstr("CHK-UNVERIFIABLE")));
+  EXPECT_THAT(against(with(text, call, call.substr(0, call.size() - 1) + ",,,1)"), plan),
+              Contains(HasSubstr("CHK-UNVERIFIABLE")));
+}
+
+// An edit says it of one step: the part's other cycles and moves are as its machine has them.
+TEST(PocketCycles, MayBeAskedForOfOneStep) {
+  Request request;
+  ASSERT_TRUE(set(request, "control", "siemens"));
+  ASSERT_TRUE(set(request, "set", "POCKET*/cycles=pocket"));
+  Job job;
+  const auto out = plan(request, {.name = "bracket.p21", .bytes = bracket()}, job);
+  ASSERT_TRUE(out) << to_text(out.error().what);
+  const std::string text = program_of(out->plan);
+  EXPECT_THAT(text, HasSubstr("\nPOCKET3("));
+  EXPECT_THAT(against(text, out->plan, true), IsEmpty());
+  ASSERT_TRUE(set(request, "set", "POCKET*/cycles=explicit"));
+  const auto moves = plan(request, {.name = "bracket.p21", .bytes = bracket()}, job);
+  ASSERT_TRUE(moves) << to_text(moves.error().what);
+  EXPECT_THAT(program_of(moves->plan), Not(HasSubstr("POCKET3(")));
 }
 
 // The step's other figures are held too: its speed, and that nothing else moves.

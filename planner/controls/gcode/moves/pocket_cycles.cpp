@@ -29,12 +29,17 @@ constexpr double kClearanceMm = 0.2;
 /// By which path and feature may be apart; a program's own accuracy, mm.
 constexpr double kAgreeMm = 0.002;
 constexpr double kSame = 1e-6;
+constexpr double kChordMm = 0.0005;
+/// The helix's radius over the cutter's: near it, and no core is left. Default, unsourced.
+constexpr double kHelixShare = 0.9;
+/// Of the diameter: a smaller helix is hardly one. Default, unsourced.
+constexpr double kLeastHelix = 0.05;
 
 PocketOfStep no(std::string why) { return {std::nullopt, std::move(why)}; }
 
-/// What the path says of its way in: helices of one radius, one way round.
+/// What the path says of its way in: along ramps.
 struct WayIn {
-  double radius_mm = 0.0, turn_mm = 1e300, feed_mm_min = 1e300, rpm = 0.0;
+  double slope = 1e300, feed_mm_min = 1e300, rpm = 0.0;
   double start_z = 0.0;
 };
 
@@ -46,20 +51,18 @@ std::optional<WayIn> way_in(const model::StepResult& step) {
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (p.role[i] == MoveRole::kPlunge) return std::nullopt;
     if (p.role[i] != MoveRole::kRamp) continue;
-    if (p.kind[i] != MoveKind::kArcCw && p.kind[i] != MoveKind::kArcCcw) return std::nullopt;
-    const double radius = norm(Vec2{p.x[i] - p.cx[i], p.y[i] - p.cy[i]});
-    const double drop = p.z[i - 1] - p.z[i];
-    const double rpm = step.schedule ? step.schedule->spindle_rpm[i] : step.spindle_rpm;
-    if (!any) out.start_z = p.z[i - 1];
-    if (any && (std::abs(radius - out.radius_mm) > kAgreeMm || rpm != out.rpm)) return std::nullopt;
+    if (!any) {
+      out.start_z = p.z[i - 1];
+      out.rpm = step.schedule ? step.schedule->spindle_rpm[i] : step.spindle_rpm;
+    }
     any = true;
-    out.radius_mm = radius;
-    out.rpm = rpm;
-    if (drop > 0.0) out.turn_mm = std::min(out.turn_mm, drop / model::arc_sweep(p, i) * 2.0 * pi);
+    const double drop = p.z[i - 1] - p.z[i], length = model::move_length(p, i);
+    const double run = std::sqrt(std::max(0.0, length * length - drop * drop));
+    if (run > kAgreeMm && drop > 0.0) out.slope = std::min(out.slope, drop / run);
     out.feed_mm_min =
         std::min(out.feed_mm_min, step.schedule ? step.schedule->feed_mm_min[i] : step.feed_mm_min);
   }
-  if (!any || out.turn_mm >= 1e300 || !(out.radius_mm > kSame)) return std::nullopt;
+  if (out.slope >= 1e300) return std::nullopt;
   return out;
 }
 
@@ -67,6 +70,7 @@ std::optional<WayIn> way_in(const model::StepResult& step) {
 /// deep.
 struct Reach {
   double along_mm = 0.0, across_mm = 0.0, about_mm = 0.0, lowest_z = 1e300;
+  double turned = 0.0;  ///< twice the area that it goes round; above 0 counter-clockwise
 };
 
 Reach reach_of(const CutterPath& p, const PocketCycle& c) {
@@ -74,9 +78,16 @@ Reach reach_of(const CutterPath& p, const PocketCycle& c) {
   Reach out;
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (p.kind[i] == MoveKind::kRapid || p.kind[i] == MoveKind::kDwell) continue;
-    // Arcs of the corners stay within the box of their ends; others are at home well within it.
-    for (const double t : {0.0, 0.5, 1.0}) {
-      const Vec2 at = xy(model::point_on_move(p, i, t)) - c.centre;
+    Vec2 before = xy(p.point(i - 1)) - c.centre;
+    // Chords of an arc lie within it by kChordMm at most.
+    const bool arc = model::is_arc(p.kind[i]);
+    const double radius = arc ? norm(Vec2{p.x[i] - p.cx[i], p.y[i] - p.cy[i]}) : 0.0;
+    const double chord = 2.0 * std::sqrt(2.0 * kChordMm / std::max(radius, kChordMm));
+    const int pieces = arc ? static_cast<int>(std::ceil(model::arc_sweep(p, i) / chord)) : 1;
+    for (int k = 0; k <= pieces; ++k) {
+      const Vec2 at = xy(model::point_on_move(p, i, static_cast<double>(k) / pieces)) - c.centre;
+      out.turned += before.x * at.y - before.y * at.x;
+      before = at;
       out.along_mm = std::max(out.along_mm, std::abs(dot(at, u)));
       out.across_mm = std::max(out.across_mm, std::abs(u.x * at.y - u.y * at.x));
       out.about_mm = std::max(out.about_mm, norm(at));
@@ -88,18 +99,61 @@ Reach reach_of(const CutterPath& p, const PocketCycle& c) {
 
 bool in_the_middle(const model::Toleranced& t) { return std::abs(t.middle() - t.nominal_mm) < kSame; }
 
-/// The pocket's own figures; why not, where it is none for a cycle.
+bool is(double a, double b) { return std::abs(a - b) < kSame; }
+
+/// A slot along a line, round at both ends, as a rectangle in its own frame; false: it is none.
+bool slot(const model::Model& m, const model::Slot& noun, const model::FeatureShape& s, PocketCycle& c,
+          Vec2& middle, double& turned) {
+  const auto& ends = noun.end_conditions.items;
+  const bool round = ends.size() == 2 && m.holds<model::RadiusedSlotEndType>(ends[0]) &&
+                     m.holds<model::RadiusedSlotEndType>(ends[1]);
+  if (!round || s.spine.size() != 2 || !s.slot_profile.empty() || s.slot_bottom_radius_mm > 0.0) return false;
+  const Vec2 way = s.spine[1] - s.spine[0];
+  c.width_mm = s.width.nominal_mm;
+  c.length_mm = norm(way) + c.width_mm;
+  c.corner_mm = 0.5 * c.width_mm;
+  middle = s.spine[0] + 0.5 * way;
+  turned = std::atan2(way.y, way.x);
+  return true;
+}
+
+/// A pocket's rectangle or circle, in its own frame; why not.
+std::string pocket(bool round, const model::FeatureShape& s, PocketCycle& c, Vec2& middle) {
+  const auto box = geometry::bounds(s.area);
+  middle = {0.5 * (box.lo.x + box.hi.x), 0.5 * (box.lo.y + box.hi.y)};
+  c.round = round;
+  c.length_mm = round ? s.width.nominal_mm : box.hi.x - box.lo.x;
+  c.width_mm = round ? s.width.nominal_mm : box.hi.y - box.lo.y;
+  c.corner_mm = round ? 0.5 * c.length_mm : s.corner_radius_mm;
+  const double along = s.length.nominal_mm, across = s.width.nominal_mm;
+  if (!round && !(is(c.length_mm, along) && is(c.width_mm, across)) &&
+      !(is(c.length_mm, across) && is(c.width_mm, along)))
+    return "its profile is turned in its own frame";
+  return {};
+}
+
+/// The feature's own figures; why not, where it is none for a cycle.
 PocketOfStep contour(const model::Plan& plan, const model::StepResult& step,
                      const model::MachiningWorkingstep& ws) {
   const model::Model& m = plan.model;
-  const auto* pocket = m.get<model::ClosedPocket>(ws.its_feature);
-  if (pocket == nullptr) return {};
-  const bool round = m.holds<model::CircularClosedProfile>(pocket->feature_boundary);
-  if (!round && !m.holds<model::RectangularClosedProfile>(pocket->feature_boundary))
-    return no("its contour is neither a rectangle nor a circle");
+  const auto* closed = m.get<model::ClosedPocket>(ws.its_feature);
+  const auto* noun = m.get<model::Slot>(ws.its_feature);
+  if (closed == nullptr && noun == nullptr) return {};
   const auto shapes = model::shapes_of(m, ws.its_feature);
   if (!shapes || shapes->size() != 1) return no("it is one of several");
   const model::FeatureShape& s = shapes->front();
+  if (s.open) return {};
+  PocketCycle c;
+  Vec2 middle;
+  double turned = 0.0;
+  if (closed != nullptr) {
+    const bool round = m.holds<model::CircularClosedProfile>(closed->feature_boundary);
+    if (!round && !m.holds<model::RectangularClosedProfile>(closed->feature_boundary))
+      return no("its contour is neither a rectangle nor a circle");
+    if (std::string why = pocket(round, s, c, middle); !why.empty()) return no(std::move(why));
+  } else if (!slot(m, *noun, s, c, middle, turned)) {
+    return no("it is no square slot along a line with both ends round");
+  }
   if (!s.islands.empty()) return no("material stands in it");
   if (s.slope_rad != 0.0 || s.bottom_radius_mm > 0.0) return no("its walls lean, or are round at the foot");
   if (s.through) return no("it goes through");
@@ -110,18 +164,8 @@ PocketOfStep contour(const model::Plan& plan, const model::StepResult& step,
   const auto there = model::workpiece_in_program(m, plan.setups[step.setup].setup, piece);
   const Placement at = geometry::compose(there && *there ? **there : Placement{}, s.frame);
   if (at.z.z < 1.0 - kSame) return no("it is not upright in the set-up");
-  const auto box = geometry::bounds(s.area);
-  PocketCycle c;
-  c.round = round;
-  c.length_mm = round ? s.width.nominal_mm : box.hi.x - box.lo.x;
-  c.width_mm = round ? s.width.nominal_mm : box.hi.y - box.lo.y;
-  const auto is = [](double a, double b) { return std::abs(a - b) < kSame; };
-  if (!round && !(is(c.length_mm, s.length.nominal_mm) && is(c.width_mm, s.width.nominal_mm)) &&
-      !(is(c.length_mm, s.width.nominal_mm) && is(c.width_mm, s.length.nominal_mm)))
-    return no("its profile is turned in its own frame");
-  c.corner_mm = round ? 0.5 * c.length_mm : s.corner_radius_mm;
-  c.centre = xy(at.to_parent({0.5 * (box.lo.x + box.hi.x), 0.5 * (box.lo.y + box.hi.y), 0.0}));
-  c.angle_deg = round ? 0.0 : std::atan2(at.x.y, at.x.x) * kDegrees;
+  c.centre = xy(at.to_parent({middle.x, middle.y, 0.0}));
+  c.angle_deg = c.round ? 0.0 : (std::atan2(at.x.y, at.x.x) + turned) * kDegrees;
   c.floor_z = at.origin.z - s.depth_mm;
   return {c, {}};
 }
@@ -141,6 +185,7 @@ std::string left_by(const model::Plan& plan, const model::StepResult& step,
               : apart(r.along_mm, 0.5 * c.length_mm - inset) || apart(r.across_mm, 0.5 * c.width_mm - inset);
   if (walls || apart(r.lowest_z, c.floor_z + c.bottom_mm))
     return "its path does not reach as far as the pocket";
+  c.climbs = (r.turned > 0.0) == (step.spindle_rpm >= 0.0);
   if (c.corner_mm < inset) return "its corners are narrower than the cutter";
   return {};
 }
@@ -168,6 +213,8 @@ void round_to(PocketCycle& c, const model::Control& control) {
 PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   const model::StepResult& step = plan.steps[n];
   const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step);
+  const model::Cutter* cutter = model::find_cutter(plan, step.cutter_id);
+  if (cutter == nullptr || !step.path || step.path->size() < 2 || step.setup >= plan.setups.size()) return {};
   if (ws == nullptr || !model::has(ws->its_operation.type, model::OperationTrait::kRoughs)) return {};
   PocketOfStep out = contour(plan, step, *ws);
   if (!out.cycle) return out;
@@ -177,28 +224,26 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
       return no("a step before has cut in it: the cycle would cut it all again");
   }
   PocketCycle& c = *out.cycle;
-  const model::Cutter& cutter = *model::find_cutter(plan, step.cutter_id);
-  c.cutter_mm = cutter.cutting_diameter_mm;
-  c.tool = cutter.pocket;
+  c.cutter_mm = cutter->cutting_diameter_mm;
+  c.tool = cutter->pocket;
   if (std::string why = left_by(plan, step, *ws, c); !why.empty()) return no(std::move(why));
   const auto in = way_in(step);
-  if (!in) return no("its path does not go in along helices of one radius and speed");
+  if (!in) return no("its path does not go in along a ramp");
   const double first =
       step.schedule && step.path->size() > 1 ? step.schedule->spindle_rpm[1] : step.spindle_rpm;
   if (first != in->rpm || !(in->rpm > 0.0)) return no("its path does not begin at the speed of its way in");
   const double narrow = 0.5 * std::min(c.length_mm, c.width_mm) - 0.5 * c.cutter_mm - c.side_mm;
-  c.helix_mm = std::min(in->radius_mm, narrow);
-  // A smaller circle with the same slope goes down less in a turn.
-  c.turn_mm = in->turn_mm * c.helix_mm / in->radius_mm;
-  if (!(c.helix_mm > 0.0)) return no("no helix has room in it");
-  if (c.angle_deg < 0.0) c.angle_deg += 180.0;
-  if (c.angle_deg >= 180.0 - kSame) c.angle_deg -= 180.0;
+  // Any circle with the path's slope goes in as steeply as the path.
+  c.helix_mm = std::min(kHelixShare * 0.5 * c.cutter_mm, narrow);
+  c.turn_mm = in->slope * 2.0 * pi * c.helix_mm;
+  if (c.helix_mm < kLeastHelix * c.cutter_mm) return no("no helix has room in it");
+  c.angle_deg -= 180.0 * std::floor((c.angle_deg + kSame) / 180.0);
   c.angle_deg = std::max(0.0, c.angle_deg);
   c.back_z = step.path->z[0];
   c.start_z = in->start_z;
   c.reference_z = c.start_z - kClearanceMm;
   const double depth = c.reference_z - c.floor_z - c.bottom_mm;
-  const auto slot = slot_levels(plan, step, cutter, depth, step.axial_depth_mm, in->rpm,
+  const auto slot = slot_levels(plan, step, *cutter, depth, step.axial_depth_mm, in->rpm,
                                 plan.machine.control.feed_decimals);
   if (!slot) return no("no feed keeps the step's loads in a slot as wide as the cutter");
   c.levels = slot->levels;

@@ -30,6 +30,7 @@ struct PocketCycle {
   double feed_mm_min = 0.0;
   double ramp_feed_mm_min = 0.0;
   double helix_mm = 0.0, turn_mm = 0.0;  ///< the way in: radius of the cutter's centre, and down per turn
+  bool climbs = true;                    ///< along the walls, as the plan's path
   double cutter_mm = 0.0;                ///< its diameter
   int tool = 0;                          ///< its number
   int decimals = 0, feed_decimals = 0;   ///< of the control
@@ -41,9 +42,10 @@ struct PocketCycle {
 inline constexpr double kRingShare = 0.8;
 
 /// The cycle for step `n` of the plan, or why its pocket is explicit moves. A cycle is for the first step of
-/// a closed pocket, rectangular with one radius of corners that the cutter fits into or round, with upright
-/// walls, a level floor and nothing standing in it, whose sizes are made in the middle of their tolerances,
-/// and whose path goes in along helices of one radius.
+/// a closed pocket, rectangular with one radius of corners that the cutter fits into or round, or of a slot
+/// with round ends, which is a rectangle whose corners are half as wide as it is; with upright walls, a level
+/// floor and nothing standing in it, whose sizes are made in the middle of their tolerances, and whose path
+/// goes in along a ramp.
 struct PocketOfStep {
   std::optional<PocketCycle> cycle;
   std::string why_not;  ///< empty: a cycle, or the step makes no pocket at all

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/making/optimise/cut.h"
+#include "planner/making/optimise/cut/limits.h"
 #include "planner/making/optimise/feeds.h"
 
 namespace capstan::controls::gcode {
@@ -53,6 +54,8 @@ std::optional<SlotLevels> slot_levels(const model::Plan& plan, const model::Step
   const double unit = std::pow(10.0, -feed_decimals);
   std::optional<SlotLevels> best;
   double cleared = 0.0;
+  // Deeper slots ask for a lower speed, and the program has the step's.
+  deepest_mm = std::min(deepest_mm, optimise::kFullFeedSlotRatio * cutter.cutting_diameter_mm);
   const int first = std::max(1, static_cast<int>(std::ceil(depth_mm / deepest_mm - 1e-9)));
   for (int n = first; n < first + kMostLevels; ++n) {
     const double level = depth_mm / n;

@@ -18,6 +18,8 @@ bool write_pocket(const model::Plan& plan, std::size_t n, std::string_view cycle
   const PocketCycle& c = *of_step.cycle;
   out.comment("the pocket cycle takes the control's own path, not the planned one: about " +
               words.number(estimated_s(c), 0) + " s; " + words.number(c.planned_s, 0) + " s as planned");
+  out.comment("it counts with the radius that the control's tool list has for T" + std::to_string(c.tool) +
+              ": " + out.number(0.5 * c.cutter_mm) + " mm");
   out.write_waiting();
   out.moved(*text, out.round({c.centre.x, c.centre.y, c.back_z}));
   out.forget_feed();

@@ -47,6 +47,7 @@ void BlockState::mill(Pocket p) {
   const double across = 0.5 * p.width_mm - inset, along = 0.5 * p.length_mm - inset;
   if (across < 0.0 || p.corner_mm + kNothing < 0.5 * p.cutter_mm)
     return wrong("it is narrower than the tool of diameter " + mm(p.cutter_mm));
+  if (p.corner_mm > 0.5 * p.width_mm + kNothing) return wrong("its corners are rounder than half its width");
   const double depth = p.reference_z - p.floor_z - p.bottom_mm;
   if (!(depth > 0.0) || !(p.level_mm > 0.0)) return wrong("it has no depth, or its levels have none");
   if (p.start_z < p.reference_z || p.back_z < p.start_z)

@@ -31,6 +31,8 @@ constexpr double kApartMm = 0.002;
 /// Nearer to the material than this no rapid of the plan's comes down, mm: what the levels count from lies no
 /// farther below where the tool is fed from. A copy of planner/making/toolpath/defaults.h's.
 constexpr double kFedFromMm = 0.2;
+/// Of an arc's chords from it, mm.
+constexpr double kChord = 0.0005;
 constexpr const char* kCode = "CHK-POCKET-CYCLE";
 
 /// The pocket's contour by the cycle's parameters, in the frame that `local` gives.
@@ -58,6 +60,32 @@ Outline contour_of(const Pocket& p, const Local& local) {
     const Vec2 off = r * Vec2{std::cos(end), std::sin(end)};
     out.add(volumes::straight(here + off, next + off));
   }
+  return out;
+}
+
+/// Where the feature's walls stand, in its frame: a plain pocket's, or a square slot's along a line with
+/// round ends; empty: it is neither.
+Outline walls_of(const volumes::Solid& solid) {
+  if (const auto* area = std::get_if<volumes::Area>(&solid.form)) {
+    const bool plain =
+        !area->around && area->standing.empty() && !(area->foot_radius_mm > 0.0) && !(area->leaning_mm > 0.0);
+    return plain ? area->outline : Outline{};
+  }
+  const auto* g = std::get_if<volumes::Groove>(&solid.form);
+  if (g == nullptr || g->loop || g->course.edges.size() != 1 || g->course.edges[0].arc() ||
+      g->ends[0] != volumes::Groove::End::kHalfRound || g->ends[1] != volumes::Groove::End::kHalfRound)
+    return {};
+  const double box = 2.0 * g->half_mm * (g->section.hi.y - g->section.lo.y);
+  const bool square = std::abs(0.5 * std::abs(volumes::twice_area(g->section)) - box) < 1e-6;
+  if (!square || g->foot_radius_mm > 0.0 || g->unsaid_height_mm > 0.0) return {};
+  const Edge& e = g->course.edges[0];
+  const Vec2 way = e.along(0.5), left{-way.y, way.x};
+  const double from = std::atan2(left.y, left.x), r = g->half_mm;
+  Outline out;
+  out.add(volumes::straight(e.from - r * left, e.to - r * left));
+  out.add(volumes::round(e.to, r, from - kPi, kPi));
+  out.add(volumes::straight(e.to + r * left, e.from + r * left));
+  out.add(volumes::round(e.from, r, from, kPi));
   return out;
 }
 
@@ -126,14 +154,13 @@ bool Following::pocket_cycle() {
   }
 
   const volumes::Reading own = volumes::read(volumes::source_of(m, c_.plan->stock.box), ws->its_feature);
-  const auto* area = own.solids.size() == 1 ? std::get_if<volumes::Area>(&own.solids[0].form) : nullptr;
-  if (area == nullptr || area->around || area->outline.empty() || !area->standing.empty() ||
-      area->foot_radius_mm > 0.0 || area->leaning_mm > 0.0)
-    return wrong("is for a feature that is no plain pocket by the check's own reading");
+  const Outline walls = own.solids.size() == 1 ? walls_of(own.solids[0]) : Outline{};
+  if (walls.empty())
+    return wrong("is for a feature that is no plain pocket or slot by the check's own reading");
   const Placement at = compose(workpiece_in(*c_.plan, step_.setup), own.solids[0].frame);
   const auto local = [&](Vec2 q) { return xy(at.to_local({q.x, q.y, at.origin.z})); };
   const Outline text = contour_of(p, local);
-  const double contour = std::max(apart(text, area->outline), apart(area->outline, text));
+  const double contour = std::max(apart(text, walls), apart(walls, text));
   if (contour > kApartMm) return wrong("has a contour that is up to " + mm(contour) + " from the pocket's");
   if (off(p.floor_z, at.origin.z - own.solids[0].depth_mm))
     return wrong("has its floor at z = " + plain(p.floor_z) + "; the pocket's is at " +
@@ -151,16 +178,16 @@ bool Following::pocket_cycle() {
       if (run > 0.0) path.slope = std::max(path.slope, (whole.from.z - whole.to.z) / run);
       path.ramp_feed_mm_min = std::min(path.ramp_feed_mm_min, feed_of(i));
     }
-    constexpr int kPieces = 8;
-    for (int k = 0; k <= kPieces; ++k) {
-      const Vec3 q3 = point_of(whole, static_cast<double>(k) / kPieces);
+    const int pieces = pieces_of(whole, kChord);
+    for (int k = 0; k <= pieces; ++k) {
+      const Vec3 q3 = point_of(whole, static_cast<double>(k) / pieces);
       const Vec2 q = xy(q3) - p.centre;
       path.along_mm = std::max(path.along_mm, std::abs(dot(q, u)));
       path.across_mm = std::max(path.across_mm, std::abs(u.x * q.y - u.y * q.x));
       path.about_mm = std::max(path.about_mm, norm(q));
       path.lowest_z = std::min(path.lowest_z, q3.z);
       if (k == 0) continue;
-      const Vec2 before = xy(point_of(whole, static_cast<double>(k - 1) / kPieces)) - p.centre;
+      const Vec2 before = xy(point_of(whole, static_cast<double>(k - 1) / pieces)) - p.centre;
       path.turned += before.x * q.y - before.y * q.x;
     }
   }
