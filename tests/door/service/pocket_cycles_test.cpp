@@ -143,7 +143,8 @@ TEST(PocketCycles, OfSiemensAreReadBackWithinWhatThePlanProves) {
   EXPECT_EQ(parameter(call, 16), "21");
   EXPECT_EQ(parameter(call, 17), "8");
   EXPECT_EQ(parameter(call, 21), "4.5");
-  EXPECT_THAT(text, HasSubstr("\n;it counts with the radius that the control's tool list has for T2: 5 mm\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\n;it counts with the radius that the control's tool list has for T2: 5 mm\n"));
   EXPECT_THAT(against(text, plan, true), IsEmpty());
 }
 
@@ -159,10 +160,11 @@ TEST(PocketCycles, OfSiemensAreFoundWhereAParameterIsAnother) {
                                {6, "5.9", "CHK-POCKET-CYCLE"},    {6, "4", "CHK-CYCLE"},
                                {7, "48.01", "CHK-POCKET-CYCLE"},  {8, "40.01", "CHK-POCKET-CYCLE"},
                                {9, "0.1", "CHK-POCKET-CYCLE"},    {9, "90", "CHK-POCKET-CYCLE"},
-                               {10, "12", "CHK-POCKET-CYCLE"},    {10, "11.8", "CHK-CYCLE-FEED"},
-                               {11, "0.2", "CHK-POCKET-CYCLE"},   {11, "0", "CHK-POCKET-CYCLE"},
-                               {12, "0.1", "CHK-POCKET-CYCLE"},   {12, "0", "CHK-POCKET-CYCLE"},
-                               {13, "9000", "CHK-CYCLE-FEED"},    {13, "", "CHK-CYCLE"},
+                               {10, "12", "CHK-POCKET-CYCLE"},    {10, "11.8", "CHK-POCKET-CYCLE"},
+                               {10, "6.3", "CHK-POCKET-CYCLE"},   {11, "0.2", "CHK-POCKET-CYCLE"},
+                               {11, "0", "CHK-POCKET-CYCLE"},     {12, "0.1", "CHK-POCKET-CYCLE"},
+                               {12, "0", "CHK-POCKET-CYCLE"},     {13, "9000", "CHK-CYCLE-FEED"},
+                               {13, "2600", "CHK-CYCLE-FEED"},    {13, "", "CHK-CYCLE"},
                                {14, "2500", "CHK-CYCLE-FEED"},    {15, "1", "CHK-POCKET-CYCLE"},
                                {15, "2", "CHK-POCKET-CYCLE"},     {16, "11", "CHK-UNVERIFIABLE"},
                                {16, "22", "CHK-UNVERIFIABLE"},    {17, "10.5", "CHK-POCKET-CYCLE"},
@@ -256,7 +258,7 @@ TEST(PocketCycles, OfHeidenhainAreFoundWhereAParameterIsAnother) {
                             {"Q366=+1 ;", "Q366=+0 ;", "CHK-UNVERIFIABLE"},
                             {"Q351=+1 ;", "Q351=-1 ;", "CHK-POCKET-CYCLE"},
                             {"Q370=+1.4 ;", "Q370=+1.5 ;", "CHK-CYCLE"},
-                            {level.c_str(), "Q202=+11.8", "CHK-CYCLE-FEED"},
+                            {level.c_str(), "Q202=+6.3", "CHK-POCKET-CYCLE"},
                             {level.c_str(), "Q202=+12", "CHK-POCKET-CYCLE"},
                             {mill.c_str(), "Q207=9000", "CHK-CYCLE-FEED"},
                             {plunge.c_str(), "Q206=2500", "CHK-CYCLE-FEED"}});

@@ -31,6 +31,9 @@ constexpr double kApartMm = 0.002;
 /// Nearer to the material than this no rapid of the plan's comes down, mm: what the levels count from lies no
 /// farther below where the tool is fed from. A copy of planner/making/toolpath/defaults.h's.
 constexpr double kFedFromMm = 0.2;
+/// A slot that is deeper over the cutter's diameter wants a lower speed than the step has. A copy of
+/// planner/making/optimise/cut/limits.h's.
+constexpr double kDeepestOfDiameter = 0.5;
 /// Of an arc's chords from it, mm.
 constexpr double kChord = 0.0005;
 constexpr const char* kCode = "CHK-POCKET-CYCLE";
@@ -217,6 +220,10 @@ bool Following::pocket_cycle() {
     return wrong("has rings " + mm(p.over_mm) + " apart; the cutter is " + mm(p.cutter_mm) + " wide");
   if (p.level_mm > step_.axial_depth_mm + unit_)
     return wrong("goes down by " + mm(p.level_mm) + " at a time; the plan by " + mm(step_.axial_depth_mm));
+  if (p.level_mm > kDeepestOfDiameter * p.cutter_mm + unit_)
+    return wrong("goes down by " + mm(p.level_mm) +
+                 " at a time, anywhere in a slot; at the step's speed at most " +
+                 mm(kDeepestOfDiameter * p.cutter_mm));
   const double slope = p.helix_mm > 0.0 ? p.turn_mm / (2.0 * kPi * p.helix_mm) : 1e300;
   // Radius and drop are rounded, each by half a unit.
   const double rounding =
