@@ -351,6 +351,23 @@ TEST(PocketCycles, ThatCannotBeFollowedAreFaults) {
               Contains(HasSubstr("CHK-UNVERIFIABLE")));
 }
 
+// One pocket each, and two in the part of two set-ups.
+TEST(PocketCycles, OfShippedPartsAreReadBackClean) {
+  for (const char* control : {"siemens", "heidenhain"}) {
+    for (const auto& [part, cycles] : std::vector<std::pair<std::string, std::size_t>>{
+             {"plate_bound.p21", 1U}, {"reference_pocket.p21", 1U}, {"two_setups.p21", 2U}}) {
+      const model::Plan& plan = planned(control, testing::slurp(testing::source_dir() + "/examples/" + part));
+      const std::string text = program_of(plan);
+      std::size_t n = 0;
+      for (const char* call : {"\nPOCKET", " CYCL DEF 25"}) {
+        for (std::size_t at = text.find(call); at != std::string::npos; at = text.find(call, at + 1)) ++n;
+      }
+      EXPECT_EQ(n, cycles) << part << " " << control;
+      EXPECT_THAT(against(text, plan), IsEmpty()) << part << " " << control;
+    }
+  }
+}
+
 // An edit says it of one step: the part's other cycles and moves are as its machine has them.
 TEST(PocketCycles, MayBeAskedForOfOneStep) {
   Request request;
