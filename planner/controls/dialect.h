@@ -38,6 +38,7 @@ struct Conformance {
   bool compensation = true;          ///< it offsets paths of the contact by the cutter's radius
   bool tool_changes = true;          ///< a program may change tools
   bool broadcasts = false;           ///< it sends what broadcasts of a plan (AP238 edition 4) ask for
+  bool pocket_cycles = false;        ///< its programs rough pockets by cycles of the control, where asked for
 };
 
 /// One control that programs are written for: what it is, what its files hold and who writes them. How it

@@ -34,6 +34,7 @@ FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
     "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/sweep/target": "target",
     "planner/proof/verify/copies": "copies", "planner/proof/verify/touches": "touches",
+    "planner/proof/verify/pocket": "pocket",
     "planner/proof/verify/shape": "finished", **READER_ROOMS,
     "planner/model/features/fit": "fit",
     "planner/making/toolpath/freeform": "freeform",
@@ -90,7 +91,8 @@ ALLOWED = {
     # Paths over surfaces: of the others it takes what moves are.
     "freeform": MODEL + " stock toolpath",
     "optimise": MODEL + " mechanics motion",
-    "gcode": MODEL + " motion",
+    # A control's own pocket cycle takes a path that nobody has planned: its feed is one that keeps the limits in a slot.
+    "gcode": MODEL + " motion optimise",
     # A conformance profile is a data file, read as those of the shop are.
     "controls": MODEL + " gcode shop",
     "volumes": PROVEN,
@@ -107,7 +109,9 @@ ALLOWED = {
     # Macros of touches: the plan's touches, where the piece lies, and what a text does around them.
     "touches": PROVEN + " volumes verify target",
     **{room: GROUND + " plan copies verify" for room in READER_ROOMS.values()},
-    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid target touches", *READER_ROOMS.values()]),
+    # Pockets as cycles of a control: a step of a program beside the plan's, of the check's own kinds.
+    "pocket": PROVEN + " mechanics volumes copies verify grid target",
+    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid target touches pocket", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "report": MODEL + " mechanics motion optimise step",
@@ -124,6 +128,7 @@ ALLOWED = {room: set(names.split()) for room, names in ALLOWED.items()}
 
 # Of these rooms only such headers: the checker shares numbers with the planner, never its reasoning.
 ONLY = {("verify", "mechanics"): re.compile(r"constants?\.h$"),
+        ("pocket", "mechanics"): re.compile(r"constants?\.h$"),
         # The tables of ISO 286, not what a file's tolerance is read as.
         ("volumes", "fit"): re.compile(r"fit/(fit|deviation|grade)\.h$"),
         ("verify", "fit"): re.compile(r"fit/(fit|deviation|grade)\.h$")}

@@ -13,6 +13,7 @@
 #include "planner/controls/gcode/moves/hole_cycles.h"
 #include "planner/controls/gcode/moves/repeats.h"
 #include "planner/controls/gcode/moves/taps.h"
+#include "planner/controls/gcode/moves/write_pocket.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/controls/gcode/probing.h"
 #include "planner/controls/gcode/program.h"
@@ -69,7 +70,8 @@ class Writer {
       const Cutter& cutter = *model::find_cutter(plan_, step.cutter_id);
       const bool measured = probe(step.step, &step);
       enter(step, cutter, ids[n], n, measured);
-      by_cycles_ = cycles_[n].empty() ? words_.by_cycles : cycles_[n] == model::kFeatureCycles;
+      by_cycles_ = cycles_[n].empty() ? words_.by_cycles : cycles_[n] != model::kExplicitMoves;
+      if (write_pocket(plan_, n, cycles_[n], words_, program_)) continue;
       const bool smooth = !words_.smooth_on.empty() && cuts_across(*step.path);
       if (smooth) program_.line(words_.smooth_on);
       if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());

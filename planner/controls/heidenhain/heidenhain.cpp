@@ -112,7 +112,8 @@ constinit const Dialect kDialect{
                     .work_offsets = kPresets,
                     .block_time_s = 0.0005,
                     .largest_radius_mm = 99999.9999,
-                    .largest_feed_mm_min = 99999.999},
+                    .largest_feed_mm_min = 99999.999,
+                    .pocket_cycles = true},
     .decimals = 3,
     .write_program = &write_program,
 };

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "planner/controls/dialect.h"
 #include "planner/controls/gcode/words.h"
 #include "planner/model/plan/plan.h"
@@ -40,13 +43,20 @@ namespace capstan::controls::heidenhain {
 /// Stops    the message as a comment, then `M0`, which stops the spindle and the coolant, too: both are off
 ///          before it, and stated again before the next cut.
 ///
-/// Not written: 208 (its way to the wall is its own), 251 to 253, PATTERN DEF, PLANE, RL and RR.
+/// Pockets  with `cycles: pocket` 251 and 252, roughing along a helix, called over the middle: Q202, Q207 and
+///          Q206 keep the loads of the plan's path (gcode/moves/pocket_cycles.h). A comment says how large
+///          ANGLE of the tool table may be.
+///
+/// Not written: 208 (its way to the wall is its own), 253, PATTERN DEF, PLANE, RL and RR.
 ///
 /// Source   tests/controls/heidenhain/golden/README.md says what is from where, and what is remembered.
 extern const Dialect kDialect;
 
 /// The words of the plan's machine, with the program's head.
 [[nodiscard]] gcode::Words words_of(const model::Plan& plan);
+
+/// Cycle 251 or 252 for a pocket, with the way to its middle and the call (pockets.cpp).
+[[nodiscard]] std::optional<std::string> pocket_text(const gcode::PocketCycle& pocket);
 
 /// The program's name: of the part's file, else CAPSTAN; capitals, digits, - and _.
 [[nodiscard]] std::string program_name(const model::Plan& plan);

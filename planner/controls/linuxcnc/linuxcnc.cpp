@@ -74,7 +74,8 @@ gcode::Words words(const model::Machine& machine) {
             return "G33.1 Z" + trimmed(h.bottom_z, h.decimals) + " K" + trimmed(h.pitch_mm, kPitchDecimals);
           },
   };
-  out.by_cycles = model::control_option(machine, "cycles") == "feature";
+  out.by_cycles = model::control_option(machine, "cycles") != "explicit";
+  out.by_pockets = model::control_option(machine, "cycles") == "pocket";
   out.cycle = &hole_text;
   return out;
 }

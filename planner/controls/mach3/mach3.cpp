@@ -67,7 +67,8 @@ gcode::Words words_of(const model::Machine& machine) {
   w.dwell = [milliseconds](const std::string& seconds) {
     return "G4 " + p_word(parse_double(seconds).value_or(0.0), milliseconds);
   };
-  w.by_cycles = is("cycles", "feature");
+  w.by_cycles = !is("cycles", "explicit");
+  w.by_pockets = is("cycles", "pocket");
   w.cycle = [milliseconds](const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
     return hole_text(h, places, milliseconds);
   };

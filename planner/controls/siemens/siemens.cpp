@@ -74,7 +74,8 @@ constinit const Dialect kDialect{
                     .axes = 5,
                     .work_offsets = kOffsets.size(),
                     .block_time_s = 0.001,
-                    .splines = true},
+                    .splines = true,
+                    .pocket_cycles = true},
     .decimals = 3,
     .write_program = &write_program,
 };

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "planner/controls/dialect.h"
 #include "planner/controls/gcode/words.h"
 #include "planner/model/plan/resources/machine.h"
@@ -37,7 +40,11 @@ namespace capstan::controls::siemens {
 ///
 /// Stops    `MSG("...")` of 124 characters at most, `M0`, and `MSG()`, which takes the text away.
 ///
-/// Not written yet: POCKET3, POCKET4 (docs/programs.md says why), SLOT1, CYCLE61, 71, 72, CYCLE800.
+/// Pockets  with `cycles: pocket` POCKET3 and POCKET4, roughing along a helix: RFP + SDIS is where the plan's
+///          path is fed from, FAL and FALD what it leaves, MID, FFP1 and FFD what keeps its loads
+///          (gcode/moves/pocket_cycles.h); the blank's sizes (_AP1, _AP2, _AD) are left out.
+///
+/// Not written yet: SLOT1, CYCLE61, 71, 72, CYCLE800.
 ///
 /// Source   SINUMERIK NC programming 12/2019, 6FC5398-2EP40 (helices, CYCLE832, CTOL); fundamentals 10.2004,
 ///          6FC5298-7AB00 (G641); 802D sl 06/2006, 6FC5398-3CP10 (G710); function manual W1 11/2006 (tools);
@@ -47,6 +54,9 @@ extern const Dialect kDialect;
 
 /// The words of the machine's control.
 [[nodiscard]] gcode::Words words_of(const model::Machine& machine);
+
+/// POCKET3 or POCKET4 for a pocket (pockets.cpp).
+[[nodiscard]] std::optional<std::string> pocket_text(const gcode::PocketCycle& pocket);
 
 /// Characters of a tool's name at most, and whether it may be one: printable, without quotes.
 inline constexpr std::size_t kLongestToolName = 32;

@@ -32,13 +32,14 @@ struct ControlOptionRow {
 /// planner/controls/grbl/grbl.h.
 inline constexpr std::array kControlOptions{
     ControlOptionRow{
-        "cycles", "feature explicit", 0, 0, false,
+        "cycles", "feature explicit pocket", 0, 0, false,
         "holes and threads as the control's cycles where one makes the path's moves (FANUC and Haas: G81, "
         "G82, G83, G73, G85, G86, G89, G74, G84; Siemens: MCALL CYCLE81, 82, 83, 85, 84, with HOLES1 and "
         "HOLES2; Heidenhain: CYCL DEF 200, 201, 203, 205, 207 with M99; LinuxCNC: G81, G82, G83, G73, G85, "
         "G86, G89, "
         "and G33.1 for threads; Mach3: G81, G82, G85, G86, G89), equal holes of a step at once; or explicit "
-        "moves",
+        "moves; pocket: as feature, and pockets as cycles of the control (Siemens: POCKET3, POCKET4; "
+        "Heidenhain: CYCL DEF 251, 252; Haas: G13), which take a path of its own",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
         "2.9, G-codes, canned cycles"},
     ControlOptionRow{

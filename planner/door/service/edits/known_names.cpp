@@ -94,7 +94,9 @@ Status known_names(const std::vector<Edit>& edits, const std::vector<model::Cutt
     if (e.of == EditOf::kOperation) ok = known_word(e, "kind of operation", operation_words());
     if (e.of == EditOf::kStrategy) ok = known_word(e, "strategy", strategy_words());
     if (e.of == EditOf::kCycles)
-      ok = known_word(e, "cycles", {std::string(model::kFeatureCycles), std::string(model::kExplicitMoves)},
+      ok = known_word(e, "cycles",
+                      {std::string(model::kFeatureCycles), std::string(model::kPocketCycles),
+                       std::string(model::kExplicitMoves)},
                       true);
     if (!ok) return ok;
   }

@@ -139,7 +139,7 @@ class Taker {
   /// The plan keeps it, and whoever writes its program asks for it: no value of the part changes.
   Status take_cycles(const Edit& e) {
     const std::string& control = machine_.control.dialect;
-    if (e.value == model::kFeatureCycles && model::find_control_option(control, "cycles") == nullptr)
+    if (e.value != model::kExplicitMoves && model::find_control_option(control, "cycles") == nullptr)
       return no_value(e, "the control of machine '" + machine_.id + "' (" + control +
                              ") has no cycles; take the edit back, or name another control (--control)");
     out_.edits.push_back(e);

@@ -10,6 +10,8 @@ namespace capstan::model {
 
 /// What an edit of `cycles` may say, as the control's option of that name does.
 inline constexpr std::string_view kFeatureCycles = "feature", kExplicitMoves = "explicit";
+/// As feature cycles, and pockets as the control's cycles too, whose path is not the planned one.
+inline constexpr std::string_view kPocketCycles = "pocket";
 
 /// By step of the plan: what the edits that it was made with say of its cycles, one of the words above;
 /// empty: none says anything, and the machine's option holds.

@@ -136,6 +136,10 @@ void Following::run() {
     break;
   }
   if (!approach()) return;
+  if (begins_pocket()) {
+    if (pocket_cycle()) nothing_behind();
+    return;
+  }
   for (std::size_t i = 1; i < path_.size(); ++i) {
     if (!one(i)) return;
   }

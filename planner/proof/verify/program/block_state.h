@@ -44,6 +44,8 @@ class BlockState {
   void put(Block b);
   /// A move of a canned cycle.
   void to(geometry::Vec3 p, model::MoveKind kind, bool synchronised = false);
+  /// The moves of a pocket cycle (pocket/pocket_moves.cpp), or a fault.
+  void mill(Pocket p);
   void dwell(double seconds);
   [[nodiscard]] Block block() const;
   /// Notes what the machine's file says of M codes of its builder: `shop_codes` ("M51 M52") move and switch

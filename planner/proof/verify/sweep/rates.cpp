@@ -159,16 +159,19 @@ double StepChecks::arc_of(const Account& a) const {
   return std::acos(1.0 - 2.0 * width / d);
 }
 
-/// Of a worn edge, N/mm2.
-double StepChecks::specific_force(double chip_mm) const {
+double worn_specific_force(const model::Plan& plan, const model::Cutter& cutter, double chip_mm) {
   const double h =
       std::clamp(chip_mm, mechanics::kKienzleMinChipThicknessMm, mechanics::kKienzleMaxChipThicknessMm);
   // Solid mills cut with a rake, but for hardened steel.
-  const bool raked = is_raked(cutter_.cutter_class) && plan_.material.iso_group != "H";
+  const bool raked = is_raked(cutter.cutter_class) && plan.material.iso_group != "H";
   const double rake = raked ? 1.0 - model::kForcePerDegreeOfRake * model::kEndMillRakeDeg : 1.0;
   const double kc =
-      rake * plan_.material.kc11_n_mm2 * std::pow(h, -plan_.material.mc) * mechanics::kWearForceFactor;
-  return cutter_.cutter_class == CutterClass::kReamer ? kc * mechanics::kReamingFrictionFactor : kc;
+      rake * plan.material.kc11_n_mm2 * std::pow(h, -plan.material.mc) * mechanics::kWearForceFactor;
+  return cutter.cutter_class == CutterClass::kReamer ? kc * mechanics::kReamingFrictionFactor : kc;
+}
+
+double StepChecks::specific_force(double chip_mm) const {
+  return worn_specific_force(plan_, cutter_, chip_mm);
 }
 
 /// The mean force in the plane normal to the axis, N; 0 unknown. Power gives the sum of the tangential

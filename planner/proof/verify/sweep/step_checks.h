@@ -141,6 +141,9 @@ void cut_before(EarlierCuts& earlier, const StepMoves& step);
 [[nodiscard]] bool chose_ramp(const model::Plan& plan, const model::MachiningWorkingstep& ws);
 /// Whether planning chose the step's feed, and neither a file nor the operator.
 [[nodiscard]] bool chose_feed(const model::Plan& plan, const model::MachiningWorkingstep& ws);
+/// Specific force of a worn edge at this chip, N/mm2.
+[[nodiscard]] double worn_specific_force(const model::Plan& plan, const model::Cutter& cutter,
+                                         double chip_mm);
 [[nodiscard]] FeedLimit feed_limit(const model::Cutter& c, const model::WorkMaterial& material);
 [[nodiscard]] bool works_along_axis(const model::Cutter& c);
 /// Motor power and torque for continuous running at a speed, between the curve's points; power linear

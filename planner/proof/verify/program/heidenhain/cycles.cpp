@@ -10,8 +10,8 @@
 #include "planner/proof/verify/program/peck.h"
 
 // Cycles. Those with lines .0, .1 act where they stand; of those with Q parameters 247 does, and 200 to 203,
-// 205 and 207 run where they are called, along Z below the tool. All begin by rapid at the set-up clearance
-// Q200 above the surface Q203, and end by rapid at the second one, Q204, where that is higher.
+// 205, 207, 251 and 252 run where they are called, along Z below the tool. All begin by rapid at the set-up
+// clearance Q200 above the surface Q203, and end by rapid at the second one, Q204, where that is higher.
 
 namespace capstan::verify::heidenhain {
 
@@ -33,6 +33,7 @@ enum Q : int {
   kDecrement = 212,
   kBreaks = 213,
   kOffWall = 214,
+  kOperation = 215,
   kPitch = 239,
   kFeedToStart = 253,
   kBreakBy = 256,
@@ -47,10 +48,10 @@ enum Q : int {
 
 struct Known {
   int cycle;
-  std::array<int, 13> needed;   ///< 0: none
+  std::array<int, 20> needed;   ///< 0: none
   std::array<int, 4> may_have;  ///< of newer versions: `complete` says with which values
 };
-constexpr std::array<Known, 7> kKnown = {{
+constexpr std::array<Known, 9> kKnown = {{
     {200, {kClearance, kDepth, kFeed, kPlunge, kDwellTop, kSurface, kSecond, kDwellDepth}, {kDepthReference}},
     {201, {kClearance, kDepth, kFeed, kDwellDepth, kFeedOut, kSurface, kSecond}, {}},
     {202,
@@ -66,6 +67,15 @@ constexpr std::array<Known, 7> kKnown = {{
      {kStart, kFeedToStart, kFeedOut, kDepthReference}},
     {207, {kClearance, kDepth, kPitch, kSurface, kSecond}, {}},
     {247, {kPreset}, {}},
+    // Pockets (pockets.cpp). Lists: a public table of each cycle's parameters in the control's order.
+    {251,
+     {kOperation, 218, 219,   220, 368,        224,      367,     207, 351, kDepth,
+      kPlunge,    369, kFeed, 338, kClearance, kSurface, kSecond, 370, 366, 385},
+     {}},
+    {252,
+     {kOperation, 223, 368, 207, 351, kDepth, kPlunge, 369, kFeed, 338, kClearance, kSurface, kSecond, 370,
+      366, 385},
+     {}},
 }};
 
 /// A feed that is written MAX or FMAX: by rapid.
@@ -271,6 +281,7 @@ void Interpreter::call_cycle() {
     fault(26, "CHK-CYCLE",
           "Q203 + Q200, " + mm(h->start) + ", is above the height from which the cycle is called, " +
               mm(at_.z));
+  if (c.number == 251 || c.number == 252) return pocket(c, *h);
   const double feed = feed_;
   to_height(h->start, MoveKind::kRapid);
   if (c.number == 200) drill(c, *h);

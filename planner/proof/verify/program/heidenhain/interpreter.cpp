@@ -45,6 +45,7 @@ void Interpreter::unfollowed(const std::string& what) {
 
 void Interpreter::comments(const Line& l) {
   for (const std::string& text : l.comments) {
+    table_angle(text);
     if (!read_comment(text, line_, out_)) continue;
     marker_ = static_cast<int>(out_.markers.size()) - 1;
     restate();

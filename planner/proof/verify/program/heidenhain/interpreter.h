@@ -91,6 +91,8 @@ class Interpreter : private BlockState {
   void bore(const CycleDefinition& c, const Heights& h);
   void out_of(const CycleDefinition& c, const Heights& h);
   void tap(const CycleDefinition& c, const Heights& h);
+  void pocket(const CycleDefinition& c, const Heights& h);  // pockets.cpp
+  void table_angle(std::string_view comment);
 
   bool proves_out_ = false;
   std::string pecking_;            ///< which parameters cycle 205 has
@@ -102,6 +104,7 @@ class Interpreter : private BlockState {
   std::optional<CycleDefinition> cycle_;
   int tolerance_part_ = 0;  ///< lines of cycle 32 so far
   bool waits_for_dwell_ = false;
+  std::map<int, double> table_angles_;  ///< degrees, by tool: what a comment says of its ANGLE
 };
 
 }  // namespace capstan::verify::heidenhain

@@ -12,9 +12,9 @@ namespace capstan::verify::heidenhain {
 /// Reads programs of HEIDENHAIN TNC 640 and iTNC 530 in conversational language: BEGIN PGM to END PGM, block
 /// numbers, comments, BLK FORM, TOOL CALL and TOOL DEF, L with R0, RL and RR, F, FMAX and M91, incremental
 /// IX, IY and IZ, CC with C, CR, CP with IPA, STOP, M0 to M5, M7 to M9, M13, M14, M30, M99, cycles 9, 32 and
-/// 247 that act where they stand, and 200 to 203, 205 and 207, called by CYCL CALL or M99 and expanded into
-/// moves. What is beyond that (Q parameters, labels, jumps, other cycles, contours with RND and CHF, tilted
-/// planes, datum shifts, oversizes) becomes a fault, and reading goes on.
+/// 247 that act where they stand, and 200 to 203, 205, 207, 251 and 252, called by CYCL CALL or M99 and
+/// expanded into moves. What is beyond that (Q parameters, labels, jumps, other cycles, contours with RND and
+/// CHF, tilted planes, datum shifts, oversizes) becomes a fault, and reading goes on.
 ///
 /// The tool's length is that of TOOL CALL, which also ends any other. M91 counts from the machine's datum
 /// without the length; an increment in its block is a fault. M0 stops the spindle and the coolant, too, STOP

@@ -73,6 +73,7 @@ class Interpreter : private BlockState {
   // Cycles: cycles.cpp.
   void call_block(const Item& call, bool modal);
   void pattern(const Item& call, bool modal);
+  void pocket(const Item& call, bool modal);  // pockets.cpp
   std::optional<CycleCall> parameters(const Item& call);
   void tolerance_cycle(const CycleCall& c);
   void run_cycle(const CycleCall& c);

@@ -13,8 +13,9 @@ namespace capstan::verify::siemens {
 /// G17, G40 to G42, G53, G153 and SUPA, G54 to G57 and G505 to G599, G60, G64, G641, G642, G70, G71, G700,
 /// G710, G90, G91, G94, G95, I, J, CR=, TURN=, ADIS=, ADISPOS=, CTOL=, SPOS=, T by number and by name, D0 and
 /// D1, M0 to M9, M19, M30, MSG, CYCLE832, and CYCLE81, 82, 83, 84, 85, 86, 89 and 840, called once or modally
-/// by MCALL, there at the places of HOLES1 and HOLES2 too, and expanded into moves, kCycleBlockCap of them at
-/// most. What is beyond that (R parameters and other variables, expressions, jumps, subprograms, frames,
+/// by MCALL, there at the places of HOLES1 and HOLES2 too, and POCKET3 and POCKET4 roughing along a helix,
+/// whose path is the control's and the moves one that covers it; expanded into moves, kCycleBlockCap of them
+/// at most. What is beyond that (R parameters and other variables, expressions, jumps, subprograms, frames,
 /// other planes, modes of the cycles' later parameters) becomes a fault, and reading goes on.
 ///
 /// The tool's length is that of D1, stated behind each change: whether M6 takes D1 by itself is machine data

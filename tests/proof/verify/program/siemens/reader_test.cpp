@@ -104,6 +104,25 @@ TEST(SiemensCycles, PecksGrowShorterByDamAndBreakOrClearTheChips) {
   EXPECT_TRUE(finds(read("F100\nCYCLE83(15,1,1,-8,,-3,,0,0,0,1,1,1)\n"), "CHK-UNVERIFIABLE"));  // along X
 }
 
+// POCKET4 of radius 12 about (5, 6) with a mill of 10: from 1 to -3 in two levels; in along a helix of 4 that
+// goes down 1 in a turn, a whole turn at its foot, and a ring at 12 - 5 = 7. The second level is come to by
+// rapid as far above the first as the tool is fed from above RFP.
+TEST(SiemensCycles, APocketIsClearedLevelByLevelFromItsMiddle) {
+  const std::string tool = ";CAPSTAN TOOL T1 H1 length=100 diameter=10 end_mill\n";
+  const std::string call = "POCKET4(20,1,1,-3,12,5,6,2,0,0,500,200,0,21,8,,,4,1)\n";
+  const auto p = read(tool + call);
+  EXPECT_EQ(faults(p), "");
+  EXPECT_EQ(moves(p), (Moves{"R 9 6 20",   "R 9 6 2",   "A 1 6 1.5",  "A 9 6 1",   "A 1 6 0.5",  "A 9 6 0",
+                             "A 1 6 -0.5", "A 9 6 -1",  "A 1 6 -1",   "A 9 6 -1",  "L 12 6 -1",  "A -2 6 -1",
+                             "A 12 6 -1",  "R 12 6 2",  "R 9 6 2",    "R 9 6 0",   "A 1 6 -0.5", "A 9 6 -1",
+                             "A 1 6 -1.5", "A 9 6 -2",  "A 1 6 -2.5", "A 9 6 -3",  "A 1 6 -3",   "A 9 6 -3",
+                             "L 12 6 -3",  "A -2 6 -3", "A 12 6 -3",  "R 12 6 20", "R 5 6 20"}));
+  ASSERT_EQ(p.pockets.size(), 1U);
+  EXPECT_FALSE(p.pockets[0].clockwise);                // climbing, with M3
+  EXPECT_TRUE(finds(read(call), "CHK-UNVERIFIABLE"));  // how wide the tool is nobody says
+  EXPECT_TRUE(finds(read(tool + "POCKET3(1,2)\n"), "CHK-CYCLE"));
+}
+
 // HOLES1: from the end nearer to the tool (5, 6); FDIS before the first.
 TEST(SiemensCycles, ARowOfHolesIsMadeFromTheEndNearerToTheTool) {
   const auto p = read("F100\nMCALL CYCLE81(20,1,1,-8,)\nHOLES1(0,6,0,5,10,2)\nMCALL\nG0 X0\n");
@@ -207,7 +226,7 @@ TEST(SiemensCycles, WhatWouldBreakTheToolOrIsNotFollowedIsAFault) {
        })
     EXPECT_TRUE(finds(read(body), "CHK-CYCLE")) << body << faults(read(body));
   for (const char* body :
-       {"CYCLE81(15,1,1,R5)\n", "CYCLE81(15,1,1,-8,,0,10)\n", "POCKET3(1,2)\n", "CYCLE832(0.01,112001)\n",
+       {"CYCLE81(15,1,1,R5)\n", "CYCLE81(15,1,1,-8,,0,10)\n", "CYCLE72(1,2)\n", "CYCLE832(0.01,112001)\n",
         "R1=5\n", "TRANS X5\n", "GOTOF END\n", "X=R1\n", "G4 S100\n", "I=AC(5)\n"})
     EXPECT_TRUE(finds(read(body), "CHK-UNVERIFIABLE")) << body << faults(read(body));
   for (const char* body : {"G58 X5\n", "G74 Z=0\n", "G18\n", "G500.5\n"})

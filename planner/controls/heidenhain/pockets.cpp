@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "planner/controls/heidenhain/heidenhain.h"
+#include "planner/ground/base/number.h"
+
+// Pockets as cycles 251 and 252. Which parameters they have, and in which order: a public table of the
+// control's cycles; Q439 of later versions, to which of the feeds it refers, is left out. What they mean:
+// remembered, as tests/controls/heidenhain/golden/README.md says.
+
+namespace capstan::controls::heidenhain {
+namespace {
+
+using gcode::PocketCycle;
+
+/// Q370 at most: the control refuses more than 1.414.
+constexpr double kMostOverlap = 1.4;
+constexpr int kOverlapDecimals = 3;
+
+/// "+10.5", "-3", "+0".
+std::string with_sign(double value, int decimals) {
+  std::string text = trimmed(value, decimals);
+  return text.front() == '-' ? text : "+" + text;
+}
+
+}  // namespace
+
+std::optional<std::string> pocket_text(const PocketCycle& p) {
+  std::string out;
+  // ANGLE is rounded down: no steeper than planned.
+  const double slope = p.turn_mm / (2.0 * std::numbers::pi * p.helix_mm);
+  const double degrees = std::floor(std::atan(slope) * 180.0 / std::numbers::pi * 100.0) / 100.0;
+  if (!(degrees > 0.0)) return std::nullopt;
+  out += "; ANGLE of T" + std::to_string(p.tool) + " in the tool table: " + trimmed(degrees, 2) +
+         " degrees at most\n";
+  out += "L X" + with_sign(p.centre.x, p.decimals) + " Y" + with_sign(p.centre.y, p.decimals) + " R0 FMAX\n";
+  out += p.round ? "CYCL DEF 252 CIRCULAR POCKET" : "CYCL DEF 251 RECTANGULAR POCKET";
+  const auto q = [&](int number, const std::string& value, const char* meaning) {
+    out += " ~\n  Q" + std::to_string(number) + "=" + value + " ;" + meaning;
+  };
+  const auto n = [&](double v) { return with_sign(v, p.decimals); };
+  const std::string feed = trimmed(p.feed_mm_min, p.feed_decimals);
+  q(215, "+1", "MACHINING OPERATION");
+  if (p.round) {
+    q(223, n(p.length_mm), "CIRCLE DIAMETER");
+  } else {
+    q(218, n(p.length_mm), "FIRST SIDE LENGTH");
+    q(219, n(p.width_mm), "2ND SIDE LENGTH");
+    q(220, n(p.corner_mm), "CORNER RADIUS");
+  }
+  q(368, n(p.side_mm), "ALLOWANCE FOR SIDE");
+  if (!p.round) {
+    q(224, with_sign(p.angle_deg, kMostDecimals), "ANGLE OF ROTATION");
+    q(367, "+0", "POCKET POSITION");
+  }
+  q(207, feed, "FEED RATE FOR MILLNG");
+  q(351, p.climbs ? "+1" : "-1", "CLIMB OR UP-CUT");
+  q(201, n(p.floor_z - p.reference_z), "DEPTH");
+  q(202, n(p.level_mm), "PLUNGING DEPTH");
+  q(369, n(p.bottom_mm), "ALLOWANCE FOR FLOOR");
+  q(206, trimmed(p.ramp_feed_mm_min, p.feed_decimals), "FEED RATE FOR PLNGNG");
+  q(338, "+0", "INFEED FOR FINISHING");
+  q(200, n(p.start_z - p.reference_z), "SET-UP CLEARANCE");
+  q(203, n(p.reference_z), "SURFACE COORDINATE");
+  q(204, n(p.back_z - p.reference_z), "2ND SET-UP CLEARANCE");
+  const double overlap = std::min(kMostOverlap, p.over_mm / (0.5 * p.cutter_mm));
+  q(370, with_sign(std::floor(overlap * 1000.0 + 1e-6) / 1000.0, kOverlapDecimals), "TOOL PATH OVERLAP");
+  q(366, "+1", "PLUNGE");
+  q(385, feed, "FINISHING FEED RATE");
+  return out + "\nCYCL CALL";
+}
+
+}  // namespace capstan::controls::heidenhain
