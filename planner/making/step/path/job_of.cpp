@@ -9,6 +9,7 @@
 #include "planner/model/features/resolve.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/ramp.h"
+#include "planner/model/plan/decision/by_planning.h"
 
 // What the nouns of an operation say, as the values that the path is made from.
 
@@ -234,6 +235,13 @@ toolpath::PathJob job_of(const PlanSoFar& p, const StepDraft& step, const model:
     job.rotation_ccw.reset();
     job.feed_direction.reset();
     job.stepover_left.reset();
+  }
+  // What planning chose bounds how far passes are apart, which are equally wide; what a file gives is kept.
+  if (const auto* o = m.get<model::Two5dMillingOperation>(step.operation);
+      o != nullptr && job.overlap && !step.proposed && !(job.radial_depth_mm > 0.0) &&
+      model::by_planning(p.plan.ledger.find(o->its_machining_strategy, "overlap"))) {
+    job.radial_depth_mm = std::max(0.0, 1.0 - *job.overlap) * step.cutter.cutting_diameter_mm;
+    job.overlap.reset();
   }
   // Inwards with the material beside the pass on the right of a climbing right-hand cutter: clockwise.
   if (step.inwards && !job.constant_engagement) {
