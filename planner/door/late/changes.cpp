@@ -97,18 +97,15 @@ Change compared(const Plan& before, const Plan& after, const StepResult& a, cons
   } else if (measured) {
     out.add(std::nullopt, cutter_text(after, b) + " as measured, instead of " + cutter_text(before, a));
   }
-  // Depth and width are those of the cut. What a measured diameter moves the path by, they follow it.
+  // The width is that of the cut: of what is left on a wall, by which a measured diameter moves it.
   const auto followed_mm = [&] {
     const model::Cutter* was = model::find_cutter(before, a.cutter_id);
     const model::Cutter* is = model::find_cutter(after, b.cutter_id);
     return was && is ? std::abs(was->cutting_diameter_mm - is->cutting_diameter_mm) : 0.0;
   };
-  const double follows = measured ? followed_mm() : 0.0;
-  const auto other = [&](double x, double y) {
-    return !model::same_value(x, y) && std::abs(x - y) > follows;
-  };
-  const bool depth = other(a.axial_depth_mm, b.axial_depth_mm);
-  const bool width = other(a.radial_depth_mm, b.radial_depth_mm);
+  const bool depth = !model::same_value(a.axial_depth_mm, b.axial_depth_mm);
+  const bool width = !model::same_value(a.radial_depth_mm, b.radial_depth_mm) &&
+                     std::abs(a.radial_depth_mm - b.radial_depth_mm) > (measured ? followed_mm() : 0.0);
   if (depth || width) {
     std::string words;
     if (shown(a.axial_depth_mm, b.axial_depth_mm, 3))

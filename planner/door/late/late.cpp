@@ -374,16 +374,18 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
   const auto nothing_fits = [&] {
     return !out && (out.error().code == "LATE-OPEN" || out.error().code == "LATE-UNSAFE");
   };
-  if (nothing_fits() && !matched->worn.empty()) {
-    // As it was cut before a worn mill does not do: its operations are bound anew.
+  if ((nothing_fits() || (!out && out.error().code == "LATE-REST")) && !matched->worn.empty()) {
     for (const auto& w : matched->worn) reopened->ledger.reopen({w.operation, "its_tool"});
     auto said = job.take_diagnostics();
-    if (auto anew = fallen_back()) {
-      out = std::move(anew);
+    auto anew = fallen_back();
+    if (anew) {
+      why.push_back("as they were to be cut the mills of another diameter do not do (" + out.error().message +
+                    "); their tools and cuts were chosen anew");
     } else {
       (void)job.take_diagnostics();
       for (Diagnostic& d : said) job.report(std::move(d));
     }
+    if (anew || job.stop_requested()) out = std::move(anew);
   }
   const bool nothing_cut = !window || window->first == 0;
   if (nothing_fits() && nothing_cut && !matched->why.empty() && planning_chose_all(plan)) {

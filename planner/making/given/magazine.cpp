@@ -258,15 +258,16 @@ Result<Matched> match_loaded(const model::Plan& plan, std::vector<Cutter>& libra
       return c;
     };
     if (there == nullptr || has_worn) {
+      const bool follows = has_worn && !fixed_by_its_path(plan, r);
       const std::string what =
-          there == nullptr
-              ? " " + out_of_use(gone, *wanted).value_or(missing_as(library, *wanted)) + "; re-opened"
-              : " measures " + trimmed(there->cutting_diameter_mm, 3) + " mm as T" +
-                    std::to_string(there->pocket) + "; its path is made anew";
+          (there == nullptr ? " " + out_of_use(gone, *wanted).value_or(missing_as(library, *wanted))
+                            : " measures " + trimmed(there->cutting_diameter_mm, 3) + " mm as T" +
+                                  std::to_string(there->pocket)) +
+          (follows ? "; its path is made anew" : "; re-opened");
       out.why.push_back("operation '" + op->its_id.value_or("") + "': tool '" + wanted->id + "' (" +
                         std::string(model::to_text(wanted->cutter_class)) + " " +
                         trimmed(wanted->cutting_diameter_mm, 3) + " mm)" + what);
-      if (has_worn && !fixed_by_its_path(plan, r)) {
+      if (follows) {
         out.worn.push_back({r, as_loaded(), out.why.back()});
       } else {
         out.open.push_back({r, "its_tool"});
