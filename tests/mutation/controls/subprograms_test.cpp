@@ -34,7 +34,7 @@ model::Plan three_holes(const std::string& dialect) {
   }
   k.step<model::Drilling>("drill", k.hole("H", 15, 15, 8, 20), "d8", p, 225, 1500);
   k.plan.machine = controls::with_control(std::move(k.plan.machine), dialect);
-  k.plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "9001"}}};
+  k.plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "7001"}}};
   k.plan.setups[0].work_offset = std::string(controls::find_dialect(dialect)->work_offsets[0]);
   return k.plan;
 }
@@ -62,14 +62,14 @@ TEST(Subprograms, EqualHolesAreCallsThatAreFollowedMoveForMove) {
     Job job;
     const auto text = controls::write_program(plan, job);
     ASSERT_TRUE(text) << to_text(text.error());
-    EXPECT_NE(text->find("\nM98 P9001\nG0 X40.\nM98 P9001\nG0 X65.\nM98 P9001\n"), std::string::npos)
+    EXPECT_NE(text->find("\nM98 P7001\nG0 X40.\nM98 P7001\nG0 X65.\nM98 P7001\n"), std::string::npos)
         << *text;
     EXPECT_EQ(departures(plan, *text), "") << *text;
     for (const auto& [from, to] :
-         {std::pair{"G1 Z-16.", "G1 Z-16.003"}, std::pair{"G0 X40.\nM98 P9001\n", "G0 X40.\n"},
-          std::pair{"G0 X40.\nM98 P9001", "G0 X40.\nM98 P9002"},
-          std::pair{"G0 X40.\nM98 P9001", "G0 X40.\nM98 P9001\nM98 P9001"}, std::pair{"\nM99\n", "\n"},
-          std::pair{"\nO9001\n", "\nO9003\n"}})
+         {std::pair{"G1 Z-16.", "G1 Z-16.003"}, std::pair{"G0 X40.\nM98 P7001\n", "G0 X40.\n"},
+          std::pair{"G0 X40.\nM98 P7001", "G0 X40.\nM98 P7002"},
+          std::pair{"G0 X40.\nM98 P7001", "G0 X40.\nM98 P7001\nM98 P7001"}, std::pair{"\nM99\n", "\n"},
+          std::pair{"\nO7001\n", "\nO7003\n"}})
       EXPECT_NE(departures(plan, replaced(*text, from, to)), "") << dialect << ": " << to;
   }
 }

@@ -49,6 +49,7 @@ TEST(ControlOptions, OfAnotherControlOrWithAnotherValueAreRefusedWithFileLineAnd
   for (const Wrong& w :
        {Wrong{"dialect: fanuc, retract: g30", "MACHINE-CONTROL", "'g30' is none of: g53 g28"},
         Wrong{"dialect: fanuc, program_number: 12345", "MACHINE-CONTROL", "no whole number from 1 to 9999"},
+        Wrong{"dialect: fanuc, subprograms: 9001", "MACHINE-CONTROL", "no whole number from 1 to 7999"},
         Wrong{"dialect: fanuc, program_number: 12.5", "MACHINE-CONTROL", "'12.5' is no whole number"},
         Wrong{"dialect: siemens, program_number: 12", "DATA-UNKNOWN", "program_number"},
         Wrong{"dialect: fanuc, smoothness: yes", "DATA-UNKNOWN", "smoothness"},
