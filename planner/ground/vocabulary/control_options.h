@@ -149,7 +149,7 @@ inline constexpr std::array kControlOptions{
         "overwritten; those of 8000 and up can be locked, and O9000 and up are the machine builder's, of "
         "which "
         "M codes call O9001 to O9009",
-        "0i 13.3 (M98, M99), 12.1; Haas M98, M99"},
+        "0i 13.3 (M98, M99), 12.1"},
     ControlOptionRow{"tool_call", "number name", 0, 0, false,
                      "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
                      "tools names it",

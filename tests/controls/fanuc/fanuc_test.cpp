@@ -213,22 +213,20 @@ TEST(FanucProgram, AnOptionThatTheControlDoesNotHaveIsRefused) {
 }
 
 TEST(FanucProgram, EqualHolesOfExplicitMovesAreCallsOfASubprogramWhereTheMachineStatesItsNumber) {
-  const auto with = [](const char* dialect, std::vector<geometry::Vec2> places, const char* number) {
-    Plan plan = plans::pattern_plan(dialect, places);
-    plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", number}}};
+  const auto with = [](const std::vector<geometry::Vec2>& places) {
+    Plan plan = plans::pattern_plan("fanuc", places);
+    plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "7001"}}};
     return program_of(plan);
   };
   const std::vector<geometry::Vec2> four{{10, 10}, {86, 10}, {10, 70}, {86, 70}};
-  for (const char* dialect : {"fanuc", "haas"}) {
-    const std::string text = with(dialect, four, "7001");
-    EXPECT_THAT(text,
-                HasSubstr("\nM98 P7001\nG0 X86.\nM98 P7001\nG0 X10. Y70.\nM98 P7001\nG0 X86.\nM98 P7001\n"));
-    EXPECT_THAT(text, HasSubstr("\nM30\nO7001\nG0 Z2.\nG1 Z-18.2 F180.\nG0 Z10.\nM99\n%\n"));
-  }
+  const std::string text = with(four);
+  EXPECT_THAT(text,
+              HasSubstr("\nM98 P7001\nG0 X86.\nM98 P7001\nG0 X10. Y70.\nM98 P7001\nG0 X86.\nM98 P7001\n"));
+  EXPECT_THAT(text, HasSubstr("\nM30\nO7001\nG0 Z2.\nG1 Z-18.2 F180.\nG0 Z10.\nM99\n%\n"));
   Plan unstated = plans::pattern_plan("fanuc", four);
   choose(unstated, "cycles", "explicit");
   EXPECT_THAT(program_of(unstated), Not(HasSubstr("M98")));
-  EXPECT_THAT(with("fanuc", {{10, 10}, {86, 10}}, "7001"), Not(HasSubstr("M98")));
+  EXPECT_THAT(with({{10, 10}, {86, 10}}), Not(HasSubstr("M98")));
   Plan numbered = plans::pattern_plan("fanuc", four);
   numbered.machine.control_options =
       model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "7001"}, {"block_numbers", "all"}}};
@@ -250,6 +248,18 @@ Plan two_patterns() {
   testing::add_step(plan, "shallow pattern", "d8", std::move(p), 1200, 180);
   choose(plan, "cycles", "explicit");
   return plan;
+}
+
+// Haas 96-8000, M98: it calls a program of the control's list, not one behind M30 of the file.
+TEST(FanucProgram, AHaasHasNoSubprogramsInItsFile) {
+  Plan plan = plans::pattern_plan("haas", {{10, 10}, {86, 10}, {10, 70}, {86, 70}});
+  choose(plan, "cycles", "explicit");
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("M98")));
+  choose(plan, "subprograms", "7001");
+  const auto text = written(plan);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "OUT-OPTION");
+  EXPECT_THAT(text.error().message, HasSubstr("subprograms"));
 }
 
 // FANUC B-63844EN/02, 12.1: O9000 and up are the machine builder's, O8000 and up can be locked.

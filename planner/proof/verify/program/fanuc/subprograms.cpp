@@ -49,13 +49,18 @@ struct Body {
 
 }  // namespace
 
-std::vector<RunLine> run_lines(std::string_view text, std::size_t most) {
+std::vector<RunLine> lines_of(std::string_view text) {
   std::vector<RunLine> rows;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     rows.push_back({text.substr(at, end - at), static_cast<long>(rows.size()) + 1});
     at = end + 1;
   }
+  return rows;
+}
+
+std::vector<RunLine> run_lines(std::string_view text, std::size_t most) {
+  const std::vector<RunLine> rows = lines_of(text);
   const auto ended =
       std::find_if(rows.begin(), rows.end(), [](const RunLine& r) { return code_of(r.text) == "M30"; });
   std::map<long, Body> bodies;
