@@ -283,6 +283,26 @@ TEST(FanucProgram, NoSubprogramHasANumberAbove7999) {
   }
 }
 
+TEST(FanucProgram, AProgramWithTheNumberOfOneOfItsSubprogramsIsRefused) {
+  for (const char* number : {"7001", "7002"}) {
+    Plan plan = two_patterns();
+    choose(plan, "subprograms", "7001");
+    choose(plan, "program_number", number);
+    const auto text = written(plan);
+    ASSERT_FALSE(text) << number;
+    EXPECT_EQ(text.error().code, "OUT-OPTION");
+    EXPECT_THAT(text.error().message, HasSubstr("program_number: O" + std::string(number)));
+    EXPECT_THAT(text.error().message, HasSubstr("O7001 to O7002"));
+    EXPECT_THAT(text.error().hint, HasSubstr("another program_number"));
+  }
+  for (const char* number : {"7000", "7003"}) {
+    Plan plan = two_patterns();
+    choose(plan, "subprograms", "7001");
+    choose(plan, "program_number", number);
+    EXPECT_THAT(program_of(plan), HasSubstr("%\nO" + std::string(number) + "\n"));
+  }
+}
+
 TEST(FanucProgram, ADrillThatPecksIsWrittenWithItsOwnMoves) {
   Plan plan = holes_plan("fanuc");
   CutterPath p;

@@ -67,7 +67,7 @@ TEST(Subprograms, EqualHolesAreCallsThatAreFollowedMoveForMove) {
        {std::pair{"G1 Z-16.", "G1 Z-16.003"}, std::pair{"G0 X40.\nM98 P7001\n", "G0 X40.\n"},
         std::pair{"G0 X40.\nM98 P7001", "G0 X40.\nM98 P7002"},
         std::pair{"G0 X40.\nM98 P7001", "G0 X40.\nM98 P7001\nM98 P7001"}, std::pair{"\nM99\n", "\n"},
-        std::pair{"\nO7001\n", "\nO7003\n"}})
+        std::pair{"\nO7001\n", "\nO7003\n"}, std::pair{"%\nO0001\n", "%\nO7001\n"}})
     EXPECT_NE(departures(plan, replaced(*text, from, to)), "") << to;
 }
 

@@ -34,6 +34,11 @@ TEST(FanucSubprograms, WhatIsNotFollowedStaysForTheReaderToSay) {
        {"O7001\nG0 Z2.\n%\n", "O7001\nM98 P7001\nM99\n%\n", "O7001\nG0 Z2.\nM99\nO7001\nM99\n%\n"})
     EXPECT_NE(run("%\nO1\nM98 P7001\nM30\n" + std::string(subs)).find("3 M98 P7001"), std::string::npos)
         << subs;
+  // The program itself has that number, or another one in it: which of them is called?
+  for (const char* name : {"O7001", "O7001 (PLATE)", "O 07001", "(PLATE O2) O7001", "N1 O7001", "O1\nO7001"})
+    EXPECT_NE(run("%\n" + std::string(name) + "\nM98 P7001\n" + end).find(" M98 P7001"), std::string::npos)
+        << name;
+  EXPECT_EQ(run("%\nO1 (AS O7001)\nM98 P7001\n" + end).find("M98"), std::string::npos);
   // More lines than may come of it.
   EXPECT_NE(run("%\nO1\nM98 P7001\nM98 P7001\n" + end, 3).find("3 M98 P7001"), std::string::npos);
 }
