@@ -43,7 +43,7 @@ inline constexpr std::array kControlOptions{
         "G86, G89, "
         "and G33.1 for threads; Mach3: G81, G82, G85, G86, G89), equal holes of a step at once; or explicit "
         "moves; pocket: as feature, and pockets as cycles of the control (Siemens: POCKET3, POCKET4; "
-        "Heidenhain: CYCL DEF 251, 252; Haas: G13), which take a path of its own",
+        "Heidenhain: CYCL DEF 251, 252), which take a path of its own",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
         "2.9, G-codes, canned cycles"},
     ControlOptionRow{
