@@ -7,6 +7,7 @@
 #include "planner/controls/gcode/moves/patterns.h"
 #include "planner/controls/gcode/options.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/control_options.h"
 #include "planner/model/plan/resources/control_options.h"
 
 // What the machine's options make of the words of its programs.
@@ -18,8 +19,7 @@ using gcode::HoleCycle;
 using model::control_number;
 using model::control_option;
 
-constexpr int kPitchDecimals = 4;    // FANUC B-63833EN-1/02, 9: F in G95 counts 0.0001 mm/rev
-constexpr int kMostPrograms = 9999;  // 0i 12.1: O of four digits
+constexpr int kPitchDecimals = 4;  // FANUC B-63833EN-1/02, 9: F in G95 counts 0.0001 mm/rev
 constexpr double kClosureMm =
     0.002;  // of arcs; the least that B-63844EN/02, 4.4, is met with (parameter 3410)
 
@@ -163,7 +163,7 @@ gcode::Words words_of(const model::Machine& machine) {
   w.first_subprogram = static_cast<int>(control_number(machine, "subprograms", 0.0));
   // The numbers of their blocks would be those of the program again.
   if (w.first_subprogram > 0 && w.block_numbers != gcode::BlockNumbers::kAll) {
-    w.last_subprogram = kMostPrograms;
+    w.last_subprogram = model::kLastOwnProgram;
     w.call = [](int number) { return "M98 P" + std::to_string(number); };
     w.subprogram = [](int number, const std::string& lines) {
       return program_number(number) + "\n" + lines + "M99";

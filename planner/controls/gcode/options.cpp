@@ -53,4 +53,16 @@ Status options_right(const model::Plan& plan) {
   return {};
 }
 
+Status numbers_differ(const model::Machine& machine, int first, std::size_t count) {
+  const auto own = static_cast<int>(model::control_number(machine, "program_number", 0.0));
+  const int last = first + static_cast<int>(count) - 1;
+  if (own < first || own > last) return {};
+  const auto o = [](int number) { return "O" + std::to_string(number); };
+  return fail({.code = "OUT-OPTION",
+               .message = "machine '" + machine.id + "': program_number: " + o(own) +
+                          " is also a subprogram of this program, which has " + o(first) +
+                          (last > first ? " to " + o(last) : "") + " by 'subprograms'",
+               .hint = "state another program_number or other subprograms under the machine's control"});
+}
+
 }  // namespace capstan::controls::gcode

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,5 +29,9 @@ struct ThroughCodes {
 
 /// Fails  OUT-OPTION for an option of the plan's machine that its control does not have, or not so.
 [[nodiscard]] Status options_right(const model::Plan& plan);
+
+/// Fails  OUT-OPTION where the number of the machine's programs (`program_number`) is one of the `count`
+/// subprograms from number `first` on.
+[[nodiscard]] Status numbers_differ(const model::Machine& machine, int first, std::size_t count);
 
 }  // namespace capstan::controls::gcode

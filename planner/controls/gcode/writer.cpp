@@ -84,6 +84,8 @@ class Writer {
     stop();
     shop_blocks("end_blocks");
     program_.line(words_.last);
+    if (auto ok = numbers_differ(plan_.machine, words_.first_subprogram, subprograms_.size()); !ok)
+      return tl::unexpected(ok.error());
     for (std::size_t n = 0; n < subprograms_.size(); ++n)
       program_.line(words_.subprogram(words_.first_subprogram + static_cast<int>(n), subprograms_[n]));
     if (!words_.behind.empty()) program_.line(words_.behind);

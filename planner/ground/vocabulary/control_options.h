@@ -25,6 +25,10 @@ struct ControlOptionRow {
   Form form = Form::kAny;
 };
 
+/// The last O that is the shop's: O8000 to O8999 can be locked against editing, O9000 to O9999 are the
+/// machine builder's. Source  FANUC B-63844EN/02, 12.1, and parameter 3202 (NE8, NE9): numbers remembered.
+inline constexpr int kLastOwnProgram = 7999;
+
 /// Sources: FANUC Series 0i-MODEL B operator's manual B-63844EN/02 ("0i"), FANUC Series 30i user's manual
 /// (machining centre) B-63944EN-2/02 ("30i"), FANUC connection manual B-63833EN-1/02 ("0i connection"), Haas
 /// mill operator's manual 96-8000 ("Haas"), and for Siemens, Heidenhain and Grbl those of
@@ -39,7 +43,7 @@ inline constexpr std::array kControlOptions{
         "G86, G89, "
         "and G33.1 for threads; Mach3: G81, G82, G85, G86, G89), equal holes of a step at once; or explicit "
         "moves; pocket: as feature, and pockets as cycles of the control (Siemens: POCKET3, POCKET4; "
-        "Heidenhain: CYCL DEF 251, 252; Haas: G13), which take a path of its own",
+        "Heidenhain: CYCL DEF 251, 252), which take a path of its own",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
         "2.9, G-codes, canned cycles"},
     ControlOptionRow{
@@ -139,11 +143,13 @@ inline constexpr std::array kControlOptions{
                      "how far its ball's centre is below the probe; not stated: no macro is written",
                      "the maker of the probe"},
     ControlOptionRow{
-        "subprograms", "", 0, 9999, true,
+        "subprograms", "", 1, kLastOwnProgram, true,
         "O of the first subprogram of the file, which M98 P calls at each of three or more equal holes of "
-        "explicit "
-        "moves; 0: none. Programs of that number and above in the control's memory are overwritten",
-        "0i 13.3 (M98, M99); Haas M98, M99"},
+        "explicit moves; not stated: none. Programs of that number and above in the control's memory are "
+        "overwritten; those of 8000 and up can be locked, and O9000 and up are the machine builder's, of "
+        "which "
+        "M codes call O9001 to O9009",
+        "0i 13.3 (M98, M99), 12.1"},
     ControlOptionRow{"tool_call", "number name", 0, 0, false,
                      "a tool is called by its number, T5, or by its id, T=\"em10\": as the control's list of "
                      "tools names it",

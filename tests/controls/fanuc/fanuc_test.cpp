@@ -213,24 +213,94 @@ TEST(FanucProgram, AnOptionThatTheControlDoesNotHaveIsRefused) {
 }
 
 TEST(FanucProgram, EqualHolesOfExplicitMovesAreCallsOfASubprogramWhereTheMachineStatesItsNumber) {
-  const auto with = [](const char* dialect, std::vector<geometry::Vec2> places, const char* number) {
-    Plan plan = plans::pattern_plan(dialect, places);
-    plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", number}}};
+  const auto with = [](const std::vector<geometry::Vec2>& places) {
+    Plan plan = plans::pattern_plan("fanuc", places);
+    plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "7001"}}};
     return program_of(plan);
   };
   const std::vector<geometry::Vec2> four{{10, 10}, {86, 10}, {10, 70}, {86, 70}};
-  for (const char* dialect : {"fanuc", "haas"}) {
-    const std::string text = with(dialect, four, "9001");
-    EXPECT_THAT(text,
-                HasSubstr("\nM98 P9001\nG0 X86.\nM98 P9001\nG0 X10. Y70.\nM98 P9001\nG0 X86.\nM98 P9001\n"));
-    EXPECT_THAT(text, HasSubstr("\nM30\nO9001\nG0 Z2.\nG1 Z-18.2 F180.\nG0 Z10.\nM99\n%\n"));
-  }
-  EXPECT_THAT(with("fanuc", four, "0"), Not(HasSubstr("M98")));
-  EXPECT_THAT(with("fanuc", {{10, 10}, {86, 10}}, "9001"), Not(HasSubstr("M98")));
+  const std::string text = with(four);
+  EXPECT_THAT(text,
+              HasSubstr("\nM98 P7001\nG0 X86.\nM98 P7001\nG0 X10. Y70.\nM98 P7001\nG0 X86.\nM98 P7001\n"));
+  EXPECT_THAT(text, HasSubstr("\nM30\nO7001\nG0 Z2.\nG1 Z-18.2 F180.\nG0 Z10.\nM99\n%\n"));
+  Plan unstated = plans::pattern_plan("fanuc", four);
+  choose(unstated, "cycles", "explicit");
+  EXPECT_THAT(program_of(unstated), Not(HasSubstr("M98")));
+  EXPECT_THAT(with({{10, 10}, {86, 10}}), Not(HasSubstr("M98")));
   Plan numbered = plans::pattern_plan("fanuc", four);
   numbered.machine.control_options =
-      model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "9001"}, {"block_numbers", "all"}}};
+      model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "7001"}, {"block_numbers", "all"}}};
   EXPECT_THAT(program_of(numbered), Not(HasSubstr("M98")));
+}
+
+/// Four equal holes, and in a second step four that go to -9.
+Plan two_patterns() {
+  const std::vector<geometry::Vec2> four{{10, 10}, {86, 10}, {10, 70}, {86, 70}};
+  Plan plan = plans::pattern_plan("fanuc", four);
+  CutterPath p;
+  p.start({10, 10, 10});
+  for (const geometry::Vec2 at : four) {
+    if (at != four.front()) p.rapid({at.x, at.y, 10});
+    p.rapid({at.x, at.y, 2});
+    p.line({at.x, at.y, -9}, MoveRole::kDrill);
+    p.rapid({at.x, at.y, 10}, MoveRole::kRetract);
+  }
+  testing::add_step(plan, "shallow pattern", "d8", std::move(p), 1200, 180);
+  choose(plan, "cycles", "explicit");
+  return plan;
+}
+
+// Haas 96-8000, M98: it calls a program of the control's list, not one behind M30 of the file.
+TEST(FanucProgram, AHaasHasNoSubprogramsInItsFile) {
+  Plan plan = plans::pattern_plan("haas", {{10, 10}, {86, 10}, {10, 70}, {86, 70}});
+  choose(plan, "cycles", "explicit");
+  EXPECT_THAT(program_of(plan), Not(HasSubstr("M98")));
+  choose(plan, "subprograms", "7001");
+  const auto text = written(plan);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "OUT-OPTION");
+  EXPECT_THAT(text.error().message, HasSubstr("subprograms"));
+}
+
+// FANUC B-63844EN/02, 12.1: O9000 and up are the machine builder's, O8000 and up can be locked.
+TEST(FanucProgram, NoSubprogramHasANumberAbove7999) {
+  Plan plan = two_patterns();
+  choose(plan, "subprograms", "7998");
+  EXPECT_THAT(program_of(plan), HasSubstr("\nO7999\nG0 Z2.\nG1 Z-9. F180.\nG0 Z10.\nM99\n%\n"));
+  plan = two_patterns();
+  choose(plan, "subprograms", "7999");
+  const std::string last = program_of(plan);
+  EXPECT_THAT(last, HasSubstr("\nM98 P7999\n"));
+  EXPECT_THAT(last, Not(HasSubstr("M98 P8000")));
+  EXPECT_THAT(last, HasSubstr("\nG1 Z-9. F180.\nG0 Z10.\nG0 X86.\n"));
+  for (const char* number : {"0", "8000", "9001"}) {
+    plan = two_patterns();
+    choose(plan, "subprograms", number);
+    const auto text = written(plan);
+    ASSERT_FALSE(text) << number;
+    EXPECT_EQ(text.error().code, "OUT-OPTION");
+    EXPECT_THAT(text.error().message, HasSubstr("no whole number from 1 to 7999"));
+  }
+}
+
+TEST(FanucProgram, AProgramWithTheNumberOfOneOfItsSubprogramsIsRefused) {
+  for (const char* number : {"7001", "7002"}) {
+    Plan plan = two_patterns();
+    choose(plan, "subprograms", "7001");
+    choose(plan, "program_number", number);
+    const auto text = written(plan);
+    ASSERT_FALSE(text) << number;
+    EXPECT_EQ(text.error().code, "OUT-OPTION");
+    EXPECT_THAT(text.error().message, HasSubstr("program_number: O" + std::string(number)));
+    EXPECT_THAT(text.error().message, HasSubstr("O7001 to O7002"));
+    EXPECT_THAT(text.error().hint, HasSubstr("another program_number"));
+  }
+  for (const char* number : {"7000", "7003"}) {
+    Plan plan = two_patterns();
+    choose(plan, "subprograms", "7001");
+    choose(plan, "program_number", number);
+    EXPECT_THAT(program_of(plan), HasSubstr("%\nO" + std::string(number) + "\n"));
+  }
 }
 
 TEST(FanucProgram, ADrillThatPecksIsWrittenWithItsOwnMoves) {

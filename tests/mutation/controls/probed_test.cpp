@@ -122,6 +122,27 @@ TEST(ProbeMacro, WhatIsNotProvenClearStaysAStopThatSaysWhy) {
        "clear of jaw");
 }
 
+// Without its point X12 is 0.012 mm on one machine and 12 mm on another: FANUC parameter 3401, Haas settings
+// 77 and 162. A Siemens counts millimetres, and zero is zero.
+TEST(ProbeMacro, APlaceWithoutADecimalPointIsFoundWhereAControlMayCountThousandths) {
+  const Touched at{{12, 80, 8}, {0, 0, -1}, 5.0};
+  for (const char* dialect : {"fanuc", "haas"}) {
+    const model::Plan plan = measured(at, dialect, kProbe);
+    const std::string text = text_of(plan);
+    const std::string call = "G65 P9810 X12. Y80. Z8.\nG65 P9811 Z0. T20\n";
+    ASSERT_EQ(found(plan, text), "") << text;
+    for (const char* other :
+         {"G65 P9810 X12 Y80. Z8.\nG65 P9811 Z0. T20\n", "G65 P9810 X12. Y80 Z8.\nG65 P9811 Z0. T20\n",
+          "G65 P9810 X12. Y80. Z8\nG65 P9811 Z0. T20\n"})
+      EXPECT_NE(found(plan, replaced(text, call, other)), "") << dialect << " " << other;
+    EXPECT_EQ(found(plan, replaced(text, call, "G65 P9810 X12.0 Y80. Z8.\nG65 P9811 Z0 T20\n")), "");
+  }
+  const model::Plan siemens = measured(at, "siemens", kProbe);
+  const std::string text = text_of(siemens);
+  EXPECT_TRUE(has(text, "G65 P9810 X12 Y80 Z8\n")) << text;
+  EXPECT_EQ(found(siemens, text), "");
+}
+
 TEST(ProbeMacro, AMacroElsewhereOrOtherwiseIsFound) {
   const model::Plan plan = measured(kTop, "fanuc", kProbe);
   const std::string text = text_of(plan);

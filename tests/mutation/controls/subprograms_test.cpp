@@ -18,7 +18,7 @@ namespace plans = verify::testing;
 using model::MoveRole;
 
 /// Three holes in one step, pecked: the chip is cleared once.
-model::Plan three_holes(const std::string& dialect) {
+model::Plan three_holes() {
   auto k = plans::empty_plan();
   k.plan.machine.spindle.spin_up_s = 1.0;
   model::CutterPath p;
@@ -33,9 +33,9 @@ model::Plan three_holes(const std::string& dialect) {
     p.rapid({x, 15, 10}, MoveRole::kRetract);
   }
   k.step<model::Drilling>("drill", k.hole("H", 15, 15, 8, 20), "d8", p, 225, 1500);
-  k.plan.machine = controls::with_control(std::move(k.plan.machine), dialect);
-  k.plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "9001"}}};
-  k.plan.setups[0].work_offset = std::string(controls::find_dialect(dialect)->work_offsets[0]);
+  k.plan.machine = controls::with_control(std::move(k.plan.machine), "fanuc");
+  k.plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}, {"subprograms", "7001"}}};
+  k.plan.setups[0].work_offset = std::string(controls::find_dialect("fanuc")->work_offsets[0]);
   return k.plan;
 }
 
@@ -57,21 +57,29 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST(Subprograms, EqualHolesAreCallsThatAreFollowedMoveForMove) {
-  for (const char* dialect : {"fanuc", "haas"}) {
-    const model::Plan plan = three_holes(dialect);
-    Job job;
-    const auto text = controls::write_program(plan, job);
-    ASSERT_TRUE(text) << to_text(text.error());
-    EXPECT_NE(text->find("\nM98 P9001\nG0 X40.\nM98 P9001\nG0 X65.\nM98 P9001\n"), std::string::npos)
-        << *text;
-    EXPECT_EQ(departures(plan, *text), "") << *text;
-    for (const auto& [from, to] :
-         {std::pair{"G1 Z-16.", "G1 Z-16.003"}, std::pair{"G0 X40.\nM98 P9001\n", "G0 X40.\n"},
-          std::pair{"G0 X40.\nM98 P9001", "G0 X40.\nM98 P9002"},
-          std::pair{"G0 X40.\nM98 P9001", "G0 X40.\nM98 P9001\nM98 P9001"}, std::pair{"\nM99\n", "\n"},
-          std::pair{"\nO9001\n", "\nO9003\n"}})
-      EXPECT_NE(departures(plan, replaced(*text, from, to)), "") << dialect << ": " << to;
-  }
+  const model::Plan plan = three_holes();
+  Job job;
+  const auto text = controls::write_program(plan, job);
+  ASSERT_TRUE(text) << to_text(text.error());
+  EXPECT_NE(text->find("\nM98 P7001\nG0 X40.\nM98 P7001\nG0 X65.\nM98 P7001\n"), std::string::npos) << *text;
+  EXPECT_EQ(departures(plan, *text), "") << *text;
+  for (const auto& [from, to] :
+       {std::pair{"G1 Z-16.", "G1 Z-16.003"}, std::pair{"G0 X40.\nM98 P7001\n", "G0 X40.\n"},
+        std::pair{"G0 X40.\nM98 P7001", "G0 X40.\nM98 P7002"},
+        std::pair{"G0 X40.\nM98 P7001", "G0 X40.\nM98 P7001\nM98 P7001"}, std::pair{"\nM99\n", "\n"},
+        std::pair{"\nO7001\n", "\nO7003\n"}, std::pair{"%\nO0001\n", "%\nO7001\n"}})
+    EXPECT_NE(departures(plan, replaced(*text, from, to)), "") << to;
+}
+
+// The same text is no program of a Haas: its M98 calls a program of the list.
+TEST(Subprograms, OfAHaasAreNotFollowed) {
+  model::Plan plan = three_holes();
+  Job job;
+  const auto text = controls::write_program(plan, job);
+  ASSERT_TRUE(text) << to_text(text.error());
+  plan.machine = controls::with_control(std::move(plan.machine), "haas");
+  plan.machine.control_options = model::ControlOptions{{{"cycles", "explicit"}}};
+  EXPECT_NE(departures(plan, *text).find("M98"), std::string::npos) << departures(plan, *text);
 }
 
 }  // namespace

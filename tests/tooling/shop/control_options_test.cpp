@@ -49,8 +49,10 @@ TEST(ControlOptions, OfAnotherControlOrWithAnotherValueAreRefusedWithFileLineAnd
   for (const Wrong& w :
        {Wrong{"dialect: fanuc, retract: g30", "MACHINE-CONTROL", "'g30' is none of: g53 g28"},
         Wrong{"dialect: fanuc, program_number: 12345", "MACHINE-CONTROL", "no whole number from 1 to 9999"},
+        Wrong{"dialect: fanuc, subprograms: 9001", "MACHINE-CONTROL", "no whole number from 1 to 7999"},
         Wrong{"dialect: fanuc, program_number: 12.5", "MACHINE-CONTROL", "'12.5' is no whole number"},
         Wrong{"dialect: siemens, program_number: 12", "DATA-UNKNOWN", "program_number"},
+        Wrong{"dialect: haas, subprograms: 7001", "DATA-UNKNOWN", "subprograms"},
         Wrong{"dialect: fanuc, smoothness: yes", "DATA-UNKNOWN", "smoothness"},
         Wrong{"dialect: fanuc, through_coolant: m88/m89", "MACHINE-CONTROL", "two M codes as M88/M89"},
         Wrong{"dialect: fanuc, through_coolant: M88", "MACHINE-CONTROL", "two M codes as M88/M89"},

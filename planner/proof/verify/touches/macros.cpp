@@ -88,7 +88,9 @@ struct Place {
 class Reading {
  public:
   Reading(const model::Plan& plan, model::AnyRef touch, const Way& w)
-      : way_(w), slack_(0.51 * std::pow(10.0, -plan.machine.control.decimals)) {
+      : way_(w),
+        slack_(0.51 * std::pow(10.0, -plan.machine.control.decimals)),
+        points_(plan.machine.control.dialect == "fanuc" || plan.machine.control.dialect == "haas") {
     const auto& p = plan.model.at<model::WorkpieceProbing>(touch);
     id_ = p.its_id.value_or("");
     const auto* probe = plan.model.get<model::TouchProbe>(p.its_probe);
@@ -138,14 +140,17 @@ class Reading {
     const std::size_t end = std::min(line.find_first_not_of("+-.0123456789"), line.size());
     std::string digits(line.substr(0, end));
     if (digits.starts_with('+')) digits.erase(0, 1);
+    const bool point = digits.find('.') != std::string::npos;
     if (digits.ends_with('.')) digits += '0';
     const auto value = parse_double(digits);
     line.remove_prefix(end);
+    if (points_ && value && *value != 0.0 && !point) return false;
     return value && std::abs(*value - wanted) <= slack_;
   }
 
   const Way way_;
   double slack_;
+  bool points_;  ///< a length without its point counts thousandths on one machine, millimetres on another
   std::string id_, tool_;
 };
 

@@ -25,8 +25,9 @@ struct WithoutMacros {
 };
 
 /// Takes out the blocks that say `probe_macro` of one touch of the plan, one behind the other, its places to
-/// half a unit of the last decimal; each touch once. What says another place, or none of the plan, stays, and
-/// is for the reader a block that it cannot follow.
+/// half a unit of the last decimal, on a Fanuc and a Haas with a decimal point where they are not zero, as
+/// their readers want of any length; each touch once. What says another place, or none of the plan, stays,
+/// and is for the reader a block that it cannot follow.
 [[nodiscard]] WithoutMacros without_macros(std::string_view text, const model::Plan& plan);
 
 /// What the macros that were taken out are held to: 33 they stand before the step that the touch precedes,

@@ -332,7 +332,8 @@ Program read_program(std::string_view text, const model::Machine& machine) {
   Interpreter control(machine);
   Line line;
   long number = 0;
-  for (const RunLine& row : run_lines(text, kCycleBlockCap)) {
+  const bool haas = machine.control.dialect == "haas";
+  for (const RunLine& row : haas ? lines_of(text) : run_lines(text, kCycleBlockCap)) {
     split_line(row.text, line);
     control.line(line, number = row.number);
   }

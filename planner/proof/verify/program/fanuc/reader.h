@@ -13,10 +13,11 @@ namespace capstan::verify::fanuc {
 /// Reads programs of FANUC's milling controls, and of Haas's where the machine's dialect is "haas": %, O, N,
 /// comments, G0-G4, G5.1, G17, G20, G21, G28, G40-G43, G49, G53-G59, G54.1 P, G61, G64, G73, G74, G80-G86,
 /// G89-G91, G94, G95, G98, G99, M0-M9, M29, M30, and at Haas G154 P and G187. Cycles are expanded into moves,
-/// kCycleBlockCap of them at most. What is beyond that (variables, subprograms, other planes, G76, G87, G88)
-/// becomes a fault, and reading goes on. What one machine does otherwise than another (the time that P
-/// counts, rigid tapping, d of G83 and G73) and what it does not take (codes, helices, radii, quadrants, long
-/// blocks) is by its file, with the defaults of options.h.
+/// kCycleBlockCap of them at most. A FANUC's M98 P runs a subprogram of the same text (subprograms.h). What
+/// is beyond that (variables, other calls, other planes, G76, G87, G88) becomes a fault, and reading goes on.
+/// What one machine does otherwise than another (the time that P counts, rigid tapping, d of G83 and G73) and
+/// what it does not take (codes, helices, radii, quadrants, long blocks) is by its file, with the defaults of
+/// options.h.
 ///
 /// A length without a decimal point is a fault: it counts least increments on one machine and millimetres on
 /// the next (parameter 3401).

@@ -36,6 +36,18 @@ std::optional<long> number_alone(std::string_view code, std::string_view letters
   return out;
 }
 
+/// The number behind the O of a line, outside of its comments, whatever else is there.
+std::optional<long> number_of_program(std::string_view line) {
+  bool comment = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '(' || line[i] == ')') comment = line[i] == '(';
+    if (comment || line[i] != 'O') continue;
+    const std::string_view behind = stripped(line.substr(i + 1));
+    return number_alone(behind.substr(0, std::min(behind.find_first_not_of(kDigits), behind.size())), "");
+  }
+  return std::nullopt;
+}
+
 std::optional<long> called(std::string_view code) {
   if (!code.starts_with("M98")) return std::nullopt;
   return number_alone(stripped(code.substr(3)), "P");
@@ -49,13 +61,18 @@ struct Body {
 
 }  // namespace
 
-std::vector<RunLine> run_lines(std::string_view text, std::size_t most) {
+std::vector<RunLine> lines_of(std::string_view text) {
   std::vector<RunLine> rows;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     rows.push_back({text.substr(at, end - at), static_cast<long>(rows.size()) + 1});
     at = end + 1;
   }
+  return rows;
+}
+
+std::vector<RunLine> run_lines(std::string_view text, std::size_t most) {
+  const std::vector<RunLine> rows = lines_of(text);
   const auto ended =
       std::find_if(rows.begin(), rows.end(), [](const RunLine& r) { return code_of(r.text) == "M30"; });
   std::map<long, Body> bodies;
@@ -74,6 +91,10 @@ std::vector<RunLine> run_lines(std::string_view text, std::size_t most) {
     if (!fresh) had->second.sound = false;
   }
   if (bodies.empty()) return rows;
+  for (auto row = rows.begin(); row != ended; ++row) {
+    const auto same = bodies.find(number_of_program(row->text).value_or(-1));
+    if (same != bodies.end()) same->second.sound = false;
+  }
   std::vector<RunLine> out;
   std::size_t i = 0;
   for (; i < rows.size() && out.size() <= most; ++i) {

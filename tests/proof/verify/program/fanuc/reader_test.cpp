@@ -270,6 +270,17 @@ TEST(FanucReader, WhatIsNotFollowedIsAFault) {
     EXPECT_FALSE(read(std::string(block) + "\n").faults.empty()) << block;
 }
 
+// FANUC B-63844EN/02, 13.3; Haas 96-8000, M98: a program of the control's list.
+TEST(FanucReader, ASubprogramBehindTheEndIsRunByAFanucAndByNoHaas) {
+  const std::string text = std::string(kStart) + "M98 P7001\nM30\nO7001\nG0 Z2.\nG0 Z20.\nM99\n%\n";
+  EXPECT_EQ(faults(read_program(text, machine("fanuc"))), "");
+  EXPECT_EQ(moves(read_program(text, machine("fanuc"))), (Moves{"R 5 6 2", "R 5 6 20"}));
+  const Program haas = read_program(text, machine("haas"));
+  const std::string at_call = "10 CHK-";
+  EXPECT_NE(faults(haas).find(at_call), std::string::npos) << faults(haas);
+  EXPECT_EQ(moves(haas).size(), 0u);
+}
+
 TEST(FanucReader, ABlockWithMoreCodesThanItKeepsIsAFault) {
   constexpr int kMostG = 32, kMostM = 16;  // BlockSaid
   const auto block = [](const char* code, int times) {
