@@ -47,11 +47,11 @@ std::string turned_pocket() {
               "0.342020143326,0.));");
 }
 
-/// Its slot closed with round ends: 14 wide, 30 from middle to middle of these.
-std::string closed_slot() {
+/// Its slot closed with round ends: 30 from middle to middle of these.
+std::string closed_slot(const std::string& width = "14.") {
   std::string text = with(bracket(), "'SLOT',(105.,0.,0.)", "'SLOT',(103.,25.,0.)");
   text = with(text, "#67=TOLERANCED_LENGTH_MEASURE(80.,", "#67=TOLERANCED_LENGTH_MEASURE(30.,");
-  text = with(text, "#72=TOLERANCED_LENGTH_MEASURE(10.,", "#72=TOLERANCED_LENGTH_MEASURE(14.,");
+  text = with(text, "#72=TOLERANCED_LENGTH_MEASURE(10.,", "#72=TOLERANCED_LENGTH_MEASURE(" + width + ",");
   for (int end = 0; end < 2; ++end) text = with(text, "OPEN_SLOT_END_TYPE()", "RADIUSED_SLOT_END_TYPE()");
   return text;
 }
@@ -206,6 +206,22 @@ TEST(PocketCycles, TakeSlotsWithRoundEndsAsRectanglesWithRoundEnds) {
   const model::Plan& other = planned("heidenhain", closed_slot());
   EXPECT_THAT(program_of(other), HasSubstr("Q218=+44 ;"));
   EXPECT_THAT(against(program_of(other), other, true), IsEmpty());
+}
+
+// Half of such a width has a decimal more than the control: corners of 7.938 or 4.763 would be rounder than
+// half of 15.875 or 9.525, which is 7.9375 and 4.7625.
+TEST(PocketCycles, OfWidthsWithAnOddLastDecimalHaveCornersNoRounderThanHalfTheWidth) {
+  for (const auto& [width, corner] :
+       std::vector<std::pair<std::string, std::string>>{{"15.875", "7.937"}, {"9.525", "4.762"}}) {
+    const model::Plan& plan = planned("siemens", closed_slot(width));
+    const std::string text = program_of(plan), call = call_in(text, "POCKET3(20,0.8,0.2,-8,");
+    EXPECT_EQ(parameter(call, 5), width);
+    EXPECT_EQ(parameter(call, 6), corner);
+    EXPECT_THAT(against(text, plan, true), IsEmpty());
+    const model::Plan& other = planned("heidenhain", closed_slot(width));
+    EXPECT_THAT(program_of(other), HasSubstr("Q220=+" + corner + " ;"));
+    EXPECT_THAT(against(program_of(other), other, true), IsEmpty());
+  }
 }
 
 struct Other {

@@ -199,6 +199,8 @@ void round_to(PocketCycle& c, const model::Control& control) {
     *v = rounded(*v, c.decimals);
   const double unit = std::pow(10.0, -c.decimals), feeds = std::pow(10.0, -c.feed_decimals);
   const auto down = [](double v, double u) { return std::floor(v / u + 1e-6) * u; };
+  // Rounded apart, corners of a slot might come out rounder than half its width.
+  c.corner_mm = std::min(c.corner_mm, down(0.5 * std::min(c.length_mm, c.width_mm), unit));
   // A level is rounded up, so that the control counts no level more.
   c.level_mm = std::ceil(c.level_mm / unit - 1e-6) * unit;
   c.over_mm = down(c.over_mm, unit);
