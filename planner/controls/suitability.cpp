@@ -9,7 +9,6 @@
 #include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/specification.h"
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/edit/cycles.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/model/plan/resources/control_options.h"
@@ -116,20 +115,14 @@ class Suitability {
               " tools; state 'prove_out: m0' under the machine's control, or the pockets of its magazine");
   }
 
-  // A pocket that is asked for as a cycle of the control, and is moves.
+  // A pocket that is asked for as a cycle of the control whose programs are written, and is moves.
   void pockets(const std::vector<std::string>& ids) {
-    const bool by_machine = model::control_option(plan_.machine, "cycles") == model::kPocketCycles;
-    const std::vector<std::string> of_step = model::cycles_by_step(plan_);
-    for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
-      if (!(of_step[i].empty() ? by_machine : of_step[i] == model::kPocketCycles) || !plan_.steps[i].path)
-        continue;
-      const gcode::PocketOfStep pocket = gcode::pocket_of(plan_, i);
-      if (pocket.cycle && !can_.pocket_cycles)
+    const Dialect* writes = find_dialect(plan_.machine.control.dialect);
+    const auto asked = gcode::asked_pockets(plan_, writes != nullptr ? writes->pockets : nullptr);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      if (!asked[i].why_not.empty())
         add("FIT-POCKET-CYCLE", Severity::kNote, ids[i], -1,
-            "the pocket is asked for as a cycle, and the control has none: it stays moves");
-      if (!pocket.cycle && !pocket.why_not.empty())
-        add("FIT-POCKET-CYCLE", Severity::kNote, ids[i], -1,
-            "the pocket is asked for as a cycle of the control, and stays moves: " + pocket.why_not);
+            "the pocket is asked for as a cycle of the control, and stays moves: " + asked[i].why_not);
     }
   }
 

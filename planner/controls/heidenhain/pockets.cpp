@@ -25,8 +25,6 @@ std::string with_sign(double value, int decimals) {
   return text.front() == '-' ? text : "+" + text;
 }
 
-}  // namespace
-
 std::optional<std::string> pocket_text(const PocketCycle& p) {
   std::string out;
   // ANGLE is rounded down: no steeper than planned.
@@ -71,5 +69,9 @@ std::optional<std::string> pocket_text(const PocketCycle& p) {
   q(385, feed, "FINISHING FEED RATE");
   return out + "\nCYCL CALL";
 }
+
+}  // namespace
+
+constinit const gcode::PocketWords kPockets{.text = &pocket_text};
 
 }  // namespace capstan::controls::heidenhain

@@ -305,6 +305,8 @@ TEST(PocketCycles, AreMovesWhereTheControlHasNoneOrThePocketIsNoneForIt) {
   EXPECT_THAT(program_of(fanuc), HasSubstr("(NO CYCLE OF THE CONTROL FOR THIS POCKET: IT HAS NONE)"));
   EXPECT_THAT(against(program_of(fanuc), fanuc, true), IsEmpty());
   EXPECT_EQ(notes_of("fanuc", fanuc), 1U);
+  // Nor does it become a cycle where another control's profile is held against it: its program is the same.
+  EXPECT_EQ(notes_of("siemens", fanuc), 1U);
   EXPECT_EQ(notes_of("siemens", planned("siemens", bracket())), 0U);
   const model::Plan& one_sided = planned(
       "siemens", with(bracket(), "#57=PLUS_MINUS_VALUE(0.1,0.1,3);", "#57=PLUS_MINUS_VALUE(0.1,0.,3);"));

@@ -10,6 +10,7 @@
 #include "planner/model/features/setup_place.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/edit/cycles.h"
 
 namespace capstan::controls::gcode {
 namespace {
@@ -35,7 +36,7 @@ constexpr double kHelixShare = 0.9;
 /// Of the diameter: a smaller helix is hardly one. Default, unsourced.
 constexpr double kLeastHelix = 0.05;
 
-PocketOfStep no(std::string why) { return {std::nullopt, std::move(why)}; }
+PocketOfStep no(std::string why) { return {std::nullopt, std::move(why), {}}; }
 
 /// What the path says of its way in: along ramps.
 struct WayIn {
@@ -167,7 +168,7 @@ PocketOfStep contour(const model::Plan& plan, const model::StepResult& step,
   c.centre = xy(at.to_parent({middle.x, middle.y, 0.0}));
   c.angle_deg = c.round ? 0.0 : (std::atan2(at.x.y, at.x.x) + turned) * kDegrees;
   c.floor_z = at.origin.z - s.depth_mm;
-  return {c, {}};
+  return {c, {}, {}};
 }
 
 /// What the step leaves; whether its path reaches as far as these and the pocket say.
@@ -256,6 +257,19 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   c.planned_s = step.cutting_s;
   round_to(c, plan.machine.control);
   if (c.back_z < c.start_z || !(depth > 0.0)) return no("it does not begin above what it cuts");
+  return out;
+}
+
+std::vector<PocketOfStep> asked_pockets(const model::Plan& plan, const PocketWords* words) {
+  std::vector<PocketOfStep> out(plan.steps.size());
+  const std::vector<std::string> cycles = model::cycles_by_step(plan);
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    if (!model::asks_for_pocket_cycle(plan.machine, cycles[n])) continue;
+    out[n] = pocket_of(plan, n);
+    if (!out[n].cycle) continue;
+    const auto text = words != nullptr ? words->text(*out[n].cycle) : std::nullopt;
+    out[n] = text ? PocketOfStep{out[n].cycle, {}, *text} : no("it has none");
+  }
   return out;
 }
 

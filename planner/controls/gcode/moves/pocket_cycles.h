@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/plan.h"
@@ -49,8 +50,20 @@ inline constexpr double kRingShare = 0.8;
 struct PocketOfStep {
   std::optional<PocketCycle> cycle;
   std::string why_not;  ///< empty: a cycle, or the step makes no pocket at all
+  std::string text;     ///< the cycle in the control's words (`asked_pockets`)
 };
 [[nodiscard]] PocketOfStep pocket_of(const model::Plan& plan, std::size_t n);
+
+/// What a control says of pockets in its own way.
+struct PocketWords {
+  /// A pocket as a cycle, the tool at `back_z` somewhere within it; it ends there, over the middle. One or
+  /// more lines. Nothing where the control has none for it.
+  std::optional<std::string> (*text)(const PocketCycle& pocket) = nullptr;
+};
+
+/// The pockets of a plan that are asked for as cycles, by step; nothing of the others. `words`: the
+/// control's; null where it has no such cycles.
+[[nodiscard]] std::vector<PocketOfStep> asked_pockets(const model::Plan& plan, const PocketWords* words);
 
 /// Seconds that a path by rings at the cycle's feeds takes, the way in included: an estimate, for the path is
 /// the control's.
