@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
@@ -115,15 +116,34 @@ class Suitability {
               " tools; state 'prove_out: m0' under the machine's control, or the pockets of its magazine");
   }
 
-  // A pocket that is asked for as a cycle of the control whose programs are written, and is moves.
+  // Pockets that are asked for as cycles of the control whose programs are written: which are moves, and what
+  // no program says of the others.
   void pockets(const std::vector<std::string>& ids) {
     const Dialect* writes = find_dialect(plan_.machine.control.dialect);
     const auto asked = gcode::asked_pockets(plan_, writes != nullptr ? writes->pockets : nullptr);
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      if (!asked[i].why_not.empty())
+    std::map<int, double> radii;  // by tool
+    double planned_s = 0.0, estimated_s = 0.0;
+    for (std::size_t i = 0; i < asked.of_step.size(); ++i) {
+      const gcode::PocketOfStep& pocket = asked.of_step[i];
+      if (!pocket.why_not.empty())
         add("FIT-POCKET-CYCLE", Severity::kNote, ids[i], -1,
-            "the pocket is asked for as a cycle of the control, and stays moves: " + asked[i].why_not);
+            "the pocket is asked for as a cycle of the control, and stays moves: " + pocket.why_not);
+      if (!pocket.cycle) continue;
+      radii[pocket.cycle->tool] = 0.5 * pocket.cycle->cutter_mm;
+      planned_s += pocket.cycle->planned_s;
+      estimated_s += gcode::estimated_s(*pocket.cycle);
     }
+    if (radii.empty()) return;
+    std::string must;
+    for (const auto& [tool, radius] : radii)
+      must += "R of T" + std::to_string(tool) + " " + shortest(radius) + " mm; ";
+    for (const auto& [tool, text] : asked.tables) must += text + "; ";
+    add("FIT-POCKET-CYCLE", Severity::kNote, {}, -1,
+        "the pocket cycles count with the tool table of the control, which is not seen; before the first cut "
+        "see that it has: " +
+            must + "tool life counts the " + trimmed(planned_s, 0) +
+            " s of the planned paths, the cycles' take about " + trimmed(estimated_s, 0) +
+            " s: look at the edges by that");
   }
 
   void kinds(const StepResult& step, const std::string& id) {

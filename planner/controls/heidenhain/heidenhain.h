@@ -45,8 +45,9 @@ namespace capstan::controls::heidenhain {
 ///          before it, and stated again before the next cut.
 ///
 /// Pockets  with `cycles: pocket` 251 and 252, roughing along a helix, called over the middle: Q202, Q207 and
-///          Q206 keep the loads of the plan's path (gcode/moves/pocket_cycles.h). A comment says how large
-///          ANGLE of the tool table may be.
+///          Q206 keep the loads of the plan's path (gcode/moves/pocket_cycles.h). A comment of the
+///          header says for each tool how large its ANGLE in the tool table may be, for the flattest of its
+///          pockets.
 ///
 /// Not written: 208 (its way to the wall is its own), 253, PATTERN DEF, PLANE, RL and RR.
 ///

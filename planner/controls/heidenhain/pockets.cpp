@@ -25,14 +25,16 @@ std::string with_sign(double value, int decimals) {
   return text.front() == '-' ? text : "+" + text;
 }
 
+/// ANGLE is rounded down: no steeper than planned.
+std::string table_text(int tool, double slope) {
+  const double degrees = std::floor(std::atan(slope) * 180.0 / std::numbers::pi * 100.0) / 100.0;
+  if (!(degrees > 0.0)) return {};
+  return "ANGLE of T" + std::to_string(tool) + " in the tool table: " + trimmed(degrees, 2) +
+         " degrees at most";
+}
+
 std::optional<std::string> pocket_text(const PocketCycle& p) {
   std::string out;
-  // ANGLE is rounded down: no steeper than planned.
-  const double slope = p.turn_mm / (2.0 * std::numbers::pi * p.helix_mm);
-  const double degrees = std::floor(std::atan(slope) * 180.0 / std::numbers::pi * 100.0) / 100.0;
-  if (!(degrees > 0.0)) return std::nullopt;
-  out += "; ANGLE of T" + std::to_string(p.tool) + " in the tool table: " + trimmed(degrees, 2) +
-         " degrees at most\n";
   out += "L X" + with_sign(p.centre.x, p.decimals) + " Y" + with_sign(p.centre.y, p.decimals) + " R0 FMAX\n";
   out += p.round ? "CYCL DEF 252 CIRCULAR POCKET" : "CYCL DEF 251 RECTANGULAR POCKET";
   const auto q = [&](int number, const std::string& value, const char* meaning) {
@@ -72,6 +74,6 @@ std::optional<std::string> pocket_text(const PocketCycle& p) {
 
 }  // namespace
 
-constinit const gcode::PocketWords kPockets{.text = &pocket_text};
+constinit const gcode::PocketWords kPockets{.text = &pocket_text, .table = &table_text};
 
 }  // namespace capstan::controls::heidenhain

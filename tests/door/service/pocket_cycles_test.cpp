@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "planner/controls/controls.h"
+#include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/suitability.h"
 #include "planner/door/service/options.h"
 #include "planner/door/service/planning.h"
@@ -110,12 +112,17 @@ std::string parameter(const std::string& call, std::size_t n) {
   return call.substr(begin, call.find_first_of(",)", begin) - begin);
 }
 
-/// How often a pocket is told that stays moves though it is asked for as a cycle.
-std::size_t notes_of(const char* control, const model::Plan& plan) {
-  std::size_t out = 0;
-  for (const auto& f : controls::suitability(plan, controls::find_dialect(control)->conformance))
-    out += f.code == "FIT-POCKET-CYCLE" ? 1 : 0;
+/// What is told of pockets that are asked for as cycles: of a step, that it stays moves; of the program, what
+/// the operator's table must have.
+std::vector<std::string> told_of(const char* control, const model::Plan& plan, bool of_program) {
+  std::vector<std::string> out;
+  for (const auto& f : controls::suitability(plan, controls::find_dialect(control)->conformance)) {
+    if (f.code == "FIT-POCKET-CYCLE" && f.step.empty() == of_program) out.push_back(f.message);
+  }
   return out;
+}
+std::size_t notes_of(const char* control, const model::Plan& plan) {
+  return told_of(control, plan, false).size();
 }
 
 struct Fault {
@@ -286,6 +293,47 @@ TEST(PocketCycles, OfHeidenhainAreFoundWhereAParameterIsAnother) {
   finds_others(plan, text,
                {{told.c_str(), "; ANGLE of T2 in the tool table: 30 degrees at most", "CHK-POCKET-CYCLE"},
                 {told.c_str(), "; as steep as it likes", "CHK-UNVERIFIABLE"}});
+}
+
+// The tool table has one ANGLE for the mill that roughs both the pocket and the slot: the lesser, rounded
+// down to hundredths.
+TEST(PocketCycles, OfOneToolHaveOneAngleOfTheTableTheLeastOfAll) {
+  const model::Plan& plan = planned("heidenhain", closed_slot());
+  double least = 90.0, most = 0.0;
+  for (std::size_t n = 0; n < plan.steps.size(); ++n) {
+    const auto c = controls::gcode::pocket_of(plan, n).cycle;
+    if (!c) continue;
+    ASSERT_EQ(c->tool, 2);
+    const double angle = std::atan(c->turn_mm / (2.0 * std::numbers::pi * c->helix_mm));
+    least = std::min(least, angle * 180.0 / std::numbers::pi);
+    most = std::max(most, angle * 180.0 / std::numbers::pi);
+  }
+  ASSERT_GT(most, least + 0.1);
+  const std::string text = program_of(plan), begin = "; ANGLE of T2 in the tool table: ";
+  const std::size_t at = text.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(at, text.find("; CAPSTAN STEP "));
+  EXPECT_EQ(text.find("ANGLE of T", at + begin.size()), std::string::npos);
+  const double told = std::stod(text.substr(at + begin.size()));
+  EXPECT_LE(told, least);
+  EXPECT_GT(told, least - 0.01 - 1e-9);
+  EXPECT_THAT(against(text, plan, true), IsEmpty());
+  // A second one of the same tool says something else of the same table.
+  EXPECT_THAT(against(with(text, "; it counts with the radius that the control's tool list has for T2: 5 mm",
+                           "; ANGLE of T2 in the tool table: 3 degrees at most"),
+                      plan),
+              Contains(HasSubstr("ANGLE of T2 in the tool table is 3 degrees at most here")));
+}
+
+// The table is the operator's: neither program nor check has it.
+TEST(PocketCycles, TellOnceWhatTheToolTableOfTheControlMustHave) {
+  const auto of_heidenhain = told_of("heidenhain", planned("heidenhain", closed_slot()), true);
+  ASSERT_EQ(of_heidenhain.size(), 1U);
+  EXPECT_THAT(of_heidenhain[0], HasSubstr("see that it has: R of T2 5 mm; ANGLE of T2 in the tool table: "));
+  const auto of_siemens = told_of("siemens", planned("siemens", bracket()), true);
+  ASSERT_EQ(of_siemens.size(), 1U);
+  EXPECT_THAT(of_siemens[0], HasSubstr("see that it has: R of T2 5 mm; tool life counts the "));
+  EXPECT_THAT(told_of("fanuc", planned("fanuc", bracket()), true), IsEmpty());
 }
 
 TEST(PocketCycles, OfHeidenhainTakeRoundAndTurnedPockets) {

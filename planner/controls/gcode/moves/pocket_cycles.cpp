@@ -191,6 +191,8 @@ std::string left_by(const model::Plan& plan, const model::StepResult& step,
   return {};
 }
 
+double slope_of(const PocketCycle& c) { return c.turn_mm / (2.0 * pi * c.helix_mm); }
+
 /// Rounded as the control writes it; the last heights so that levels come out whole.
 void round_to(PocketCycle& c, const model::Control& control) {
   c.decimals = control.decimals;
@@ -260,15 +262,30 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   return out;
 }
 
-std::vector<PocketOfStep> asked_pockets(const model::Plan& plan, const PocketWords* words) {
-  std::vector<PocketOfStep> out(plan.steps.size());
+AskedPockets asked_pockets(const model::Plan& plan, const PocketWords* words) {
+  AskedPockets out;
+  out.of_step.resize(plan.steps.size());
   const std::vector<std::string> cycles = model::cycles_by_step(plan);
-  for (std::size_t n = 0; n < out.size(); ++n) {
+  std::map<int, double> slopes;  // by tool, the least
+  for (std::size_t n = 0; n < plan.steps.size(); ++n) {
     if (!model::asks_for_pocket_cycle(plan.machine, cycles[n])) continue;
-    out[n] = pocket_of(plan, n);
-    if (!out[n].cycle) continue;
-    const auto text = words != nullptr ? words->text(*out[n].cycle) : std::nullopt;
-    out[n] = text ? PocketOfStep{out[n].cycle, {}, *text} : no("it has none");
+    PocketOfStep& pocket = out.of_step[n] = pocket_of(plan, n);
+    if (!pocket.cycle) continue;
+    const PocketCycle& c = *pocket.cycle;
+    const auto text = words != nullptr ? words->text(c) : std::nullopt;
+    const double slope = slope_of(c);
+    if (!text || (words->table != nullptr && words->table(c.tool, slope).empty())) {
+      pocket = no("it has none");
+      continue;
+    }
+    pocket.text = *text;
+    const auto [least, first] = slopes.emplace(c.tool, slope);
+    if (!first) least->second = std::min(least->second, slope);
+  }
+  if (words == nullptr || words->table == nullptr) return out;
+  for (const auto& [tool, slope] : slopes) out.tables[tool] = words->table(tool, slope);
+  for (PocketOfStep& pocket : out.of_step) {
+    if (pocket.cycle) pocket.cycle->turn_mm = 2.0 * pi * pocket.cycle->helix_mm * slopes[pocket.cycle->tool];
   }
   return out;
 }

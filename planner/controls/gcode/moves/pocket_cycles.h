@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,11 +60,20 @@ struct PocketWords {
   /// A pocket as a cycle, the tool at `back_z` somewhere within it; it ends there, over the middle. One or
   /// more lines. Nothing where the control has none for it.
   std::optional<std::string> (*text)(const PocketCycle& pocket) = nullptr;
+  /// A comment, which the check reads: what the operator's tool table must say of tool `tool`, whose way in
+  /// is as steep as that says, so that it goes down by `slope` times what it goes along at most. Empty: no
+  /// figure of the table is so flat. Null: each cycle states its own.
+  std::string (*table)(int tool, double slope) = nullptr;
 };
 
-/// The pockets of a plan that are asked for as cycles, by step; nothing of the others. `words`: the
-/// control's; null where it has no such cycles.
-[[nodiscard]] std::vector<PocketOfStep> asked_pockets(const model::Plan& plan, const PocketWords* words);
+/// The pockets of a plan that are asked for as cycles.
+struct AskedPockets {
+  std::vector<PocketOfStep> of_step;  ///< nothing of the others
+  /// By tool with such pockets: PocketWords::table, for the flattest way in of them, which all then have.
+  std::map<int, std::string> tables;
+};
+/// `words`: the control's; null where it has no such cycles.
+[[nodiscard]] AskedPockets asked_pockets(const model::Plan& plan, const PocketWords* words);
 
 /// Seconds that a path by rings at the cycle's feeds takes, the way in included: an estimate, for the path is
 /// the control's.
