@@ -10,6 +10,7 @@ bool write_pocket(const PocketOfStep& pocket, const Words& words, Program& out) 
               words.number(estimated_s(c), 0) + " s; " + words.number(c.planned_s, 0) + " s as planned");
   out.comment("it counts with the radius that the control's tool list has for T" + std::to_string(c.tool) +
               ": " + out.number(0.5 * c.cutter_mm) + " mm");
+  out.comment("in along a helix: prove it in the control's simulation before the first cut");
   out.write_waiting();
   out.moved(pocket.text, out.round({c.centre.x, c.centre.y, c.back_z}));
   out.forget_feed();
