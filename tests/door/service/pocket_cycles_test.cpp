@@ -152,6 +152,7 @@ TEST(PocketCycles, OfSiemensAreReadBackWithinWhatThePlanProves) {
   EXPECT_EQ(parameter(call, 21), "4.5");
   EXPECT_THAT(text,
               HasSubstr("\n;it counts with the radius that the control's tool list has for T2: 5 mm\n"));
+  EXPECT_THAT(text, HasSubstr(" s as planned, which tool life counts\n"));
   EXPECT_THAT(text,
               HasSubstr("\n;in along a helix: prove it in the control's simulation before the first cut\n"));
   EXPECT_THAT(against(text, plan, true), IsEmpty());

@@ -7,7 +7,8 @@ bool write_pocket(const PocketOfStep& pocket, const Words& words, Program& out) 
   if (!pocket.cycle) return false;
   const PocketCycle& c = *pocket.cycle;
   out.comment("the pocket cycle takes the control's own path, not the planned one: about " +
-              words.number(estimated_s(c), 0) + " s; " + words.number(c.planned_s, 0) + " s as planned");
+              words.number(estimated_s(c), 0) + " s; " + words.number(c.planned_s, 0) +
+              " s as planned, which tool life counts");
   out.comment("it counts with the radius that the control's tool list has for T" + std::to_string(c.tool) +
               ": " + out.number(0.5 * c.cutter_mm) + " mm");
   out.comment("in along a helix: prove it in the control's simulation before the first cut");
