@@ -454,6 +454,26 @@ TEST(PocketCycles, MayBeAskedForOfOneStep) {
   EXPECT_THAT(program_of(moves->plan), Not(HasSubstr("POCKET3(")));
 }
 
+/// The plan with corners of this radius at its T2, 10 wide.
+model::Plan with_corners(model::Plan plan, double radius_mm) {
+  for (model::Cutter& c : plan.cutters) {
+    if (c.pocket == 2) c.corner_radius_mm = radius_mm;
+  }
+  return plan;
+}
+
+// Corners of 1 leave 8 of 10 mm flat: rings 80 % of that apart, and a helix 90 % of half of it.
+TEST(PocketCycles, OfMillsWithACornerRadiusHaveRingsThatLeaveNoRidges) {
+  const model::Plan plan = with_corners(planned("siemens", bracket()), 1.0);
+  const std::string text = program_of(plan), call = call_in(text, "POCKET3(");
+  EXPECT_EQ(parameter(call, 17), "6.4");
+  EXPECT_EQ(parameter(call, 21), "3.6");
+  EXPECT_THAT(against(with(text, call, with_parameter(call, 17, "8.1")), plan),
+              Contains(HasSubstr("ridges would stay on the floor")));
+  const model::Plan ball = with_corners(planned("siemens", bracket()), 5.0);
+  EXPECT_THAT(program_of(ball), Not(HasSubstr("POCKET3(")));
+}
+
 // The step's other figures are held too: its speed, and that nothing else moves.
 TEST(PocketCycles, AreFoundBesideASecondOneOrWithAnotherSpeed) {
   const model::Plan& plan = planned("siemens", bracket());

@@ -31,7 +31,7 @@ constexpr double kClearanceMm = 0.2;
 constexpr double kAgreeMm = 0.002;
 constexpr double kSame = 1e-6;
 constexpr double kChordMm = 0.0005;
-/// The helix's radius over the cutter's: near it, and no core is left. Default, unsourced.
+/// The helix's radius over that of the cutter's flat front: near it, and no core is left. Default, unsourced.
 constexpr double kHelixShare = 0.9;
 /// Of the diameter: a smaller helix is hardly one. Default, unsourced.
 constexpr double kLeastHelix = 0.05;
@@ -231,6 +231,10 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   PocketCycle& c = *out.cycle;
   c.cutter_mm = cutter->cutting_diameter_mm;
   c.tool = cutter->pocket;
+  // Rings farther apart than its front is flat leave ridges on the floor.
+  const double flat = c.cutter_mm - 2.0 * model::end_radius_mm(*cutter);
+  if (!(kRingShare * flat > std::pow(10.0, -plan.machine.control.decimals)))
+    return no("its mill is round at the end: rings would leave ridges on the floor");
   if (std::string why = left_by(plan, step, *ws, c); !why.empty()) return no(std::move(why));
   const auto in = way_in(step);
   if (!in) return no("its path does not go in along a ramp");
@@ -239,7 +243,7 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   if (first != in->rpm || !(in->rpm > 0.0)) return no("its path does not begin at the speed of its way in");
   const double narrow = 0.5 * std::min(c.length_mm, c.width_mm) - 0.5 * c.cutter_mm - c.side_mm;
   // Any circle with the path's slope goes in as steeply as the path.
-  c.helix_mm = std::min(kHelixShare * 0.5 * c.cutter_mm, narrow);
+  c.helix_mm = std::min(kHelixShare * 0.5 * flat, narrow);
   c.turn_mm = in->slope * 2.0 * pi * c.helix_mm;
   if (c.helix_mm < kLeastHelix * c.cutter_mm) return no("no helix has room in it");
   c.angle_deg -= 180.0 * std::floor((c.angle_deg + kSame) / 180.0);
@@ -255,7 +259,7 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   c.level_mm = depth / slot->levels;
   c.feed_mm_min = slot->feed_mm_min;
   c.ramp_feed_mm_min = std::min(in->feed_mm_min, slot->feed_mm_min);
-  c.over_mm = kRingShare * c.cutter_mm;
+  c.over_mm = kRingShare * flat;
   c.planned_s = step.cutting_s;
   round_to(c, plan.machine.control);
   if (c.back_z < c.start_z || !(depth > 0.0)) return no("it does not begin above what it cuts");

@@ -39,7 +39,8 @@ struct PocketCycle {
   double planned_s = 0.0;                ///< time of the plan's own path
 };
 
-/// The share of the cutter's diameter from ring to ring at most. Source: POCKET3 and POCKET4 take 80 % where
+/// The share of the diameter from ring to ring at most, of a mill with a corner radius of that of its flat
+/// part, so that no ridges stay on the floor. Source: POCKET3 and POCKET4 take 80 % where
 /// nothing is stated (SINUMERIK, cycles, _MIDA).
 inline constexpr double kRingShare = 0.8;
 

@@ -216,8 +216,10 @@ bool Following::pocket_cycle() {
   if ((path.turned < 0.0) != p.clockwise)
     return wrong(std::string("goes round ") + (p.clockwise ? "clockwise" : "counter-clockwise") +
                  "; the plan's path the other way");
-  if (p.over_mm > p.cutter_mm)
-    return wrong("has rings " + mm(p.over_mm) + " apart; the cutter is " + mm(p.cutter_mm) + " wide");
+  const double flat = p.cutter_mm - 2.0 * model::end_radius_mm(*cutter_);
+  if (p.over_mm > flat + unit_)
+    return wrong("has rings " + mm(p.over_mm) + " apart; the cutter of diameter " + mm(p.cutter_mm) +
+                 " is flat over " + mm(flat) + ": ridges would stay on the floor");
   if (p.level_mm > step_.axial_depth_mm + unit_)
     return wrong("goes down by " + mm(p.level_mm) + " at a time; the plan by " + mm(step_.axial_depth_mm));
   if (p.level_mm > kDeepestOfDiameter * p.cutter_mm + unit_)
