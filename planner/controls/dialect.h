@@ -13,6 +13,10 @@
 
 namespace capstan::controls {
 
+namespace gcode {
+struct PocketWords;
+}
+
 /// A kind of file that a control reads.
 struct FileKind {
   std::string_view name;    ///< as a format (door/service/formats.h)
@@ -38,7 +42,6 @@ struct Conformance {
   bool compensation = true;          ///< it offsets paths of the contact by the cutter's radius
   bool tool_changes = true;          ///< a program may change tools
   bool broadcasts = false;           ///< it sends what broadcasts of a plan (AP238 edition 4) ask for
-  bool pocket_cycles = false;        ///< its programs rough pockets by cycles of the control, where asked for
 };
 
 /// One control that programs are written for: what it is, what its files hold and who writes them. How it
@@ -58,6 +61,8 @@ struct Dialect {
                                        const std::vector<model::Condemnation>& condemned);
   /// The tools of that program as the control reads them; null for a control that reads no tool table.
   std::string (*write_tool_table)(const model::Plan& plan) = nullptr;
+  /// Its pockets as cycles (gcode/moves/pocket_cycles.h); null for a control that has none.
+  const gcode::PocketWords* pockets = nullptr;
 };
 
 }  // namespace capstan::controls

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
@@ -9,7 +10,6 @@
 #include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/specification.h"
 #include "planner/ground/base/number.h"
-#include "planner/model/plan/edit/cycles.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/model/plan/resources/control_options.h"
@@ -116,21 +116,34 @@ class Suitability {
               " tools; state 'prove_out: m0' under the machine's control, or the pockets of its magazine");
   }
 
-  // A pocket that is asked for as a cycle of the control, and is moves.
+  // Pockets that are asked for as cycles of the control whose programs are written: which are moves, and what
+  // no program says of the others.
   void pockets(const std::vector<std::string>& ids) {
-    const bool by_machine = model::control_option(plan_.machine, "cycles") == model::kPocketCycles;
-    const std::vector<std::string> of_step = model::cycles_by_step(plan_);
-    for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
-      if (!(of_step[i].empty() ? by_machine : of_step[i] == model::kPocketCycles) || !plan_.steps[i].path)
-        continue;
-      const gcode::PocketOfStep pocket = gcode::pocket_of(plan_, i);
-      if (pocket.cycle && !can_.pocket_cycles)
-        add("FIT-POCKET-CYCLE", Severity::kNote, ids[i], -1,
-            "the pocket is asked for as a cycle, and the control has none: it stays moves");
-      if (!pocket.cycle && !pocket.why_not.empty())
+    const Dialect* writes = find_dialect(plan_.machine.control.dialect);
+    const auto asked = gcode::asked_pockets(plan_, writes != nullptr ? writes->pockets : nullptr);
+    std::map<int, double> radii;  // by tool
+    double planned_s = 0.0, estimated_s = 0.0;
+    for (std::size_t i = 0; i < asked.of_step.size(); ++i) {
+      const gcode::PocketOfStep& pocket = asked.of_step[i];
+      if (!pocket.why_not.empty())
         add("FIT-POCKET-CYCLE", Severity::kNote, ids[i], -1,
             "the pocket is asked for as a cycle of the control, and stays moves: " + pocket.why_not);
+      if (!pocket.cycle) continue;
+      radii[pocket.cycle->tool] = 0.5 * pocket.cycle->cutter_mm;
+      planned_s += pocket.cycle->planned_s;
+      estimated_s += gcode::estimated_s(*pocket.cycle);
     }
+    if (radii.empty()) return;
+    std::string must;
+    for (const auto& [tool, radius] : radii)
+      must += "R of T" + std::to_string(tool) + " " + shortest(radius) + " mm; ";
+    for (const auto& [tool, text] : asked.tables) must += text + "; ";
+    add("FIT-POCKET-CYCLE", Severity::kNote, {}, -1,
+        "the pocket cycles count with the tool table of the control, which is not seen; before the first cut "
+        "see that it has: " +
+            must + "tool life counts the " + trimmed(planned_s, 0) +
+            " s of the planned paths, the cycles' take about " + trimmed(estimated_s, 0) +
+            " s: look at the edges by that");
   }
 
   void kinds(const StepResult& step, const std::string& id) {

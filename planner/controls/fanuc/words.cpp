@@ -146,7 +146,6 @@ gcode::Words words_of(const model::Machine& machine) {
   w.tap = [tapping](const HoleCycle& h) { return tap_text(h, tapping); };
   w.tap_stops_spindle = true;
   w.by_cycles = !is("cycles", "explicit");
-  w.by_pockets = is("cycles", "pocket");
   w.cycle = [in_seconds, pecking](const HoleCycle& h, std::span<const geometry::Vec2> places) {
     return hole_text(h, places, in_seconds, pecking);
   };

@@ -8,10 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/ground/geometry/vec.h"
 
 namespace capstan::controls::gcode {
+
+struct PocketWords;
 
 /// Decimals of a number in a program at most: a double of six digits before the point has no more to say.
 inline constexpr int kMostDecimals = 7;
@@ -143,11 +144,8 @@ struct Words {
       cycle = {};
   /// Whether the machine asks for them; an edit may say otherwise of a step.
   bool by_cycles = true;
-  /// A pocket as a cycle of the control, the tool at `back_z` somewhere within it; it ends there, over the
-  /// middle. One or more lines. Nothing where this control has none for it; null: it has none at all.
-  std::function<std::optional<std::string>(const PocketCycle& pocket)> pocket = {};
-  /// Whether the machine asks for that.
-  bool by_pockets = false;
+  /// Null: the control has no pockets as cycles. Those of its row (dialect.h).
+  const PocketWords* pockets = nullptr;
   /// The last line of `cycle` where it runs what the lines before it define: for equal holes of a step these
   /// stand once. Empty: each run of equal holes has its whole text.
   std::string_view cycle_call = {};

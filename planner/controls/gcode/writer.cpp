@@ -48,14 +48,14 @@ class Writer {
         words_(words),
         condemned_(condemned),
         program_(plan.machine.control, words),
-        probings_(probings_before(plan)),
-        cycles_(model::cycles_by_step(plan)) {
+        probings_(probings_before(plan)) {
     for (const StepResult& s : plan.steps) uses_through_ = uses_through_ || s.through;
   }
 
   Result<std::string> run() {
     if (!words_.first.empty()) program_.line(words_.first);
     write_header(plan_, condemned_, program_);
+    for (const auto& [tool, comment] : pockets_.tables) program_.marker(comment);
     write_setup(plan_, plan_.steps.front().setup, std::nullopt, program_);
     program_.blank();
     if (!words_.first_state.empty()) program_.line(words_.first_state);
@@ -71,7 +71,7 @@ class Writer {
       const bool measured = probe(step.step, &step);
       enter(step, cutter, ids[n], n, measured);
       by_cycles_ = cycles_[n].empty() ? words_.by_cycles : cycles_[n] != model::kExplicitMoves;
-      if (write_pocket(plan_, n, cycles_[n], words_, program_)) continue;
+      if (write_pocket(pockets_.of_step[n], words_, program_)) continue;
       const bool smooth = !words_.smooth_on.empty() && cuts_across(*step.path);
       if (smooth) program_.line(words_.smooth_on);
       if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
@@ -472,9 +472,10 @@ class Writer {
   const Words& words_;
   const std::vector<model::Condemnation>& condemned_;
   Program program_;
-  std::map<model::AnyRef, std::vector<model::AnyRef>> probings_;  // by the step they precede
-  std::vector<std::string> cycles_;                               // by step: what edits say of them
-  bool by_cycles_ = false;                                        // of the step at hand
+  std::map<model::AnyRef, std::vector<model::AnyRef>> probings_;    // by the step they precede
+  std::vector<std::string> cycles_ = model::cycles_by_step(plan_);  // by step: what edits say of them
+  AskedPockets pockets_ = asked_pockets(plan_, words_.pockets);
+  bool by_cycles_ = false;  // of the step at hand
   int tool_ = 0;
   std::size_t setup_ = 0;
   double speed_ = 0.0;

@@ -92,6 +92,7 @@ Result<std::string> write_program(const model::Plan& plan, Job& job,
   if (auto ok = rounds_by_a_tolerance(plan); !ok) return tl::unexpected(ok.error());
   gcode::Words words = words_of(plan);
   words.work_offsets = kOffsets;
+  words.pockets = kDialect.pockets;
   return gcode::write(plan, words, condemned, job);
 }
 
@@ -112,10 +113,10 @@ constinit const Dialect kDialect{
                     .work_offsets = kPresets,
                     .block_time_s = 0.0005,
                     .largest_radius_mm = 99999.9999,
-                    .largest_feed_mm_min = 99999.999,
-                    .pocket_cycles = true},
+                    .largest_feed_mm_min = 99999.999},
     .decimals = 3,
     .write_program = &write_program,
+    .pockets = &kPockets,
 };
 
 }  // namespace capstan::controls::heidenhain

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/controls/dialect.h"
+#include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/gcode/words.h"
 #include "planner/model/plan/plan.h"
 
@@ -44,8 +45,9 @@ namespace capstan::controls::heidenhain {
 ///          before it, and stated again before the next cut.
 ///
 /// Pockets  with `cycles: pocket` 251 and 252, roughing along a helix, called over the middle: Q202, Q207 and
-///          Q206 keep the loads of the plan's path (gcode/moves/pocket_cycles.h). A comment says how large
-///          ANGLE of the tool table may be.
+///          Q206 keep the loads of the plan's path (gcode/moves/pocket_cycles.h). A comment of the
+///          header says for each tool how large its ANGLE in the tool table may be, for the flattest of its
+///          pockets.
 ///
 /// Not written: 208 (its way to the wall is its own), 253, PATTERN DEF, PLANE, RL and RR.
 ///
@@ -55,8 +57,8 @@ extern const Dialect kDialect;
 /// The words of the plan's machine, with the program's head.
 [[nodiscard]] gcode::Words words_of(const model::Plan& plan);
 
-/// Cycle 251 or 252 for a pocket, with the way to its middle and the call (pockets.cpp).
-[[nodiscard]] std::optional<std::string> pocket_text(const gcode::PocketCycle& pocket);
+/// Cycles 251 and 252, with the way to the pocket's middle and the call (pockets.cpp).
+extern const gcode::PocketWords kPockets;
 
 /// The program's name: of the part's file, else CAPSTAN; capitals, digits, - and _.
 [[nodiscard]] std::string program_name(const model::Plan& plan);

@@ -15,8 +15,8 @@ namespace {
 
 using gcode::PocketCycle;
 
-/// Q370 at most: the control refuses more than 1.414.
-constexpr double kMostOverlap = 1.4;
+/// Q370: the control refuses more than 1.414, and less than 0.1.
+constexpr double kMostOverlap = 1.4, kLeastOverlap = 0.1;
 constexpr int kOverlapDecimals = 3;
 
 /// "+10.5", "-3", "+0".
@@ -25,16 +25,19 @@ std::string with_sign(double value, int decimals) {
   return text.front() == '-' ? text : "+" + text;
 }
 
-}  // namespace
+/// ANGLE is rounded down: no steeper than planned.
+std::string table_text(int tool, double slope) {
+  const double degrees = std::floor(std::atan(slope) * 180.0 / std::numbers::pi * 100.0) / 100.0;
+  if (!(degrees > 0.0)) return {};
+  return "ANGLE of T" + std::to_string(tool) + " in the tool table: " + trimmed(degrees, 2) +
+         " degrees at most";
+}
 
 std::optional<std::string> pocket_text(const PocketCycle& p) {
+  const double overlap =
+      std::floor(std::min(kMostOverlap, p.over_mm / (0.5 * p.cutter_mm)) * 1000.0 + 1e-6) / 1000.0;
+  if (overlap < kLeastOverlap) return std::nullopt;
   std::string out;
-  // ANGLE is rounded down: no steeper than planned.
-  const double slope = p.turn_mm / (2.0 * std::numbers::pi * p.helix_mm);
-  const double degrees = std::floor(std::atan(slope) * 180.0 / std::numbers::pi * 100.0) / 100.0;
-  if (!(degrees > 0.0)) return std::nullopt;
-  out += "; ANGLE of T" + std::to_string(p.tool) + " in the tool table: " + trimmed(degrees, 2) +
-         " degrees at most\n";
   out += "L X" + with_sign(p.centre.x, p.decimals) + " Y" + with_sign(p.centre.y, p.decimals) + " R0 FMAX\n";
   out += p.round ? "CYCL DEF 252 CIRCULAR POCKET" : "CYCL DEF 251 RECTANGULAR POCKET";
   const auto q = [&](int number, const std::string& value, const char* meaning) {
@@ -65,11 +68,14 @@ std::optional<std::string> pocket_text(const PocketCycle& p) {
   q(200, n(p.start_z - p.reference_z), "SET-UP CLEARANCE");
   q(203, n(p.reference_z), "SURFACE COORDINATE");
   q(204, n(p.back_z - p.reference_z), "2ND SET-UP CLEARANCE");
-  const double overlap = std::min(kMostOverlap, p.over_mm / (0.5 * p.cutter_mm));
-  q(370, with_sign(std::floor(overlap * 1000.0 + 1e-6) / 1000.0, kOverlapDecimals), "TOOL PATH OVERLAP");
+  q(370, with_sign(overlap, kOverlapDecimals), "TOOL PATH OVERLAP");
   q(366, "+1", "PLUNGE");
   q(385, feed, "FINISHING FEED RATE");
   return out + "\nCYCL CALL";
 }
+
+}  // namespace
+
+constinit const gcode::PocketWords kPockets{.text = &pocket_text, .table = &table_text};
 
 }  // namespace capstan::controls::heidenhain

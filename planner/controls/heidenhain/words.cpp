@@ -318,11 +318,9 @@ gcode::Words words_of(const model::Plan& plan) {
   };
   w.tap = &tap_text;
   w.tap_stops_spindle = true;
-  w.pocket = &pocket_text;
   w.cycle_call = kCall;
   w.cycle_call_there = "M99";
   w.by_cycles = !is("cycles", "explicit");
-  w.by_pockets = is("cycles", "pocket");
   const Abilities abilities{std::string(model::control_option(machine, "pecking_cycle")),
                             is("oriented_stop", "yes")};
   w.cycle = [abilities](const HoleCycle& h, std::span<const geometry::Vec2> /*places*/) {

@@ -75,7 +75,6 @@ gcode::Words words(const model::Machine& machine) {
           },
   };
   out.by_cycles = model::control_option(machine, "cycles") != "explicit";
-  out.by_pockets = model::control_option(machine, "cycles") == "pocket";
   out.cycle = &hole_text;
   return out;
 }

@@ -68,7 +68,6 @@ gcode::Words words_of(const model::Machine& machine) {
     return "G4 " + p_word(parse_double(seconds).value_or(0.0), milliseconds);
   };
   w.by_cycles = !is("cycles", "explicit");
-  w.by_pockets = is("cycles", "pocket");
   w.cycle = [milliseconds](const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
     return hole_text(h, places, milliseconds);
   };

@@ -75,7 +75,6 @@ Result<Profile> read_tree(const tooling::Node& tree, const std::string& file, Jo
   can.splines = f.flag_or("splines", can.splines);
   can.compensation = f.flag_or("compensation", can.compensation);
   can.broadcasts = f.flag_or("broadcasts", can.broadcasts);
-  can.pocket_cycles = f.flag_or("pocket_cycles", can.pocket_cycles);
   can.tool_changes = f.flag_or("tool_changes", can.tool_changes);
   can.largest_tool_number = static_cast<int>(whole(f, "largest_tool_number", 0, 1, 99'999'999));
   can.look_ahead_moves = whole(f, "look_ahead_moves", 0, 1, 1'000'000);

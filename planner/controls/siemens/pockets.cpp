@@ -13,8 +13,6 @@ namespace {
 constexpr const char *kClimb = "0", *kUpCut = "1";
 constexpr const char* kRoughAlongHelix = "21";
 
-}  // namespace
-
 /// POCKET3(_RTP, _RFP, _SDIS, _DP, _LENG, _WID, _CRAD, _PA, _PO, _STA, _MID, _FAL, _FALD, _FFP1, _FFD, _CDIR,
 /// _VARI, _MIDA, _AP1, _AP2, _AD, _RAD1, _DP1); POCKET4 has _PRAD in place of _LENG, _WID and _CRAD, neither
 /// _STA nor _AP2.
@@ -31,5 +29,9 @@ std::optional<std::string> pocket_text(const gcode::PocketCycle& p) {
   return "POCKET3(" + planes + n(p.length_mm) + n(p.width_mm) + n(p.corner_mm) + place +
          trimmed(p.angle_deg, gcode::kMostDecimals) + "," + cut + ",,," + in;
 }
+
+}  // namespace
+
+constinit const gcode::PocketWords kPockets{.text = &pocket_text};
 
 }  // namespace capstan::controls::siemens

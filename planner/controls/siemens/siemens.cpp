@@ -55,6 +55,7 @@ Result<std::string> write_program(const model::Plan& plan, Job& job,
   if (auto ok = names_right(plan); !ok) return tl::unexpected(ok.error());
   gcode::Words words = words_of(plan.machine);
   words.work_offsets = kOffsets;
+  words.pockets = kDialect.pockets;
   return gcode::write(plan, words, condemned, job);
 }
 
@@ -74,10 +75,10 @@ constinit const Dialect kDialect{
                     .axes = 5,
                     .work_offsets = kOffsets.size(),
                     .block_time_s = 0.001,
-                    .splines = true,
-                    .pocket_cycles = true},
+                    .splines = true},
     .decimals = 3,
     .write_program = &write_program,
+    .pockets = &kPockets,
 };
 
 }  // namespace capstan::controls::siemens

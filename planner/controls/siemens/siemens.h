@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/controls/dialect.h"
+#include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/gcode/words.h"
 #include "planner/model/plan/resources/machine.h"
 
@@ -55,8 +56,8 @@ extern const Dialect kDialect;
 /// The words of the machine's control.
 [[nodiscard]] gcode::Words words_of(const model::Machine& machine);
 
-/// POCKET3 or POCKET4 for a pocket (pockets.cpp).
-[[nodiscard]] std::optional<std::string> pocket_text(const gcode::PocketCycle& pocket);
+/// POCKET3 and POCKET4 (pockets.cpp).
+extern const gcode::PocketWords kPockets;
 
 /// Characters of a tool's name at most, and whether it may be one: printable, without quotes.
 inline constexpr std::size_t kLongestToolName = 32;

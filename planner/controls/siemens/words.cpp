@@ -183,12 +183,10 @@ gcode::Words words_of(const model::Machine& machine) {
   w.tap = [](const HoleCycle& h) { return h.in_chuck ? chuck_text(h) : tap_text(h); };
   w.tap_stops_spindle = true;
   w.by_cycles = !is("cycles", "explicit");
-  w.by_pockets = is("cycles", "pocket");
   w.cycle = [oriented = is("oriented_stop", "yes")](const HoleCycle& h, Places places) {
     if (h.stops) return oriented ? std::optional(bored_text(h, places)) : std::nullopt;
     return h.pecks ? pecked_text(h, places) : std::optional(hole_text(h, places));
   };
-  w.pocket = &pocket_text;
   w.more_centre_decimals = kMoreCentreDecimals;
   w.turns = is("turns", "yes");
   return w;

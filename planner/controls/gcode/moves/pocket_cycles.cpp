@@ -10,6 +10,7 @@
 #include "planner/model/features/setup_place.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
+#include "planner/model/plan/edit/cycles.h"
 
 namespace capstan::controls::gcode {
 namespace {
@@ -30,12 +31,12 @@ constexpr double kClearanceMm = 0.2;
 constexpr double kAgreeMm = 0.002;
 constexpr double kSame = 1e-6;
 constexpr double kChordMm = 0.0005;
-/// The helix's radius over the cutter's: near it, and no core is left. Default, unsourced.
+/// The helix's radius over that of the cutter's flat front: near it, and no core is left. Default, unsourced.
 constexpr double kHelixShare = 0.9;
 /// Of the diameter: a smaller helix is hardly one. Default, unsourced.
 constexpr double kLeastHelix = 0.05;
 
-PocketOfStep no(std::string why) { return {std::nullopt, std::move(why)}; }
+PocketOfStep no(std::string why) { return {std::nullopt, std::move(why), {}}; }
 
 /// What the path says of its way in: along ramps.
 struct WayIn {
@@ -167,7 +168,7 @@ PocketOfStep contour(const model::Plan& plan, const model::StepResult& step,
   c.centre = xy(at.to_parent({middle.x, middle.y, 0.0}));
   c.angle_deg = c.round ? 0.0 : (std::atan2(at.x.y, at.x.x) + turned) * kDegrees;
   c.floor_z = at.origin.z - s.depth_mm;
-  return {c, {}};
+  return {c, {}, {}};
 }
 
 /// What the step leaves; whether its path reaches as far as these and the pocket say.
@@ -190,6 +191,8 @@ std::string left_by(const model::Plan& plan, const model::StepResult& step,
   return {};
 }
 
+double slope_of(const PocketCycle& c) { return c.turn_mm / (2.0 * pi * c.helix_mm); }
+
 /// Rounded as the control writes it; the last heights so that levels come out whole.
 void round_to(PocketCycle& c, const model::Control& control) {
   c.decimals = control.decimals;
@@ -199,6 +202,8 @@ void round_to(PocketCycle& c, const model::Control& control) {
     *v = rounded(*v, c.decimals);
   const double unit = std::pow(10.0, -c.decimals), feeds = std::pow(10.0, -c.feed_decimals);
   const auto down = [](double v, double u) { return std::floor(v / u + 1e-6) * u; };
+  // Rounded apart, corners of a slot might come out rounder than half its width.
+  c.corner_mm = std::min(c.corner_mm, down(0.5 * std::min(c.length_mm, c.width_mm), unit));
   // A level is rounded up, so that the control counts no level more.
   c.level_mm = std::ceil(c.level_mm / unit - 1e-6) * unit;
   c.over_mm = down(c.over_mm, unit);
@@ -226,6 +231,10 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   PocketCycle& c = *out.cycle;
   c.cutter_mm = cutter->cutting_diameter_mm;
   c.tool = cutter->pocket;
+  // Rings farther apart than its front is flat leave ridges on the floor.
+  const double flat = c.cutter_mm - 2.0 * model::end_radius_mm(*cutter);
+  if (!(kRingShare * flat > std::pow(10.0, -plan.machine.control.decimals)))
+    return no("its mill is round at the end: rings would leave ridges on the floor");
   if (std::string why = left_by(plan, step, *ws, c); !why.empty()) return no(std::move(why));
   const auto in = way_in(step);
   if (!in) return no("its path does not go in along a ramp");
@@ -234,7 +243,7 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   if (first != in->rpm || !(in->rpm > 0.0)) return no("its path does not begin at the speed of its way in");
   const double narrow = 0.5 * std::min(c.length_mm, c.width_mm) - 0.5 * c.cutter_mm - c.side_mm;
   // Any circle with the path's slope goes in as steeply as the path.
-  c.helix_mm = std::min(kHelixShare * 0.5 * c.cutter_mm, narrow);
+  c.helix_mm = std::min(kHelixShare * 0.5 * flat, narrow);
   c.turn_mm = in->slope * 2.0 * pi * c.helix_mm;
   if (c.helix_mm < kLeastHelix * c.cutter_mm) return no("no helix has room in it");
   c.angle_deg -= 180.0 * std::floor((c.angle_deg + kSame) / 180.0);
@@ -250,10 +259,38 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   c.level_mm = depth / slot->levels;
   c.feed_mm_min = slot->feed_mm_min;
   c.ramp_feed_mm_min = std::min(in->feed_mm_min, slot->feed_mm_min);
-  c.over_mm = kRingShare * c.cutter_mm;
+  c.over_mm = kRingShare * flat;
   c.planned_s = step.cutting_s;
   round_to(c, plan.machine.control);
   if (c.back_z < c.start_z || !(depth > 0.0)) return no("it does not begin above what it cuts");
+  return out;
+}
+
+AskedPockets asked_pockets(const model::Plan& plan, const PocketWords* words) {
+  AskedPockets out;
+  out.of_step.resize(plan.steps.size());
+  const std::vector<std::string> cycles = model::cycles_by_step(plan);
+  std::map<int, double> slopes;  // by tool, the least
+  for (std::size_t n = 0; n < plan.steps.size(); ++n) {
+    if (!model::asks_for_pocket_cycle(plan.machine, cycles[n])) continue;
+    PocketOfStep& pocket = out.of_step[n] = pocket_of(plan, n);
+    if (!pocket.cycle) continue;
+    const PocketCycle& c = *pocket.cycle;
+    const auto text = words != nullptr ? words->text(c) : std::nullopt;
+    const double slope = slope_of(c);
+    if (!text || (words->table != nullptr && words->table(c.tool, slope).empty())) {
+      pocket = no("it has none");
+      continue;
+    }
+    pocket.text = *text;
+    const auto [least, first] = slopes.emplace(c.tool, slope);
+    if (!first) least->second = std::min(least->second, slope);
+  }
+  if (words == nullptr || words->table == nullptr) return out;
+  for (const auto& [tool, slope] : slopes) out.tables[tool] = words->table(tool, slope);
+  for (PocketOfStep& pocket : out.of_step) {
+    if (pocket.cycle) pocket.cycle->turn_mm = 2.0 * pi * pocket.cycle->helix_mm * slopes[pocket.cycle->tool];
+  }
   return out;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/plan.h"
@@ -37,7 +39,8 @@ struct PocketCycle {
   double planned_s = 0.0;                ///< time of the plan's own path
 };
 
-/// The share of the cutter's diameter from ring to ring at most. Source: POCKET3 and POCKET4 take 80 % where
+/// The share of the diameter from ring to ring at most, of a mill with a corner radius of that of its flat
+/// part, so that no ridges stay on the floor. Source: POCKET3 and POCKET4 take 80 % where
 /// nothing is stated (SINUMERIK, cycles, _MIDA).
 inline constexpr double kRingShare = 0.8;
 
@@ -49,8 +52,29 @@ inline constexpr double kRingShare = 0.8;
 struct PocketOfStep {
   std::optional<PocketCycle> cycle;
   std::string why_not;  ///< empty: a cycle, or the step makes no pocket at all
+  std::string text;     ///< the cycle in the control's words (`asked_pockets`)
 };
 [[nodiscard]] PocketOfStep pocket_of(const model::Plan& plan, std::size_t n);
+
+/// What a control says of pockets in its own way.
+struct PocketWords {
+  /// A pocket as a cycle, the tool at `back_z` somewhere within it; it ends there, over the middle. One or
+  /// more lines. Nothing where the control has none for it.
+  std::optional<std::string> (*text)(const PocketCycle& pocket) = nullptr;
+  /// A comment, which the check reads: what the operator's tool table must say of tool `tool`, whose way in
+  /// is as steep as that says, so that it goes down by `slope` times what it goes along at most. Empty: no
+  /// figure of the table is so flat. Null: each cycle states its own.
+  std::string (*table)(int tool, double slope) = nullptr;
+};
+
+/// The pockets of a plan that are asked for as cycles.
+struct AskedPockets {
+  std::vector<PocketOfStep> of_step;  ///< nothing of the others
+  /// By tool with such pockets: PocketWords::table, for the flattest way in of them, which all then have.
+  std::map<int, std::string> tables;
+};
+/// `words`: the control's; null where it has no such cycles.
+[[nodiscard]] AskedPockets asked_pockets(const model::Plan& plan, const PocketWords* words);
 
 /// Seconds that a path by rings at the cycle's feeds takes, the way in included: an estimate, for the path is
 /// the control's.

@@ -4,6 +4,7 @@
 #include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/edit/step_names.h"
+#include "planner/model/plan/resources/control_options.h"
 
 namespace capstan::model {
 
@@ -18,6 +19,10 @@ std::vector<std::string> cycles_by_step(const Plan& plan) {
     if (const Edit* e = deciding(edits, EditOf::kCycles, names)) out[i] = e->value;
   }
   return out;
+}
+
+bool asks_for_pocket_cycle(const Machine& machine, std::string_view of_step) {
+  return (of_step.empty() ? control_option(machine, "cycles") : of_step) == kPocketCycles;
 }
 
 }  // namespace capstan::model

@@ -17,4 +17,8 @@ inline constexpr std::string_view kPocketCycles = "pocket";
 /// empty: none says anything, and the machine's option holds.
 [[nodiscard]] std::vector<std::string> cycles_by_step(const Plan& plan);
 
+/// Whether a step's pocket is asked for as the control's cycle: by an edit, `of_step` of the above, or, where
+/// that is empty, by the machine's option.
+[[nodiscard]] bool asks_for_pocket_cycle(const Machine& machine, std::string_view of_step);
+
 }  // namespace capstan::model

@@ -109,7 +109,8 @@ bool known_to_all(const Block& b) { return b.known_to[0] && b.known_to[1] && b.k
 struct Own {
   double along_mm = 0.0, across_mm = 0.0, about_mm = 0.0;  ///< how far its centre comes from the middle
   double lowest_z = 1e300, fed_from_z = 1e300;
-  double slope = 0.0, ramp_feed_mm_min = 1e300;
+  double slope = 1e300;  ///< of the flattest ramp
+  double ramp_feed_mm_min = 1e300;
   double turned = 0.0;  ///< twice the area that it goes round; above 0 counter-clockwise
 };
 
@@ -178,7 +179,9 @@ bool Following::pocket_cycle() {
     if (path_.role[i] == MoveRole::kRamp || path_.role[i] == MoveRole::kPlunge) {
       const double run =
           is_arc(whole.kind) ? radius_of(i) * sweep_of(whole) : norm(xy(whole.to) - xy(whole.from));
-      if (run > 0.0) path.slope = std::max(path.slope, (whole.from.z - whole.to.z) / run);
+      const double down = whole.from.z - whole.to.z;
+      if (path_.role[i] == MoveRole::kRamp && run > kApartMm && down > 0.0)
+        path.slope = std::min(path.slope, down / run);
       path.ramp_feed_mm_min = std::min(path.ramp_feed_mm_min, feed_of(i));
     }
     const int pieces = pieces_of(whole, kChord);
@@ -216,8 +219,10 @@ bool Following::pocket_cycle() {
   if ((path.turned < 0.0) != p.clockwise)
     return wrong(std::string("goes round ") + (p.clockwise ? "clockwise" : "counter-clockwise") +
                  "; the plan's path the other way");
-  if (p.over_mm > p.cutter_mm)
-    return wrong("has rings " + mm(p.over_mm) + " apart; the cutter is " + mm(p.cutter_mm) + " wide");
+  const double flat = p.cutter_mm - 2.0 * model::end_radius_mm(*cutter_);
+  if (p.over_mm > flat + unit_)
+    return wrong("has rings " + mm(p.over_mm) + " apart; the cutter of diameter " + mm(p.cutter_mm) +
+                 " is flat over " + mm(flat) + ": ridges would stay on the floor");
   if (p.level_mm > step_.axial_depth_mm + unit_)
     return wrong("goes down by " + mm(p.level_mm) + " at a time; the plan by " + mm(step_.axial_depth_mm));
   if (p.level_mm > kDeepestOfDiameter * p.cutter_mm + unit_)
@@ -228,8 +233,10 @@ bool Following::pocket_cycle() {
   // Radius and drop are rounded, each by half a unit.
   const double rounding =
       p.helix_mm > 0.0 ? unit_ / (2.0 * kPi * p.helix_mm) + slope * unit_ / p.helix_mm : 0.0;
+  if (path.slope > 1e299) return wrong("goes in along a helix; the plan's path goes in along no ramp");
   if (slope > path.slope + rounding)
-    return wrong("goes in at a slope of " + plain(slope) + "; the plan's path at " + plain(path.slope));
+    return wrong("goes in at a slope of " + plain(slope) + "; the flattest ramp of the plan's path at " +
+                 plain(path.slope));
   if (p.helix_mm > 0.5 * p.cutter_mm + unit_)
     return wrong("goes in along a helix of radius " + mm(p.helix_mm) + ": the cutter of diameter " +
                  mm(p.cutter_mm) + " leaves a core in it");
@@ -238,6 +245,10 @@ bool Following::pocket_cycle() {
                "the pocket cycle goes in at " + plain(p.ramp_feed_mm_min) + " mm/min; the plan's path at " +
                    plain(path.ramp_feed_mm_min),
                -1, 18, "CHK-CYCLE-FEED");
+  if (!(step_.loads.peak_force_n > 0.0))
+    return wrong(
+        "may be in a slot as wide as the cutter, and the plan states no largest force for the step "
+        "(peak_force_n), which its feed must keep there: plan the step again, or write it as moves");
   const SlotBound bound = slot_bound(*c_.plan, step_, *cutter_, p.level_mm, std::abs(speed_of(1)));
   if (p.feed_mm_min > bound.feed_mm_min + feed_slack())
     return say(p.line,

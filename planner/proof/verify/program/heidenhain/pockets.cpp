@@ -33,7 +33,13 @@ void Interpreter::table_angle(std::string_view comment) {
   const std::size_t number = begin + kBegin.size(), angle = middle + kMiddle.size();
   const auto tool = parse_double(comment.substr(number, middle - number));
   const auto degrees = parse_double(comment.substr(angle, end - angle));
-  if (tool && degrees) table_angles_[static_cast<int>(*tool)] = *degrees;
+  if (!tool || !degrees) return;
+  const auto [said, first] = table_angles_.emplace(static_cast<int>(*tool), *degrees);
+  if (!first && said->second != *degrees)
+    fault(26, "CHK-CYCLE",
+          "ANGLE of T" + std::to_string(said->first) + " in the tool table is " + plain(*degrees) +
+              " degrees at most here, and " + plain(said->second) +
+              " before: the table has one, the least of both; say it once");
 }
 
 void Interpreter::pocket(const CycleDefinition& c, const Heights& h) {

@@ -7,115 +7,41 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "planner/controls/controls.h"
+#include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/suitability.h"
 #include "planner/door/service/options.h"
 #include "planner/door/service/planning.h"
 #include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/verify.h"
+#include "tests/door/service/pockets/pocket_parts.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::service {
 namespace {
+
+using namespace pocket_parts;
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-std::string with(std::string text, const std::string& own, const std::string& other) {
-  const std::size_t at = text.find(own);
-  EXPECT_NE(at, std::string::npos) << own;
-  return at == std::string::npos ? text : text.replace(at, own.size(), other);
-}
-
-std::string bracket() { return testing::slurp(testing::source_dir() + "/examples/bracket.p21"); }
-/// Its pocket round, of 36 mm.
-std::string round_pocket() {
-  return with(
-      with(bracket(), "#60=RECTANGULAR_CLOSED_PROFILE($,#58,#59);", "#60=CIRCULAR_CLOSED_PROFILE($,#58);"),
-      "$,#54,$,#56,#60)", "$,#54,$,$,#60)");
-}
-/// Its pocket turned by 20 degrees about its middle.
-std::string turned_pocket() {
-  return with(bracket(), "#50=AXIS2_PLACEMENT_3D('POCKET',#49,#21,#22);",
-              "#50=AXIS2_PLACEMENT_3D('POCKET',#49,#21,#900);\n#900=DIRECTION('',(0.939692620786,"
-              "0.342020143326,0.));");
-}
-
-/// Its slot closed with round ends: 14 wide, 30 from middle to middle of these.
-std::string closed_slot() {
-  std::string text = with(bracket(), "'SLOT',(105.,0.,0.)", "'SLOT',(103.,25.,0.)");
-  text = with(text, "#67=TOLERANCED_LENGTH_MEASURE(80.,", "#67=TOLERANCED_LENGTH_MEASURE(30.,");
-  text = with(text, "#72=TOLERANCED_LENGTH_MEASURE(10.,", "#72=TOLERANCED_LENGTH_MEASURE(14.,");
-  for (int end = 0; end < 2; ++end) text = with(text, "OPEN_SLOT_END_TYPE()", "RADIUSED_SLOT_END_TYPE()");
-  return text;
-}
-
-/// The part's plan for a control with pockets as cycles.
-const model::Plan& planned(const std::string& control, const std::string& part) {
-  static std::map<std::string, model::Plan> plans;
-  const std::string key = control + part;
-  if (!plans.contains(key)) {
-    Request request;
-    EXPECT_TRUE(set(request, "control", control));
-    Job job;
-    const auto out = plan(request, {.name = "bracket.p21", .bytes = part}, job);
-    EXPECT_TRUE(out) << (out ? "" : to_text(out.error().what));
-    if (!out) return plans[key];
-    plans[key] = out->plan;
-    plans[key].machine.control_options = model::ControlOptions{{{"cycles", "pocket"}}};
-  }
-  return plans[key];
-}
-
-std::string program_of(const model::Plan& plan) {
-  Job job;
-  const auto text = controls::write_program(plan, job);
-  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
-  return text.value_or("");
-}
-
-/// Code and message of each error; of warnings, too, where they are asked for.
-std::vector<std::string> against(const std::string& text, const model::Plan& plan, bool warnings = false) {
-  Job job;
+/// What is told of pockets that are asked for as cycles: of a step, that it stays moves; of the program, what
+/// the operator's table must have.
+std::vector<std::string> told_of(const char* control, const model::Plan& plan, bool of_program) {
   std::vector<std::string> out;
-  for (const auto& f : verify::check_program({"program", text, ""}, &plan, plan.machine, plan.cutters, job)) {
-    if (f.severity == Severity::kError || (warnings && f.severity == Severity::kWarning))
-      out.push_back(f.code + " " + f.step + ": " + f.message);
+  for (const auto& f : controls::suitability(plan, controls::find_dialect(control)->conformance)) {
+    if (f.code == "FIT-POCKET-CYCLE" && f.step.empty() == of_program) out.push_back(f.message);
   }
   return out;
 }
-
-/// The line that calls the cycle.
-std::string call_in(const std::string& text, const std::string& begin) {
-  const std::size_t at = text.find(begin);
-  EXPECT_NE(at, std::string::npos) << text;
-  return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
-}
-
-/// The call with parameter `n` (from 0) as `value`.
-std::string with_parameter(const std::string& call, std::size_t n, const std::string& value) {
-  std::size_t begin = call.find('(') + 1;
-  for (std::size_t i = 0; i < n; ++i) begin = call.find(',', begin) + 1;
-  return call.substr(0, begin) + value + call.substr(call.find_first_of(",)", begin));
-}
-std::string parameter(const std::string& call, std::size_t n) {
-  std::size_t begin = call.find('(') + 1;
-  for (std::size_t i = 0; i < n; ++i) begin = call.find(',', begin) + 1;
-  return call.substr(begin, call.find_first_of(",)", begin) - begin);
-}
-
-/// How often a pocket is told that stays moves though it is asked for as a cycle.
 std::size_t notes_of(const char* control, const model::Plan& plan) {
-  std::size_t out = 0;
-  for (const auto& f : controls::suitability(plan, controls::find_dialect(control)->conformance))
-    out += f.code == "FIT-POCKET-CYCLE" ? 1 : 0;
-  return out;
+  return told_of(control, plan, false).size();
 }
 
 struct Fault {
@@ -145,6 +71,9 @@ TEST(PocketCycles, OfSiemensAreReadBackWithinWhatThePlanProves) {
   EXPECT_EQ(parameter(call, 21), "4.5");
   EXPECT_THAT(text,
               HasSubstr("\n;it counts with the radius that the control's tool list has for T2: 5 mm\n"));
+  EXPECT_THAT(text, HasSubstr(" s as planned, which tool life counts\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\n;in along a helix: prove it in the control's simulation before the first cut\n"));
   EXPECT_THAT(against(text, plan, true), IsEmpty());
 }
 
@@ -206,6 +135,22 @@ TEST(PocketCycles, TakeSlotsWithRoundEndsAsRectanglesWithRoundEnds) {
   const model::Plan& other = planned("heidenhain", closed_slot());
   EXPECT_THAT(program_of(other), HasSubstr("Q218=+44 ;"));
   EXPECT_THAT(against(program_of(other), other, true), IsEmpty());
+}
+
+// Half of such a width has a decimal more than the control: corners of 7.938 or 4.763 would be rounder than
+// half of 15.875 or 9.525, which is 7.9375 and 4.7625.
+TEST(PocketCycles, OfWidthsWithAnOddLastDecimalHaveCornersNoRounderThanHalfTheWidth) {
+  for (const auto& [width, corner] :
+       std::vector<std::pair<std::string, std::string>>{{"15.875", "7.937"}, {"9.525", "4.762"}}) {
+    const model::Plan& plan = planned("siemens", closed_slot(width));
+    const std::string text = program_of(plan), call = call_in(text, "POCKET3(20,0.8,0.2,-8,");
+    EXPECT_EQ(parameter(call, 5), width);
+    EXPECT_EQ(parameter(call, 6), corner);
+    EXPECT_THAT(against(text, plan, true), IsEmpty());
+    const model::Plan& other = planned("heidenhain", closed_slot(width));
+    EXPECT_THAT(program_of(other), HasSubstr("Q220=+" + corner + " ;"));
+    EXPECT_THAT(against(program_of(other), other, true), IsEmpty());
+  }
 }
 
 struct Other {
@@ -272,6 +217,47 @@ TEST(PocketCycles, OfHeidenhainAreFoundWhereAParameterIsAnother) {
                 {told.c_str(), "; as steep as it likes", "CHK-UNVERIFIABLE"}});
 }
 
+// The tool table has one ANGLE for the mill that roughs both the pocket and the slot: the lesser, rounded
+// down to hundredths.
+TEST(PocketCycles, OfOneToolHaveOneAngleOfTheTableTheLeastOfAll) {
+  const model::Plan& plan = planned("heidenhain", closed_slot());
+  double least = 90.0, most = 0.0;
+  for (std::size_t n = 0; n < plan.steps.size(); ++n) {
+    const auto c = controls::gcode::pocket_of(plan, n).cycle;
+    if (!c) continue;
+    ASSERT_EQ(c->tool, 2);
+    const double angle = std::atan(c->turn_mm / (2.0 * std::numbers::pi * c->helix_mm));
+    least = std::min(least, angle * 180.0 / std::numbers::pi);
+    most = std::max(most, angle * 180.0 / std::numbers::pi);
+  }
+  ASSERT_GT(most, least + 0.1);
+  const std::string text = program_of(plan), begin = "; ANGLE of T2 in the tool table: ";
+  const std::size_t at = text.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(at, text.find("; CAPSTAN STEP "));
+  EXPECT_EQ(text.find("ANGLE of T", at + begin.size()), std::string::npos);
+  const double told = std::stod(text.substr(at + begin.size()));
+  EXPECT_LE(told, least);
+  EXPECT_GT(told, least - 0.01 - 1e-9);
+  EXPECT_THAT(against(text, plan, true), IsEmpty());
+  // A second one of the same tool says something else of the same table.
+  EXPECT_THAT(against(with(text, "; it counts with the radius that the control's tool list has for T2: 5 mm",
+                           "; ANGLE of T2 in the tool table: 3 degrees at most"),
+                      plan),
+              Contains(HasSubstr("ANGLE of T2 in the tool table is 3 degrees at most here")));
+}
+
+// The table is the operator's: neither program nor check has it.
+TEST(PocketCycles, TellOnceWhatTheToolTableOfTheControlMustHave) {
+  const auto of_heidenhain = told_of("heidenhain", planned("heidenhain", closed_slot()), true);
+  ASSERT_EQ(of_heidenhain.size(), 1U);
+  EXPECT_THAT(of_heidenhain[0], HasSubstr("see that it has: R of T2 5 mm; ANGLE of T2 in the tool table: "));
+  const auto of_siemens = told_of("siemens", planned("siemens", bracket()), true);
+  ASSERT_EQ(of_siemens.size(), 1U);
+  EXPECT_THAT(of_siemens[0], HasSubstr("see that it has: R of T2 5 mm; tool life counts the "));
+  EXPECT_THAT(told_of("fanuc", planned("fanuc", bracket()), true), IsEmpty());
+}
+
 TEST(PocketCycles, OfHeidenhainTakeRoundAndTurnedPockets) {
   const model::Plan& round = planned("heidenhain", round_pocket());
   const std::string text = program_of(round);
@@ -289,6 +275,8 @@ TEST(PocketCycles, AreMovesWhereTheControlHasNoneOrThePocketIsNoneForIt) {
   EXPECT_THAT(program_of(fanuc), HasSubstr("(NO CYCLE OF THE CONTROL FOR THIS POCKET: IT HAS NONE)"));
   EXPECT_THAT(against(program_of(fanuc), fanuc, true), IsEmpty());
   EXPECT_EQ(notes_of("fanuc", fanuc), 1U);
+  // Nor does it become a cycle where another control's profile is held against it: its program is the same.
+  EXPECT_EQ(notes_of("siemens", fanuc), 1U);
   EXPECT_EQ(notes_of("siemens", planned("siemens", bracket())), 0U);
   const model::Plan& one_sided = planned(
       "siemens", with(bracket(), "#57=PLUS_MINUS_VALUE(0.1,0.1,3);", "#57=PLUS_MINUS_VALUE(0.1,0.,3);"));
