@@ -283,9 +283,25 @@ std::string words_of(const std::vector<Change>& changes, const std::vector<std::
   return out + ".\n";
 }
 
+namespace {
+
+/// Whether an operation is cut with the tool that it had, which measures otherwise.
+bool has_its_tool_measured(const Plan& before, const Plan& after, model::AnyRef operation) {
+  return std::any_of(before.steps.begin(), before.steps.end(), [&](const StepResult& a) {
+    const auto* ws = before.model.get<model::MachiningWorkingstep>(a.step);
+    if (ws == nullptr || model::AnyRef(ws->its_operation) != operation) return false;
+    return std::any_of(after.steps.begin(), after.steps.end(), [&](const StepResult& b) {
+      return b.step == a.step && b.cutter_id != a.cutter_id && same_tool(before, after, a, b);
+    });
+  });
+}
+
+}  // namespace
+
 Status within_policy(const Plan& before, const Plan& after, Decisions may, bool part) {
   for (const auto& [key, decision] : before.ledger.entries()) {
     if (!decision.pinned) continue;
+    if (key.attribute == "its_tool" && has_its_tool_measured(before, after, key.object)) continue;
     if (model::hash_attribute(before.model, key.object, key.attribute) ==
         model::hash_attribute(after.model, key.object, key.attribute))
       continue;

@@ -100,7 +100,9 @@ bool as_worn(const Cutter& c, const Cutter& planned) {
 /// path the measured diameter offsets. Holes have the size of their drill, so that another one is another
 /// tool.
 const Cutter* worn(const std::vector<Cutter>& library, const Cutter& planned) {
-  if (planned.pocket <= 0 || !model::has(planned.cutter_class, model::CutterTrait::kEndMill)) return nullptr;
+  const bool mill = model::has(planned.cutter_class, model::CutterTrait::kEndMill) ||
+                    planned.cutter_class == model::CutterClass::kFacemill;
+  if (planned.pocket <= 0 || !mill) return nullptr;
   for (const Cutter& c : library) {
     const std::string* source = tooling::source_of(c, "cutting_diameter_mm");
     const bool measured = c.table_line || (source != nullptr && *source == kLessWear);

@@ -127,6 +127,9 @@ TEST(LatePolicy, WhatTheOperatorPinnedStays) {
   ASSERT_GT(pinned, 5U);
   EXPECT_TRUE(bound(plan, shop_of(bracket().table)));
   EXPECT_FALSE(bound(plan, shop_of(without(bracket().table, replaceable()))));
+  // The tool that it is may be worn.
+  const auto worn = bound(plan, shop_of(with(bracket().table, eight_mill(plan), "D", -0.05)));
+  EXPECT_TRUE(worn) << to_text(worn.error());
   // A plan that says another value than the pinned one is refused, whoever made it.
   model::Plan other = plan;
   for (const auto& [key, decision] : plan.ledger.entries()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "planner/making/toolpath/defaults.h"
@@ -102,6 +103,28 @@ TEST(BesideThePiece, ALastPassGoesRoundTheWallsAloneWhereTheFloorIsMade) {
   // What roughing left without an allowance is not finished.
   t.floor_made = false;
   EXPECT_GT(cut(0.0), 100.0 + 20.0);
+}
+
+// The edges of a mill of 45 degrees reach as much farther out as they cut deep: 3 mm here.
+TEST(BesideThePiece, AFaceMillWhoseEdgesLeanComesDownClearOfThePiece) {
+  PathJob t = area_job(geometry::rectangle({0, 0}, {160, 40}), 3.0, 50.0);
+  t.shape.kind = model::ShapeKind::kFace;
+  t.shape.open = true;
+  t.shape.reach = geometry::offset_sharp(t.shape.area, 100.0);
+  t.stock = t.shape.area;
+  t.operation = model::TypeId::kPlaneRoughMilling;
+  t.strategy = StrategyKind::kBidirectional;
+  t.cutter.cutter_class = model::CutterClass::kFacemill;
+  t.cutter.lead_angle_rad = std::numbers::pi / 4.0;
+  t.cutter.maximum_depth_of_cut_mm = 5.0;
+  Job job;
+  const auto g = generate(t, job);
+  ASSERT_TRUE(g) << g.error().message;
+  double begins = 1e300;
+  for (std::size_t i = 1; i < g->path.size(); ++i) {
+    if (g->path.z[i] < -2.9) begins = std::min({begins, g->path.x[i], 160.0 - g->path.x[i]});
+  }
+  EXPECT_LE(begins, -(25.0 + 3.0) + 1e-6);
 }
 
 // 100 mm by passes of 45 mm at most: three of 33 mm and a tenth of a radius, not 45, 45 and 10.

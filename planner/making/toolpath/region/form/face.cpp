@@ -127,7 +127,16 @@ class Face {
     return passes > 1.0 ? std::min(most, (to_cover + kOverhang * radius_) / passes) : most;
   }
 
-  [[nodiscard]] std::vector<Stroke> strokes() const {
+  /// How far from the axis the cutter reaches at most, up to a height: its edge may lean.
+  [[nodiscard]] double widest(double depth_mm) const {
+    return model::profile_of(task_.cutter).radius_at(depth_mm);
+  }
+  /// From the cutter's axis to the piece where it comes down beside it.
+  [[nodiscard]] double beside(double depth_mm) const {
+    return std::max(radius_ + kAirBeyond, widest(depth_mm));
+  }
+
+  [[nodiscard]] std::vector<Stroke> strokes(double depth_mm) const {
     double lo = 1e300;
     double hi = -1e300;
     for (const auto& loop : w_.area.loops) {
@@ -149,9 +158,9 @@ class Face {
       double a = 0.0;
       double b = 0.0;
       if (extent(w_.area, v, a, b)) {
-        const double over = radius_ + kAirBeyond;
+        const double over = beside(depth_mm);
         Stroke s{.from = (a - over) * e_ + v * n_, .to = (b + over) * e_ + v * n_, .first = {}, .last = {}};
-        free_start(material, s);
+        free_start(material, over, s);
         extent(w_.material, v, a, b);
         s.first = std::max(a - kAirBeyond, dot(s.from, e_)) * e_ + v * n_;
         s.last = std::min(b + kAirBeyond, dot(s.to, e_)) * e_ + v * n_;
@@ -164,8 +173,8 @@ class Face {
   }
 
   /// Moves the ends of a pass out of raw material that is larger than the face.
-  void free_start(const Inside& material, Stroke& s) const {
-    const double room = radius_ + kAirBeyond - kRounding;
+  void free_start(const Inside& material, double over, Stroke& s) const {
+    const double room = over - kRounding;
     for (int i = 0; i < 20 && !material.clear_of(s.from, room); ++i) s.from = s.from - 0.25 * radius_ * e_;
     for (int i = 0; i < 20 && !material.clear_of(s.to, room); ++i) s.to = s.to + 0.25 * radius_ * e_;
   }
@@ -176,7 +185,7 @@ class Face {
       return contours(z, from);
     }
     const Region keep_off = obstacles(z, task_.allowance_side_mm);
-    auto all = strokes();
+    auto all = strokes(from - z);
     if (!keep_off.empty()) return around(z, from, all, keep_off);
     const Inside material(w_.material);
     const bool one_way = task_.strategy == StrategyKind::kUnidirectional;
@@ -226,7 +235,7 @@ class Face {
     const double far = 1e4;
     const geometry::Loop band = {first - far * e_, first + far * e_, first + far * e_ + across * n_,
                                  first - far * e_ + across * n_};
-    const Region out = geometry::offset_sharp(w_.area, radius_ + kAirBeyond);
+    const Region out = geometry::offset_sharp(w_.area, beside(from - z));
     level.centres = geometry::subtract(geometry::intersect(out, geometry::clean({oriented(band)})), keep_off);
     // Between an island and the edge only a part of the cutter may fit: add passes further out.
     if (reached(out, keep_off) > reached(level.centres, {}) + kSomeArea)
@@ -235,7 +244,8 @@ class Face {
     level.air.clear();
     for (const auto& loop : level.centres.loops) {
       for (const Vec2 p : loop) {
-        if (level.material.clear_of(p, radius_ + 0.1)) level.air.push_back(p);
+        if (level.material.clear_of(p, std::max(radius_ + 0.1, widest(from - z) - kRounding)))
+          level.air.push_back(p);
       }
     }
     RasterOptions o;
