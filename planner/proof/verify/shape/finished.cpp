@@ -131,6 +131,35 @@ class Threads {
   Swept others_;
 };
 
+/// The points of drilled bottoms, workpiece frame. An angle has no tolerance: what a blunter drill leaves
+/// there is CHK-LEFT-POINT's to tell.
+class Points {
+ public:
+  explicit Points(const model::Plan& plan) {
+    for (const PartShapes::Entry& e : shapes_of_part(plan).entries) {
+      for (const volumes::Form& f : e.shapes) {
+        const volumes::Bore* bore = f.kind == model::ShapeKind::kHole ? f.bore() : nullptr;
+        const bool cone = bore != nullptr && bore->bottom == volumes::Bore::Bottom::kCone;
+        if (cone && f.tip_mm > 0.0 && !(bore->blunt_mm > 0.0))
+          all_.push_back({f.frame(), bore->bottom_radius_mm, f.depth_mm(), f.tip_mm});
+      }
+    }
+  }
+  [[nodiscard]] bool hold(Vec3 at) const {
+    return std::any_of(all_.begin(), all_.end(), [&](const One& b) {
+      const Vec3 p = b.frame.to_local(at);
+      return p.z <= -b.depth_mm && p.z >= -b.depth_mm - b.tip_mm && norm(xy(p)) <= b.radius_mm;
+    });
+  }
+
+ private:
+  struct One {
+    geometry::Placement frame;
+    double radius_mm = 0.0, depth_mm = 0.0, tip_mm = 0.0;
+  };
+  std::vector<One> all_;
+};
+
 /// Whether cutters came over a place, by the heights about it; nothing where they do not agree.
 std::optional<bool> by_heights(const Grid& grid, Vec2 lo, double full, Vec3 p) {
   const int ix = static_cast<int>(std::floor((p.x - lo.x) / grid.cell()));
@@ -286,6 +315,7 @@ ShapeDifference compare_with_shape(const model::Plan& plan, const std::vector<St
   out.step_mm = lattice.step_mm;
   const Swept swept(plan, steps);
   const Threads threads(plan, steps);
+  const Points points(plan);
   mark_asked(shape.mesh, lattice);
   mark_gone(plan, steps, swept, lattice);
   const Surface surface(shape.mesh, lattice, out.tolerance_mm);
@@ -311,7 +341,7 @@ ShapeDifference compare_with_shape(const model::Plan& plan, const std::vector<St
         out.removed_mm3 += there ? 0.0 : each;
         common += asked && there ? 1U : 0U;
         either += asked || there ? 1U : 0U;
-        if (!counts) continue;
+        if (!counts || (there && points.hold(at))) continue;
         (there ? out.left_mm3 : out.gouged_mm3) += each;
         (there ? left : gouged).look_at(at);
       }

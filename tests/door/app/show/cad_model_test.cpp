@@ -100,6 +100,9 @@ TEST_F(CadModel, TheExampleIsPlannedCheckedAgainstItsShapeAndWrittenInEveryForm)
   const Ran r = run("plan cover.step --material 6061 -o cover.json -o cover.ngc -o cover.stpnc -o cover.p21");
   EXPECT_THAT(r.err + r.out, AllOf(HasSubstr("\nSafe"), HasSubstr("plane faces within 0.06 mm [CHK-SHAPE]"),
                                    Not(HasSubstr("CHK-SHAPE-GOUGE")), Not(HasSubstr("not planned;"))));
+  // A blind hole's point has no tolerance: what a blunter drill leaves in it is told, and no finding.
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.err, AllOf(HasSubstr("CHK-LEFT-POINT"), Not(HasSubstr("CHK-SHAPE-LEFT"))));
   // Its PMI: 5.5 +0.12, 6 H8, 11 +0.18, 10 +0.1, a position, a flatness, two of Ra. H8 has the hole reamed.
   EXPECT_THAT(r.err, HasSubstr("8 of 8 tolerances and textures of the file are asked of features [CAD-PMI]"));
   EXPECT_THAT(r.err, HasSubstr("step 'HOLE 9 ream'"));
