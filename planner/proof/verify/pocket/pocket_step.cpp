@@ -25,6 +25,11 @@ using volumes::Outline;
 
 namespace {
 
+/// Rings with square corners, at most so far apart over the width that the end is flat, leave no post on the
+/// diagonal: the outer ring covers half a width square to its legs, the inner one as far beyond its corner;
+/// derived: (1 + sqrt(2)) / (2 sqrt(2)).
+constexpr double kRingsAtCorners = 0.8535;
+
 constexpr double kPi = std::numbers::pi;
 /// Text and pocket, text and path may be apart by this, mm, beside what rounding leaves.
 constexpr double kApartMm = 0.002;
@@ -220,9 +225,11 @@ bool Following::pocket_cycle() {
     return wrong(std::string("goes round ") + (p.clockwise ? "clockwise" : "counter-clockwise") +
                  "; the plan's path the other way");
   const double flat = p.cutter_mm - 2.0 * model::end_radius_mm(*cutter_);
-  if (p.over_mm > flat + unit_)
+  const double most = kRingsAtCorners * flat;
+  if (!(p.over_mm > 0.0) || p.over_mm > most + unit_)
     return wrong("has rings " + mm(p.over_mm) + " apart; the cutter of diameter " + mm(p.cutter_mm) +
-                 " is flat over " + mm(flat) + ": ridges would stay on the floor");
+                 " is flat over " + mm(flat) + ", and rings farther apart than " + mm(most) +
+                 " leave material on the floor, posts between their corners first");
   if (p.level_mm > step_.axial_depth_mm + unit_)
     return wrong("goes down by " + mm(p.level_mm) + " at a time; the plan by " + mm(step_.axial_depth_mm));
   if (p.level_mm > kDeepestOfDiameter * p.cutter_mm + unit_)

@@ -32,8 +32,12 @@ TEST(PocketBounds, OfMillsWithACornerRadiusAreRingsThatLeaveNoRidges) {
   const std::string text = program_of(plan), call = call_in(text, "POCKET3(");
   EXPECT_EQ(parameter(call, 17), "6.4");
   EXPECT_EQ(parameter(call, 21), "3.6");
-  EXPECT_THAT(against(with(text, call, with_parameter(call, 17, "8.1")), plan),
-              Contains(HasSubstr("ridges would stay on the floor")));
+  // Rings with square corners leave posts from 0.854 of the 8 mm on.
+  for (const char* wide : {"6.9", "8.1"})
+    EXPECT_THAT(against(with(text, call, with_parameter(call, 17, wide)), plan),
+                Contains(HasSubstr("leave material on the floor")))
+        << wide;
+  EXPECT_THAT(against(with(text, call, with_parameter(call, 17, "-6.4")), plan), Not(IsEmpty()));
   const model::Plan ball = with_corners(planned("siemens", bracket()), 5.0);
   EXPECT_THAT(program_of(ball), Not(HasSubstr("POCKET3(")));
 }

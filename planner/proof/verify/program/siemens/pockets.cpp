@@ -92,7 +92,7 @@ void Interpreter::pocket(const Item& call, bool modal) {
     if (t.tool == tool_) cutter = t.diameter_mm.value_or(0.0);
   }
   const double over = find("MIDA").value_or(0.0) * u;
-  p.over_mm = over > 0.0 ? over : kMidaShare * cutter;
+  p.over_mm = over != 0.0 ? over : kMidaShare * cutter;
   for (const auto name : {"AP1", "AP2", "AD"}) {
     if (find(name).value_or(0.0) != 0.0)
       return unfollowed(std::string("_") + name + ", a blank that is there already, is not followed");
