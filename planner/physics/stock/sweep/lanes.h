@@ -6,7 +6,6 @@ typedef float Native __attribute__((vector_size(4 * kWidth)));
 typedef int NativeMask __attribute__((vector_size(4 * kWidth)));
 
 #if defined(__AVX512VL__) && defined(__AVX512DQ__)
-#define CAPSTAN_MASKS_IN_BITS 1
 struct Mask {
   __mmask8 p;
 };
@@ -43,7 +42,7 @@ inline Float operator+(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] + b.p[
 inline Float operator-(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] - b.p[i]); }
 inline Float operator*(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] * b.p[i]); }
 inline Float operator/(Float a, Float b) { CAPSTAN_LANES(r, Float, a.p[i] / b.p[i]); }
-#ifdef CAPSTAN_MASKS_IN_BITS
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
 inline Mask operator<(Float a, Float b) { return {_mm256_cmp_ps_mask(a.p[0], b.p[0], _CMP_LT_OQ)}; }
 inline Mask operator<=(Float a, Float b) { return {_mm256_cmp_ps_mask(a.p[0], b.p[0], _CMP_LE_OQ)}; }
 inline Mask operator&(Mask a, Mask b) { return {_kand_mask8(a.p, b.p)}; }
@@ -98,7 +97,7 @@ inline Float root(Float a) { CAPSTAN_LANES(r, Float, root(a.p[i])); }
 
 /// Bit k: lane k.
 inline unsigned bits(Mask m) {
-#if defined(CAPSTAN_MASKS_IN_BITS)
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
   return m.p;
 #elif defined(__AVX2__)
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m.p[0])));
