@@ -145,7 +145,7 @@ class Face {
         hi = std::max(hi, dot(p, n_));
       }
     }
-    const double step = equal_step(hi - lo);
+    const double step = equal_step(hi - lo), over = beside(depth_mm);
     // The first pass overhangs the edge by what passes overlap, so that it is as wide as the others.
     double first = std::min(lo + step - radius_, 0.5 * (lo + hi));
     // A single pass overhangs both edges: a rim exactly on an edge would leave slivers there.
@@ -158,7 +158,6 @@ class Face {
       double a = 0.0;
       double b = 0.0;
       if (extent(w_.area, v, a, b)) {
-        const double over = beside(depth_mm);
         Stroke s{.from = (a - over) * e_ + v * n_, .to = (b + over) * e_ + v * n_, .first = {}, .last = {}};
         free_start(material, over, s);
         extent(w_.material, v, a, b);
@@ -242,10 +241,10 @@ class Face {
       level.centres = geometry::subtract(out, keep_off);
     level.inside = Inside(inset(level.centres, -kInsideSlack, 0.25 * kInsideSlack));
     level.air.clear();
+    const double clear = std::max(radius_ + 0.1, widest(from - z) - kRounding);
     for (const auto& loop : level.centres.loops) {
       for (const Vec2 p : loop) {
-        if (level.material.clear_of(p, std::max(radius_ + 0.1, widest(from - z) - kRounding)))
-          level.air.push_back(p);
+        if (level.material.clear_of(p, clear)) level.air.push_back(p);
       }
     }
     RasterOptions o;
