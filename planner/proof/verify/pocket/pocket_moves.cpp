@@ -27,13 +27,19 @@ struct Ring {
 
 }  // namespace
 
+double BlockState::called_diameter_mm() const {
+  double out = 0.0;
+  for (const HeaderTool& t : out_.tools) {
+    if (t.tool == tool_) out = t.diameter_mm.value_or(0.0);
+  }
+  return out;
+}
+
 // Level by level from the middle out: along the middle, which is a full slot, then rings to the walls.
 void BlockState::mill(Pocket p) {
   p.line = line_;
   const auto wrong = [&](const std::string& why) { fault(26, "CHK-CYCLE", "the pocket cycle: " + why); };
-  for (const HeaderTool& t : out_.tools) {
-    if (t.tool == tool_) p.cutter_mm = t.diameter_mm.value_or(0.0);
-  }
+  p.cutter_mm = called_diameter_mm();
   if (!(p.cutter_mm > 0.0))
     return fault(
         33, "CHK-UNVERIFIABLE",

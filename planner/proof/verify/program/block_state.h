@@ -46,6 +46,8 @@ class BlockState {
   void to(geometry::Vec3 p, model::MoveKind kind, bool synchronised = false);
   /// The moves of a pocket cycle (pocket/pocket_moves.cpp), or a fault.
   void mill(Pocket p);
+  /// The diameter of the tool that is called, by the program's header, mm; 0: it does not say it.
+  [[nodiscard]] double called_diameter_mm() const;
   void dwell(double seconds);
   [[nodiscard]] Block block() const;
   /// Notes what the machine's file says of M codes of its builder: `shop_codes` ("M51 M52") move and switch

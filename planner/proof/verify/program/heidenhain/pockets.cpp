@@ -58,10 +58,7 @@ void Interpreter::pocket(const CycleDefinition& c, const Heights& h) {
   if (c.of(370) < 0.1 || c.of(370) > 1.414)
     return fault(26, "CHK-CYCLE", name + "Q370 is " + plain(c.of(370)) + "; it lies from 0.1 to 1.414");
   if (spindle_ == 0) return fault(15, "CHK-SPINDLE", name + "the spindle stands");
-  double cutter = 0.0;
-  for (const HeaderTool& t : out_.tools) {
-    if (t.tool == tool_) cutter = t.diameter_mm.value_or(0.0);
-  }
+  const double cutter = called_diameter_mm();
   const auto angle = table_angles_.find(tool_);
   if (angle == table_angles_.end() || !(angle->second > 0.0) || angle->second > 90.0)
     return unfollowed("how steep it goes in is ANGLE of T" + std::to_string(tool_) +

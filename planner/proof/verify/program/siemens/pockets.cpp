@@ -87,10 +87,7 @@ void Interpreter::pocket(const Item& call, bool modal) {
   p.turn_mm = of("DP1") * u;
   if (!missing.empty()) return wrong("_" + missing + " is missing");
   // Of a tool whose diameter the header does not say nothing is followed anyway.
-  double cutter = 0.0;
-  for (const HeaderTool& t : out_.tools) {
-    if (t.tool == tool_) cutter = t.diameter_mm.value_or(0.0);
-  }
+  const double cutter = called_diameter_mm();
   const double over = find("MIDA").value_or(0.0) * u;
   p.over_mm = over != 0.0 ? over : kMidaShare * cutter;
   for (const auto name : {"AP1", "AP2", "AD"}) {
