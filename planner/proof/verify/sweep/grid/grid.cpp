@@ -30,14 +30,17 @@ class Spare {
     out.reserve(n);
     return out;
   }
+  /// Keeps these, in place of the smallest where all places are taken.
   void keep(std::vector<double>& heights) noexcept {
-    if (heights.capacity() > kMost - std::min(kMost, numbers_)) return;
-    for (std::vector<double>& s : spare_) {
-      if (s.capacity() > 0) continue;
-      s.swap(heights);
-      numbers_ += s.capacity();
-      return;
-    }
+    std::vector<double>& place =
+        *std::min_element(spare_.begin(), spare_.end(),
+                          [](const auto& a, const auto& b) { return a.capacity() < b.capacity(); });
+    if (place.capacity() >= heights.capacity()) return;
+    const std::size_t others = numbers_ - place.capacity();
+    if (heights.capacity() > kMost - std::min(kMost, others)) return;
+    std::vector<double>().swap(place);
+    place.swap(heights);
+    numbers_ = others + place.capacity();
   }
 
  private:
