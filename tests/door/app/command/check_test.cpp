@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 
 // Files of our own that somebody edited since: `check` judges what they say, not what we would plan.
@@ -31,7 +32,7 @@ class CheckedAsWritten : public ::testing::Test {
   }
   int run(const std::string& arguments) {
     const std::string line =
-        "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >out 2>&1";
+        "cd '" + folder_.string() + "' && " + command_quoted() + " " + arguments + " >out 2>&1";
     const int status = std::system(line.c_str());
     std::ifstream in(folder_ / "out", std::ios::binary);
     std::ostringstream text;

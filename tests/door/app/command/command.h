@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 
 // The built program, run as a user runs it, in a folder of its own.
@@ -33,11 +34,11 @@ class CommandTest : public ::testing::Test {
  protected:
   /// `arguments` as a shell takes them.
   [[nodiscard]] Ran run(const std::string& arguments) const {
-    return run_line("'" CAPSTAN_COMMAND "' " + arguments);
+    return run_line(command_quoted() + " " + arguments);
   }
   /// The same of a Python program, which finds the command by the variable CAPSTAN.
   [[nodiscard]] Ran run_python(const std::string& arguments) const {
-    return run_line("CAPSTAN='" CAPSTAN_COMMAND "' PYTHONPATH='" CAPSTAN_PYTHON_PATH "' " CAPSTAN_PYTHON " -B " + arguments);
+    return run_line(python_quoted() + " -B " + arguments);
   }
   void put(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;

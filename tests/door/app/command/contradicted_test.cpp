@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 
 // What a plan's file says twice, and otherwise, or states wrongly of the whole plan: told as an error, and no
@@ -29,7 +30,7 @@ class ContradictedPlan : public CommandTest {
   /// The plan of an example in a form, as the command writes it.
   static std::string planned(const std::string& example, const std::string& form) {
     const ::capstan::testing::ScratchFolder scratch;
-    const std::string line = "cd '" + scratch.path() + "' && '" CAPSTAN_COMMAND "' plan '" +
+    const std::string line = "cd '" + scratch.path() + "' && " + command_quoted() + " plan '" +
                              capstan::testing::source_dir() + "/examples/" + example + ".p21' -o x." + form +
                              " >out 2>&1";
     EXPECT_EQ(std::system(line.c_str()), 0) << slurp(scratch.path() + "/out");

@@ -14,6 +14,7 @@
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/model/nouns/all.h"
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 
 // What a person types into a written plan: it is theirs, what was chosen from it is planned anew, and no
@@ -148,7 +149,7 @@ class EditedValues : public CommandTest {
  protected:
   static void SetUpTestSuite() {
     scratch_of_all_ = new ::capstan::testing::ScratchFolder();
-    const std::string line = "cd '" + scratch_of_all_->path() + "' && '" CAPSTAN_COMMAND "' plan '" +
+    const std::string line = "cd '" + scratch_of_all_->path() + "' && " + command_quoted() + " plan '" +
                              capstan::testing::source_dir() +
                              "/examples/bracket.p21' -o b.json -o b.p21 >out 2>&1";
     ASSERT_EQ(std::system(line.c_str()), 0);

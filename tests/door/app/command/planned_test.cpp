@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 #include "tests/support/rs274.h"
 
@@ -26,7 +27,7 @@ class Planned : public ::testing::Test {
  protected:
   int run(const std::string& arguments) {
     const std::string line =
-        "cd '" + folder_.string() + "' && '" CAPSTAN_COMMAND "' " + arguments + " >out 2>&1";
+        "cd '" + folder_.string() + "' && " + command_quoted() + " " + arguments + " >out 2>&1";
     const int status = std::system(line.c_str());
     said_ = slurp(folder_ / "out");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -7,6 +7,7 @@
 #include "planner/door/app/command/reference.h"
 #include "planner/physics/mechanics/loads/margin.h"
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/door/app/plans.h"
 #include "tests/support/corpus.h"
 
@@ -88,7 +89,7 @@ TEST_F(Readme, ShowsWhatTheProgramSays) {
     if (e.is_regular_file()) fs::copy_file(e.path(), folder_ / e.path().filename());
   }
   // Without OpenCASCADE, CAD parts are refused, and what follows has no plan of them.
-  const bool cad = fs::exists(fs::path(CAPSTAN_COMMAND).parent_path() / "capstan-brep");
+  const bool cad = fs::exists(fs::path(command_file()).parent_path() / "capstan-brep");
   for (const Shown& s : shown) {
     if (!cad && s.arguments.find("cover.") != std::string::npos) continue;
     const Ran r = s.python ? run_python(s.arguments) : run(s.arguments);

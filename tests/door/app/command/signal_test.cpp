@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 
 // Ctrl-C while the command works: it says so, ends with the code of stopped work, and leaves nothing.
 
@@ -34,7 +35,7 @@ class Interrupted : public CommandTest, public ::testing::WithParamInterface<int
   [[nodiscard]] Ran interrupted(int signal) const {
     const std::string err = (folder_ / "stderr.txt").string();
     const std::string part = ::capstan::testing::source_dir() + "/examples/surface.stl";
-    std::vector<std::string> words = {CAPSTAN_COMMAND,
+    std::vector<std::string> words = {command_file(),
                                       "plan",
                                       part,
                                       "-o",
@@ -48,7 +49,7 @@ class Interrupted : public CommandTest, public ::testing::WithParamInterface<int
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     pid_t pid = 0;
-    const int failed = ::posix_spawn(&pid, CAPSTAN_COMMAND, &files, nullptr, arguments.data(), environ);
+    const int failed = ::posix_spawn(&pid, command_file().c_str(), &files, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     if (failed != 0) return {};
     int status = 0;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 
 // Tool libraries through the built program: read, written, converted, with what is lost on the way.
@@ -34,7 +35,7 @@ class ToolsCommand : public ::testing::Test {
   /// Exit code; the two streams are kept.
   int run(const std::string& arguments) {
     std::string line = "cd '";
-    line.append(folder_.string()).append("' && '" CAPSTAN_COMMAND "' tools ").append(arguments);
+    line.append(folder_.string()).append("' && ").append(command_quoted()).append(" tools ").append(arguments);
     line.append(" >out.txt 2>err.txt");
     const int status = std::system(line.c_str());
     out_ = slurp("out.txt");

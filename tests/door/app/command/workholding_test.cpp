@@ -9,6 +9,7 @@
 
 #include "planner/files/json/json.h"
 #include "planner/physics/mechanics/holding_constants.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 
 // A part on two set-ups, in a vise and under clamps, planned and checked by the built program.
@@ -25,7 +26,7 @@ class Workholding : public ::testing::Test {
   /// Exit code; `said` is what went to both streams.
   int run(const std::string& arguments) {
     std::string line = "cd '";
-    line.append(folder_.string()).append("' && '" CAPSTAN_COMMAND "' ").append(arguments);
+    line.append(folder_.string()).append("' && ").append(command_quoted()).append(" ").append(arguments);
     line.append(" >said.txt 2>&1");
     const int status = std::system(line.c_str());
     said_ = slurp("said.txt");

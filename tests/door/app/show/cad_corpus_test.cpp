@@ -8,6 +8,7 @@
 
 #include "planner/files/json/json.h"
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/support/corpus.h"
 
 // Parts of MFCAD at the command, ten times as large (docs/validation.md, section 18): rows of the record of
@@ -21,7 +22,7 @@ using ::testing::IsEmpty;
 class CadPlansCorpus : public CommandTest {
  protected:
   static bool built() {
-    return std::filesystem::exists(std::filesystem::path(CAPSTAN_COMMAND).parent_path() / "capstan-brep");
+    return std::filesystem::exists(std::filesystem::path(command_file()).parent_path() / "capstan-brep");
   }
   /// Writes the part with its unit of length read as the centimetre, as record_plans.py does.
   void put_ten_times(const std::string& name) {

@@ -7,6 +7,7 @@
 #include "planner/files/json/json.h"
 #include "planner/proof/verify/shape/finished.h"
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/files/exchange/brep/step_part.h"
 #include "tests/files/from_cad/turned_part.h"
 
@@ -32,7 +33,7 @@ std::string drilled() {
 class CadModel : public CommandTest {
  protected:
   static bool built() {
-    return std::filesystem::exists(std::filesystem::path(CAPSTAN_COMMAND).parent_path() / "capstan-brep");
+    return std::filesystem::exists(std::filesystem::path(command_file()).parent_path() / "capstan-brep");
   }
 };
 
@@ -207,7 +208,7 @@ TEST_F(CadModel, OnlyWhatAThreadsOwnStepsCutBesideItsCoreIsNoGouge) {
   put("nut.step", testing::bored({{3.4, 20}, {3.4, 0}}));
   ASSERT_EQ(run("plan nut.step --material C45 --tapped 'HOLE*=M8' -o nut.json").code, 0);
   Job job;
-  const auto helper = std::filesystem::path(CAPSTAN_COMMAND).parent_path() / "capstan-brep";
+  const auto helper = std::filesystem::path(command_file()).parent_path() / "capstan-brep";
   ::setenv("CAPSTAN_BREP", helper.c_str(), 1);
   const auto part = service::read_part(slurp(folder_ / "nut.step"), "nut.step", {}, job);
   ::unsetenv("CAPSTAN_BREP");

@@ -10,6 +10,7 @@
 
 #include "planner/ground/base/file.h"
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/files/exchange/brep/step_part.h"
 
 // CAD files that are broken or made to do harm, and helpers that fail, at the command: one error, nothing
@@ -96,7 +97,7 @@ void PrintTo(const Hostile& h, std::ostream* out) { *out << h.name; }
 class HostileCad : public CommandTest, public ::testing::WithParamInterface<Hostile> {
  protected:
   static bool built() {
-    return std::filesystem::exists(std::filesystem::path(CAPSTAN_COMMAND).parent_path() / "capstan-brep");
+    return std::filesystem::exists(std::filesystem::path(command_file()).parent_path() / "capstan-brep");
   }
   /// Plans part.step into two files: refused by one error, and neither file is there.
   void expect_refused(const std::string& code = "") {
@@ -197,9 +198,9 @@ TEST_F(HostileHelper, OneThatHangsIsGoneWithTheCommand) {
   for (const char* signal : {"INT", "TERM", "KILL"}) {
     helper("exec sleep 600");
     put("part.step", boxed());
-    const std::string line = "cd '" + folder_.string() + "' && timeout -s " + signal +
-                             " 1 '" CAPSTAN_COMMAND
-                             "' plan part.step -o part.json -o part.ngc >stdout.txt 2>stderr.txt";
+    const std::string line = "cd '" + folder_.string() + "' && timeout -s " + signal + " 1 " +
+                             command_quoted() +
+                             " plan part.step -o part.json -o part.ngc >stdout.txt 2>stderr.txt";
     EXPECT_NE(std::system(line.c_str()), 0) << signal;
     EXPECT_TRUE(gone()) << signal;
     EXPECT_THAT(files(), ::testing::ElementsAre("capstan-brep", "part.step", "pid")) << signal;

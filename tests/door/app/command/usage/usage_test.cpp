@@ -11,6 +11,7 @@
 #include "planner/door/app/command/usage/examples.h"
 #include "planner/door/app/command/usage/mistyped.h"
 #include "tests/door/app/command/command.h"
+#include "tests/door/app/command/programs.h"
 #include "tests/door/app/plans.h"
 
 // How the command behaves beside what it does.
@@ -141,7 +142,7 @@ TEST_F(CommandTest, ColoursAreForATerminal) {
   EXPECT_THAT(run("inspect missing.p21").err, Not(HasSubstr("\033[")));
   // `script` gives the command a terminal of its own.
   const std::string command =
-      "script -qec \"'" CAPSTAN_COMMAND "' inspect missing.p21\" /dev/null </dev/null";
+      "script -qec \"" + command_quoted() + " inspect missing.p21\" /dev/null </dev/null";
   const auto on_terminal = [&](const std::string& setting) {
     const std::string line =
         "cd '" + folder_.string() + "' && " + setting + " TERM=xterm " + command + " >stdout.txt 2>&1";
@@ -156,9 +157,8 @@ TEST_F(CommandTest, ColoursAreForATerminal) {
 
 TEST_F(CommandTest, AReaderThatHasEnoughIsNoError) {
   for (const char* text : {"rules list", "tools list", "materials list"}) {
-    const std::string line = "cd '" + folder_.string() +
-                             "' && bash -c \"set -o pipefail; '" CAPSTAN_COMMAND "' " + text +
-                             " 2>stderr.txt | head -n 1 >stdout.txt\"";
+    const std::string line = "cd '" + folder_.string() + "' && bash -c \"set -o pipefail; " +
+                             command_quoted() + " " + text + " 2>stderr.txt | head -n 1 >stdout.txt\"";
     const int status = std::system(line.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 0) << text;
     EXPECT_THAT(slurp(folder_ / "stderr.txt"), IsEmpty()) << text;

@@ -1,0 +1,16 @@
+#include "tests/door/app/command/programs.h"
+
+namespace capstan::app {
+
+const std::string& command_file() {
+  static const std::string file = CAPSTAN_COMMAND;
+  return file;
+}
+
+std::string command_quoted() { return "'" + command_file() + "'"; }
+
+std::string python_quoted() {
+  return "CAPSTAN=" + command_quoted() + " PYTHONPATH='" CAPSTAN_PYTHON_PATH "' " CAPSTAN_PYTHON;
+}
+
+}  // namespace capstan::app
