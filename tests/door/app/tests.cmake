@@ -6,7 +6,7 @@ if(TARGET app_test)
     add_dependencies(app_test capstan-brep)
   endif()
   # The paths of this build stand in one object: the others are had from the compiler's cache in any folder.
-  set(programs ${CMAKE_CURRENT_LIST_DIR}/command/programs.cpp)
+  set(programs ${CMAKE_CURRENT_LIST_DIR}/programs.cpp)
   target_sources(app_test PRIVATE ${programs})
   set_source_files_properties(${programs} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_DEFINITIONS
     "CAPSTAN_COMMAND=\"$<TARGET_FILE:capstan>\";CAPSTAN_PYTHON=\"$<IF:$<TARGET_EXISTS:capstan_python>,${CAPSTAN_PYTHON},python3>\";CAPSTAN_PYTHON_PATH=\"${CMAKE_BINARY_DIR}/python\"")

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // Files of our own that somebody edited since: `check` judges what they say, not what we would plan.

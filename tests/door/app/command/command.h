@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // The built program, run as a user runs it, in a folder of its own.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // What a plan's file says twice, and otherwise, or states wrongly of the whole plan: told as an error, and no

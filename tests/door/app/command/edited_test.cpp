@@ -14,7 +14,7 @@
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/model/nouns/all.h"
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // What a person types into a written plan: it is theirs, what was chosen from it is planned anew, and no

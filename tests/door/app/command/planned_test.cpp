@@ -10,7 +10,7 @@
 #include <string>
 
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 #include "tests/support/rs274.h"
 

@@ -7,8 +7,8 @@
 #include "planner/door/app/command/reference.h"
 #include "planner/physics/mechanics/loads/margin.h"
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
 #include "tests/door/app/plans.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // The sessions that README shows are what the program says: each `$ capstan` line is run, in order, in one

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 
 // Ctrl-C while the command works: it says so, ends with the code of stopped work, and leaves nothing.
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // Tool libraries through the built program: read, written, converted, with what is lost on the way.

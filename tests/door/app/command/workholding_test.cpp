@@ -9,7 +9,7 @@
 
 #include "planner/files/json/json.h"
 #include "planner/physics/mechanics/holding_constants.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // A part on two set-ups, in a vise and under clamps, planned and checked by the built program.

@@ -8,7 +8,7 @@
 
 #include "planner/files/json/json.h"
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 
 // Parts of MFCAD at the command, ten times as large (docs/validation.md, section 18): rows of the record of

@@ -7,7 +7,7 @@
 #include "planner/files/json/json.h"
 #include "planner/proof/verify/shape/finished.h"
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/files/exchange/brep/step_part.h"
 #include "tests/files/from_cad/turned_part.h"
 

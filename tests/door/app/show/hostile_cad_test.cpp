@@ -10,7 +10,7 @@
 
 #include "planner/ground/base/file.h"
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 #include "tests/files/exchange/brep/step_part.h"
 
 // CAD files that are broken or made to do harm, and helpers that fail, at the command: one error, nothing

@@ -11,8 +11,8 @@
 #include "planner/door/app/command/usage/examples.h"
 #include "planner/door/app/command/usage/mistyped.h"
 #include "tests/door/app/command/command.h"
-#include "tests/door/app/command/programs.h"
 #include "tests/door/app/plans.h"
+#include "tests/door/app/programs.h"
 
 // How the command behaves beside what it does.
 

@@ -1,4 +1,4 @@
-#include "tests/door/app/command/programs.h"
+#include "tests/door/app/programs.h"
 
 namespace capstan::app {
 
