@@ -1,3 +1,7 @@
+// Branch and bound over a tree of boxes. What a node can hold the cutter at is bounded twice. By its box: its
+// highest point, met by the cutter's lowest one over the box. By its plane: a plane holds a rotating outline
+// at one place, and falls short of that elsewhere by at least the square of the distance there times a
+// number; so of a smooth surface only the few triangles about the contact are looked at. Derived (held_by).
 #include "planner/making/toolpath/freeform/drop_cutter.h"
 
 #include <algorithm>
@@ -54,11 +58,28 @@ double height_within(const Toroid& t, double distance) {
 /// How far from the axis a facet of this normal touches, and where the tip is when it touches at height z.
 double touch_radius(const Toroid& t, double nxy, double /*nz*/) { return t.ball_mm * nxy + t.disc_mm; }
 double tip_when_at(const Toroid& t, double z, double nz, double /*aside*/) {
-  return z + t.ball_mm * nz - t.ball_mm;
+  return z - t.ball_mm * (1.0 - nz);  // of a level facet z itself, to the last bit
 }
 
 double level_radius(const Toroid& t) { return t.disc_mm; }
 double radius_of(const Toroid& t) { return t.radius(); }
+
+/// Where a plane holds the cutter: the tip's height above the plane's at the axis, the distance of the
+/// contact from the axis, and by how much a contact elsewhere holds it lower, per square of the distance
+/// between both.
+struct Held {
+  double above_mm = 0.0, at_mm = 0.0, lower_per_mm2 = 0.0;
+};
+/// With the contact at distance c on the side to which a plane of slope g rises, another point of it at (r,
+/// a) about the axis holds the tip lower by (g c - h(c)) - (g r - h(r)) + g r (1 - cos a). The outline h
+/// bends by 1 / ball at least outside of the disc, so that the first two are (c - r)^2 / 2 ball or more, or
+/// of the disc g (c - r) or more; the square of the distance is (c - r)^2 + 2 c r (1 - cos a).
+Held held_by(const Toroid& t, double rise, double lift) {
+  Held out{rise * t.disc_mm + t.ball_mm * lift, t.disc_mm + t.ball_mm * rise / (1.0 + lift), 0.0};
+  const double across = rise > 0.0 ? 0.5 * rise / out.at_mm : t.disc_mm > 0.0 ? 0.0 : 1e300;
+  out.lower_per_mm2 = t.ball_mm > 0.0 ? std::min(0.5 / t.ball_mm, across) : across;
+  return out;
+}
 
 // The same of any convex outline. Along an edge its height is convex, too: what is highest has one sign
 // change.
@@ -74,6 +95,11 @@ double touch_radius(const ConvexOutline& o, double nxy, double nz) {
 }
 double tip_when_at(const ConvexOutline& o, double z, double /*nz*/, double aside) {
   return z - o.height(aside);
+}
+
+Held held_by(const ConvexOutline& o, double rise, double /*lift*/) {
+  const double at = rise > 0.0 ? o.touch_radius(rise) : 0.0;
+  return {rise * at - o.height(at), at, 0.0};
 }
 
 double touch_ahead(const ConvexOutline& o, double w, double slope) {
@@ -188,19 +214,36 @@ void DropCutter::leaf(const Leaf& l, const Outline& t, double x, double y, doubl
   }
 }
 
+/// No contact with a node is higher than this; not above `best`: it need not be looked into.
 template <class Outline>
-double DropCutter::search(const Outline& t, double x, double y, std::uint32_t& hint) const {
-  tick();
-  double best = kNoContact;
-  if (nodes_.empty()) return best;
+double DropCutter::bound(std::uint32_t node, const Outline& t, double x, double y, double best) const {
+  const Node& n = nodes_[node];
   const double radius = radius_of(t), level = level_radius(t);
-  const auto bound = [&](const Node& n) {
-    const double dx = std::max({n.xlo - x, 0.0, x - n.xhi});
-    const double dy = std::max({n.ylo - y, 0.0, y - n.yhi});
-    const double d2 = dx * dx + dy * dy;
-    if (d2 > radius * radius) return kNoContact;
-    return d2 <= level * level ? n.top : n.top - height_within(t, std::sqrt(d2));
-  };
+  const double dx = std::max({n.xlo - x, 0.0, x - n.xhi});
+  const double dy = std::max({n.ylo - y, 0.0, y - n.yhi});
+  const double d2 = dx * dx + dy * dy;
+  if (d2 > radius * radius) return kNoContact;
+  const double by_box = d2 <= level * level ? n.top : n.top - height_within(t, std::sqrt(d2));
+  const Plane& p = planes_[node];
+  if (p.rise < 0.0 || by_box <= best) return by_box;
+  const Held held = held_by(t, p.rise, p.lift);
+  const double by_plane = p.base + p.slope.x * x + p.slope.y * y + held.above_mm;
+  if (by_plane <= best) return by_plane;
+  const double far = p.rise > 0.0 ? held.at_mm / p.rise : 0.0;
+  const double cx = x + far * p.slope.x, cy = y + far * p.slope.y;
+  const double off_x = std::max({n.xlo - cx, 0.0, cx - n.xhi});
+  const double off_y = std::max({n.ylo - cy, 0.0, cy - n.yhi});
+  const double off2 = off_x * off_x + off_y * off_y;
+  return off2 > 0.0 ? std::min(by_box, by_plane - held.lower_per_mm2 * off2) : std::min(by_box, by_plane);
+}
+
+/// The highest contact of those above `from_mm`, or the first one above `to_mm`; `from_mm`: there is none.
+template <class Outline>
+double DropCutter::search(const Outline& t, double x, double y, std::uint32_t& hint, double from_mm,
+                          double to_mm) const {
+  tick();
+  double best = from_mm;
+  if (nodes_.empty()) return best;
   leaf(leaves_[hint], t, x, y, best);
   struct Entry {
     std::uint32_t node;
@@ -208,7 +251,8 @@ double DropCutter::search(const Outline& t, double x, double y, std::uint32_t& h
   };
   std::array<Entry, 128> stack;  // the tree is balanced: its depth is the logarithm of the number of leaves
   std::size_t n = 0;
-  stack[n++] = {0, bound(nodes_[0])};
+  if (best > to_mm) return best;
+  stack[n++] = {0, bound(0, t, x, y, best)};
   while (n > 0) {
     const Entry top = stack[--n];
     if (!(top.bound > best)) continue;
@@ -218,10 +262,11 @@ double DropCutter::search(const Outline& t, double x, double y, std::uint32_t& h
       const double before = best;
       leaf(leaves_[node.left], t, x, y, best);
       if (best > before) hint = node.left;
+      if (best > to_mm) return best;
       continue;
     }
-    Entry near{node.left, bound(nodes_[node.left])};
-    Entry far{node.right, bound(nodes_[node.right])};
+    Entry near{node.left, bound(node.left, t, x, y, best)};
+    Entry far{node.right, bound(node.right, t, x, y, best)};
     if (far.bound > near.bound) std::swap(near, far);
     if (far.bound > best) stack[n++] = far;
     if (near.bound > best) stack[n++] = near;
@@ -238,6 +283,21 @@ double DropCutter::drop(const MillEnd& cutter, double x, double y, double allowa
                         std::uint32_t& hint) const {
   return cutter.grown(allowance_mm, [&](const auto& grown) { return search(grown, x, y, hint); }) +
          allowance_mm;
+}
+
+bool DropCutter::is_clear(const MillEnd& cutter, Vec2 p, double z_mm, double allowance_mm,
+                          std::uint32_t& hint) const {
+  return cutter.grown(allowance_mm, [&](const auto& grown) {
+    // Contacts so near to the height that rounding tells are looked at to the last.
+    const double at = z_mm - allowance_mm, rounding = 1e-13 * (1.0 + std::abs(z_mm) + allowance_mm);
+    return !(search(grown, p.x, p.y, hint, at - rounding, at + rounding) + allowance_mm > z_mm);
+  });
+}
+
+bool DropCutter::meets(const MillEnd& cutter, Vec2 p, double allowance_mm, std::uint32_t& hint) const {
+  return cutter.grown(allowance_mm, [&](const auto& grown) {
+    return search(grown, p.x, p.y, hint, kNoContact, kNoContact) > kNoContact;
+  });
 }
 
 std::vector<double> DropCutter::drop(const MillEnd& cutter, const std::vector<Vec2>& points,
@@ -295,6 +355,14 @@ class DropCutter::Builder {
     for (const TreeNode& n : tree_.nodes) {
       out_.nodes_.push_back({n.box.lo.x, n.box.lo.y, n.box.hi.x, n.box.hi.y, n.box.hi.z, n.left, n.right});
     }
+    for (const NodePlane& p : tree_.planes) {
+      Plane made;
+      if (p.made) {
+        made = {p.slope, p.base_mm, norm(p.slope), 0.0};
+        made.lift = std::hypot(1.0, made.rise) - 1.0;
+      }
+      out_.planes_.push_back(made);
+    }
   }
 
  private:
@@ -316,7 +384,7 @@ class DropCutter::Builder {
     const double length = norm(n);
     // Facets as steep as this are represented by their edges: between them they are nowhere higher.
     if (!(length > 0.0) || n.z < 1e-9 * length) return;
-    n = (1.0 / length) * n;
+    n = {n.x / length, n.y / length, n.z / length};  // of a level facet exactly (0, 0, 1)
     Facet f{.a = xy(a),
             .b = xy(b),
             .c = xy(c),

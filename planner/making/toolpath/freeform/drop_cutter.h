@@ -73,6 +73,13 @@ class DropCutter {
   [[nodiscard]] double drop(const MillEnd& cutter, double x, double y, double allowance_mm,
                             std::uint32_t& hint) const;
 
+  /// Whether drop(cutter, x, y, allowance_mm) <= z_mm, which is told sooner than the height.
+  [[nodiscard]] bool is_clear(const MillEnd& cutter, geometry::Vec2 p, double z_mm, double allowance_mm,
+                              std::uint32_t& hint) const;
+  /// Whether it meets the mesh at all there.
+  [[nodiscard]] bool meets(const MillEnd& cutter, geometry::Vec2 p, double allowance_mm,
+                           std::uint32_t& hint) const;
+
   /// As above for many points; points near each other should follow each other (rows in turn, to and fro).
   /// Uses job.threads; the result does not depend on it.
   [[nodiscard]] std::vector<double> drop(const MillEnd& cutter, const std::vector<geometry::Vec2>& points,
@@ -97,6 +104,13 @@ class DropCutter {
     double xlo = 0.0, ylo = 0.0, xhi = 0.0, yhi = 0.0, top = 0.0;
     std::uint32_t left = 0, right = 0;  ///< children; equal: a leaf, and its number
   };
+  /// A plane that nothing of a node stands above (NodePlane), and what of its slope is asked for again.
+  struct Plane {
+    geometry::Vec2 slope;
+    double base = 0.0;
+    double rise = -1.0;  ///< length of the slope; below 0: there is no plane
+    double lift = 0.0;   ///< sqrt(1 + rise^2) - 1
+  };
   struct Leaf {
     std::uint32_t facet0 = 0, facet1 = 0, edge0 = 0, edge1 = 0, vertex0 = 0, vertex1 = 0;
   };
@@ -105,12 +119,16 @@ class DropCutter {
   template <class Outline>
   void leaf(const Leaf& l, const Outline& t, double x, double y, double& best) const;
   template <class Outline>
-  [[nodiscard]] double search(const Outline& t, double x, double y, std::uint32_t& hint) const;
+  [[nodiscard]] double bound(std::uint32_t node, const Outline& t, double x, double y, double best) const;
+  template <class Outline>
+  [[nodiscard]] double search(const Outline& t, double x, double y, std::uint32_t& hint,
+                              double from_mm = kNoContact, double to_mm = -kNoContact) const;
 
   std::vector<Facet> facets_;
   std::vector<Edge> edges_;
   std::vector<geometry::Vec3> vertices_;
   std::vector<Node> nodes_;
+  std::vector<Plane> planes_;  ///< of the nodes
   std::vector<Leaf> leaves_;
   geometry::Box3 bounds_;
 };

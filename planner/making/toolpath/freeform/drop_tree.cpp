@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "planner/ground/geometry/region.h"
+
 namespace capstan::toolpath::freeform {
 namespace {
 
@@ -15,6 +17,10 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 constexpr std::uint32_t kLeafSize = 4;
+/// Nodes of so many triangles have a plane: above them the surface bends too much for one to say more than
+/// the box. Default, unsourced.
+constexpr std::uint32_t kMostInPlane = 64;
+constexpr double kUpright = 1e-6;  ///< of unit normals
 
 std::vector<MeshEdge> collect_edges(const Mesh& mesh, std::vector<std::array<std::uint32_t, 3>>& edge_of) {
   struct Side {
@@ -48,15 +54,26 @@ std::vector<MeshEdge> collect_edges(const Mesh& mesh, std::vector<std::array<std
 struct Item {
   Box3 box;
   Vec2 centre;
+  int faces = 0;  ///< 1: up, -1: down, 0: it is upright, or nearly so
 };
+
+Vec3 upward_normal(const Mesh& mesh, std::uint32_t t) {
+  const auto& c = mesh.triangles[t];
+  const Vec3 n = cross(mesh.vertices[c[1]] - mesh.vertices[c[0]], mesh.vertices[c[2]] - mesh.vertices[c[0]]);
+  return n.z < 0.0 ? -1.0 * n : n;
+}
 
 class TreeBuilder {
  public:
-  TreeBuilder(Tree& tree, const Mesh& mesh) : tree_(tree) {
+  TreeBuilder(Tree& tree, const Mesh& mesh) : tree_(tree), mesh_(mesh) {
     items_.resize(mesh.triangles.size());
     for (std::size_t t = 0; t < items_.size(); ++t) {
       for (const std::uint32_t v : mesh.triangles[t]) items_[t].box.add(mesh.vertices[v]);
       items_[t].centre = 0.5 * (xy(items_[t].box.lo) + xy(items_[t].box.hi));
+      const auto& c = mesh.triangles[t];
+      const Vec3 n =
+          cross(mesh.vertices[c[1]] - mesh.vertices[c[0]], mesh.vertices[c[2]] - mesh.vertices[c[0]]);
+      if (std::abs(n.z) > kUpright * norm(n)) items_[t].faces = n.z > 0.0 ? 1 : -1;
     }
     tree_.order.resize(items_.size());
     std::iota(tree_.order.begin(), tree_.order.end(), 0U);
@@ -67,11 +84,13 @@ class TreeBuilder {
       std::uint32_t node, first, last;
     };
     tree_.nodes.push_back({});
+    tree_.planes.push_back({});
     std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(items_.size())}};
     while (!tasks.empty()) {
       const Task t = tasks.back();
       tasks.pop_back();
       tree_.nodes[t.node].box = box(t.first, t.last);
+      if (t.last - t.first <= kMostInPlane) tree_.planes[t.node] = plane(t.first, t.last);
       if (t.last - t.first <= kLeafSize) {
         const auto number = static_cast<std::uint32_t>(tree_.leaves.size());
         tree_.leaves.push_back({t.first, t.last});
@@ -80,8 +99,8 @@ class TreeBuilder {
       }
       const std::uint32_t middle = split(t.first, t.last);
       const auto left = static_cast<std::uint32_t>(tree_.nodes.size());
-      tree_.nodes.push_back({});
-      tree_.nodes.push_back({});
+      tree_.nodes.resize(tree_.nodes.size() + 2);
+      tree_.planes.resize(tree_.nodes.size());
       tree_.nodes[t.node].left = left;
       tree_.nodes[t.node].right = left + 1;
       tasks.push_back({left + 1, middle, t.last});
@@ -99,33 +118,120 @@ class TreeBuilder {
     return b;
   }
 
+  /// The first triangle of the second half. Triangles that face up, stand upright and face down are told
+  /// apart first: what lies beneath a solid would else spread the boxes of what lies on it. Then the half
+  /// perimeters of both boxes times their numbers are made small, over cuts of x and y into equal parts.
+  /// Source  the surface area heuristic of ray tracing (MacDonald and Booth 1990), seen along z.
   std::uint32_t split(std::uint32_t first, std::uint32_t last) {
-    Vec2 lo{1e300, 1e300};
-    Vec2 hi{-1e300, -1e300};
+    const auto begin = tree_.order.begin();
+    const int faces = items_[*(begin + first)].faces;
+    const auto apart = std::partition(begin + first, begin + last,
+                                      [&](std::uint32_t t) { return items_[t].faces == faces; });
+    if (const auto middle = static_cast<std::uint32_t>(apart - begin); middle < last) return middle;
+    geometry::Box2 centres{{1e300, 1e300}, {-1e300, -1e300}};
     for (std::uint32_t k = first; k < last; ++k) {
       const Vec2 c = items_[tree_.order[k]].centre;
-      lo = {std::min(lo.x, c.x), std::min(lo.y, c.y)};
-      hi = {std::max(hi.x, c.x), std::max(hi.y, c.y)};
+      centres.lo = {std::min(centres.lo.x, c.x), std::min(centres.lo.y, c.y)};
+      centres.hi = {std::max(centres.hi.x, c.x), std::max(centres.hi.y, c.y)};
     }
-    const bool by_x = hi.x - lo.x >= hi.y - lo.y;
+    const Cut x = cheapest(first, last, centres, true), y = cheapest(first, last, centres, false);
+    const Cut& cut = x.cost <= y.cost ? x : y;
+    if (cut.cost < 1e300) {
+      const auto below = [&](std::uint32_t t) { return part_of(t, centres, cut.by_x) < cut.part; };
+      return static_cast<std::uint32_t>(std::partition(begin + first, begin + last, below) - begin);
+    }
+    const bool by_x = centres.hi.x - centres.lo.x >= centres.hi.y - centres.lo.y;
     const std::uint32_t middle = first + (last - first) / 2;
     const auto key = [&](std::uint32_t t) {
       return std::pair{by_x ? items_[t].centre.x : items_[t].centre.y, t};
     };
-    std::nth_element(tree_.order.begin() + first, tree_.order.begin() + middle, tree_.order.begin() + last,
+    std::nth_element(begin + first, begin + middle, begin + last,
                      [&](std::uint32_t p, std::uint32_t q) { return key(p) < key(q); });
     return middle;
   }
 
+  static constexpr std::size_t kParts = 16;
+  struct Cut {
+    bool by_x = true;
+    std::size_t part = 0;  ///< the first of the second half
+    double cost = 1e300;   ///< 1e300: no cut leaves an eighth on either side, which bounds the depth
+  };
+
+  [[nodiscard]] std::size_t part_of(std::uint32_t t, const geometry::Box2& centres, bool by_x) const {
+    const Vec2 c = items_[t].centre;
+    const double at = by_x ? (c.x - centres.lo.x) / (centres.hi.x - centres.lo.x)
+                           : (c.y - centres.lo.y) / (centres.hi.y - centres.lo.y);
+    return std::min(kParts - 1, static_cast<std::size_t>(at * kParts));
+  }
+
+  [[nodiscard]] Cut cheapest(std::uint32_t first, std::uint32_t last, const geometry::Box2& centres,
+                             bool by_x) const {
+    Cut best{.by_x = by_x};
+    if (!(by_x ? centres.hi.x > centres.lo.x : centres.hi.y > centres.lo.y)) return best;
+    std::array<Box3, kParts> box;
+    std::array<std::uint32_t, kParts> number{};
+    for (std::uint32_t k = first; k < last; ++k) {
+      const std::uint32_t t = tree_.order[k];
+      const std::size_t part = part_of(t, centres, by_x);
+      box[part].add(items_[t].box.lo);
+      box[part].add(items_[t].box.hi);
+      ++number[part];
+    }
+    const auto half_perimeter = [](const Box3& b) { return b.hi.x - b.lo.x + b.hi.y - b.lo.y; };
+    std::array<double, kParts> above{};  // cost of the parts from here on
+    Box3 all;
+    std::uint32_t n = 0;
+    for (std::size_t part = kParts; part-- > 1;) {
+      if (number[part] > 0) {
+        all.add(box[part].lo);
+        all.add(box[part].hi);
+      }
+      n += number[part];
+      above[part] = n > 0 ? n * half_perimeter(all) : 0.0;
+    }
+    all = {};
+    n = 0;
+    const std::uint32_t least = std::max(1U, (last - first) / 8);
+    for (std::size_t part = 1; part < kParts; ++part) {
+      if (number[part - 1] > 0) {
+        all.add(box[part - 1].lo);
+        all.add(box[part - 1].hi);
+      }
+      n += number[part - 1];
+      if (n < least || last - first - n < least) continue;
+      const double cost = n * half_perimeter(all) + above[part];
+      if (cost < best.cost) best = {by_x, part, cost};
+    }
+    return best;
+  }
+
+  /// As the triangles face on the whole, and as high as the highest corner above that.
+  [[nodiscard]] NodePlane plane(std::uint32_t first, std::uint32_t last) const {
+    constexpr double kSteepest = 20.0;  // of which a plane says no more than a box; default, unsourced
+    constexpr double kRounding = 1e-14;
+    Vec3 n;
+    for (std::uint32_t k = first; k < last; ++k) n = n + upward_normal(mesh_, tree_.order[k]);
+    NodePlane out;
+    if (!(n.z > 0.0) || std::hypot(n.x, n.y) > kSteepest * n.z) return out;
+    out.made = true;
+    out.slope = {-n.x / n.z, -n.y / n.z};
+    out.base_mm = -1e300;
+    double largest = 1.0;
+    for (std::uint32_t k = first; k < last; ++k) {
+      for (const std::uint32_t i : mesh_.triangles[tree_.order[k]]) {
+        const Vec3& v = mesh_.vertices[i];
+        out.base_mm = std::max(out.base_mm, v.z - dot(out.slope, xy(v)));
+        largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+      }
+    }
+    out.base_mm += kRounding * largest * (1.0 + kSteepest);
+    return out;
+  }
+
   Tree& tree_;
+  const Mesh& mesh_;
   std::vector<Item> items_;
 };
-
-Vec3 upward_normal(const Mesh& mesh, std::uint32_t t) {
-  const auto& c = mesh.triangles[t];
-  const Vec3 n = cross(mesh.vertices[c[1]] - mesh.vertices[c[0]], mesh.vertices[c[2]] - mesh.vertices[c[0]]);
-  return n.z < 0.0 ? -1.0 * n : n;
-}
 
 std::uint32_t third_corner(const Mesh& mesh, const MeshEdge& e, std::uint32_t t) {
   for (const std::uint32_t v : mesh.triangles[t]) {

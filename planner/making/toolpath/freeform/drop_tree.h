@@ -27,11 +27,20 @@ struct TreeNode {
   std::uint32_t left = 0, right = 0;  ///< children; equal: a leaf, and its number
 };
 
-/// A balanced tree of boxes over the triangles, split at medians in x or y.
+/// A plane that no triangle of a node stands above: z <= base_mm + dot(slope, (x, y)).
+struct NodePlane {
+  geometry::Vec2 slope;
+  double base_mm = 0.0;
+  bool made = false;  ///< of small nodes that are not upright; of others nothing is known but their box
+};
+
+/// A tree of boxes over the triangles; each half of a node has an eighth of its triangles or more, but where
+/// they face otherwise.
 struct Tree {
   std::vector<std::uint32_t> order;  ///< triangles, leaf by leaf
   std::vector<LeafRange> leaves;
-  std::vector<TreeNode> nodes;  ///< node 0 is the root; empty for an empty mesh
+  std::vector<TreeNode> nodes;    ///< node 0 is the root; empty for an empty mesh
+  std::vector<NodePlane> planes;  ///< of the nodes
   std::vector<MeshEdge> edges;
   std::vector<std::array<std::uint32_t, 3>> edge_of;  ///< per triangle, side i joins corner i and i + 1
 };

@@ -45,7 +45,7 @@ struct FreeformJob {
   double stepover_mm = 0.0;  ///< between passes; finish: 0 takes it from scallop_mm
   double scallop_mm = 0.0;   ///< finish: height of the ridges between passes
   /// Finish: a wider ball that finished the surface before: only where it left more than scallop and
-  /// tolerance is finished, in layers where it left much.
+  /// tolerance, and the stock has it, is finished, in layers where that is much.
   std::optional<model::Cutter> after;
   bool to_and_fro = true;  ///< finish: else all passes in one direction
   /// Rough: heights of the level floors of a surface with walls; the cut goes down to each of them, too, and

@@ -37,9 +37,10 @@ constexpr int kMostHalvings = 5;
 /// From about 45 degrees on ways at constant heights are the shorter ones: across a slope passes are
 /// 1 / cos t as many, levels 1 / sin t. Derived; a little more, for many a chamfer and cone has just 45.
 constexpr double kSteepRad = 47.0 / 180.0 * std::numbers::pi;
-/// What a ball that finishes what a wider one left takes at once, square to the surface, mm: as much as a
-/// last ball meets after a semi-finish. Default, unsourced.
-constexpr double kLayerMm = 0.4;
+/// What a ball that finishes what a wider one left takes at once, square to the surface: this share of its
+/// diameter, for a narrow one is slender, and no more than a last ball meets after a semi-finish, mm.
+/// Default, unsourced.
+constexpr double kLayerShare = 0.03, kLayerMm = 0.4;
 constexpr int kMostLayers = 40;
 /// Of the tolerance, for ridges beside the height asked for: three quarters are the passes' own (Follower).
 /// As long as none is higher by more than half of it, no passes are put between those of the raster.
@@ -103,27 +104,28 @@ class Finisher {
   /// What a wider ball left.
   Result<FreeformPath> run_after(const MillEnd& wider) {
     const DropGrid places = reach_of(task_).grid(area_, job_);
-    std::vector<double> left = left_by_wider(places, drop_, cutter_, wider, job_);
+    std::vector<double> left = left_by_wider(places, drop_, cutter_, wider, task_.stock, job_);
     if (job_.stop_requested()) return stopped();
     const double limit = task_.scallop_mm + task_.tolerance_mm;
+    const double layer_mm = std::min(kLayerMm, kLayerShare * 2.0 * cutter_.radius());
     double most = 0.0;
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (std::isinf(left[i])) left[i] = std::max(0.0, stands_over(places, i));
       most = std::max(most, left[i]);
     }
-    const int layers = std::clamp(static_cast<int>(std::ceil((most - limit) / kLayerMm)), 1, kMostLayers);
+    const int layers = std::clamp(static_cast<int>(std::ceil((most - limit) / layer_mm)), 1, kMostLayers);
     std::vector<High> high;
     PassWriter out(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     out.link_within(cutter_.radius());
     for (int k = layers - 1; k >= 0; --k) {
       job_.progress("freeform finish", 1.0 - static_cast<double>(k + 1) / layers);
       FreeformJob layer = task_;
-      layer.allowance_mm = task_.allowance_mm + k * kLayerMm;
+      layer.allowance_mm = task_.allowance_mm + k * layer_mm;
       if (k > 0) {  // not the last: as coarse as the next bears
-        layer.scallop_mm = std::max(task_.scallop_mm, 0.25 * kLayerMm);
-        layer.tolerance_mm = std::max(task_.tolerance_mm, 0.1 * kLayerMm);
+        layer.scallop_mm = std::max(task_.scallop_mm, 0.25 * layer_mm);
+        layer.tolerance_mm = std::max(task_.tolerance_mm, 0.1 * layer_mm);
       }
-      const Mask rest = grown(more_than(places, left, k * kLayerMm + limit), 1);
+      const Mask rest = grown(more_than(places, left, k * layer_mm + limit), 1);
       if (!rest.any()) continue;
       const Reach reach = reach_of(layer);
       const DropGrid grid = about(reach, places, grown(rest, 2));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/making/toolpath/freeform/rough/reach.h"
 
@@ -16,7 +17,7 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 std::vector<double> left_by_wider(const DropGrid& grid, const DropCutter& drop, const MillEnd& cutter,
-                                  const MillEnd& wider, Job& job) {
+                                  const MillEnd& wider, const stock::HeightMap* stock, Job& job) {
   std::vector<double> out(grid.z.size());
   const double r = cutter.ball_mm(), wide = wider.ball_mm();
   const double step = 1e-3 * r;
@@ -40,6 +41,13 @@ std::vector<double> left_by_wider(const DropGrid& grid, const DropCutter& drop, 
       const double stands = drop.drop(wider, middle.x, middle.y, 0.0, hint_of_wider);
       out[i] = stands == DropCutter::kNoContact ? std::numeric_limits<double>::infinity()
                                                 : std::max(0.0, (stands - (middle.z - wide)) * normal.z);
+      if (stock == nullptr || !(out[i] > 0.0)) continue;
+      const Vec3 contact = Vec3{p.x, p.y, z + r} - r * normal;
+      // One height stands for all of a cell, over which the surface rises: half of its diagonal either way.
+      const double by_cell =
+          std::numbers::sqrt2 / 2.0 * stock->cell_mm * std::sqrt(1.0 - normal.z * normal.z);
+      const double there = (stock::height_at(*stock, xy(contact)) - contact.z) * normal.z + by_cell;
+      out[i] = std::min(out[i], std::max(0.0, there));
     }
   });
   return out;

@@ -5,15 +5,18 @@
 #include "planner/ground/base/job.h"
 #include "planner/making/toolpath/freeform/drop_cutter.h"
 #include "planner/making/toolpath/freeform/finish/mask.h"
+#include "planner/physics/stock/height_map.h"
 
 namespace capstan::toolpath::freeform {
 
 /// What a wider ball leaves for a smaller one, square to the surface, at each place of the tip of the smaller
-/// one: 0 where the wider one touches the surface at the same point. It is at least what stays there.
-/// Infinity where the wider one meets no surface, so that nothing tells what it leaves. Shape  of `grid`, in
-/// mm; 0 where the grid has no place.
+/// one: 0 where the wider one touches the surface at the same point. It is at least what stays there, and no
+/// more than `stock` (null: not known) has there, as exactly as its cells tell. Infinity where the wider one
+/// meets no surface and no stock is known, so that nothing tells what it leaves. Shape  of `grid`, in mm; 0
+/// where the grid has no place.
 [[nodiscard]] std::vector<double> left_by_wider(const DropGrid& grid, const DropCutter& drop,
-                                                const MillEnd& cutter, const MillEnd& wider, Job& job);
+                                                const MillEnd& cutter, const MillEnd& wider,
+                                                const stock::HeightMap* stock, Job& job);
 
 /// Where more than `limit_mm` is left.
 [[nodiscard]] Mask more_than(const DropGrid& grid, const std::vector<double>& left_mm, double limit_mm);

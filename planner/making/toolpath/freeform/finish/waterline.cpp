@@ -76,8 +76,8 @@ Waterlines waterlines(const Reach& reach, const DropGrid& grid, const Mask& wher
     const double z = level.z_mm;
     std::uint32_t hint = 0;
     const auto line = refined(
-        part, kRefined * reach.margin_mm, [&](Vec2 p) { return reach.at(p, hint) <= z; },
-        [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z); });
+        part, kRefined * reach.margin_mm, [&](Vec2 p) { return reach.is_free(p, z, hint); },
+        [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z, hint); });
     Run run;
     const auto close = [&] {
       if (run.size() > 1) level.runs.push_back(run);
@@ -89,7 +89,7 @@ Waterlines waterlines(const Reach& reach, const DropGrid& grid, const Mask& wher
       const auto at_share = [&](int m) { return a + (static_cast<double>(m) / n) * (b - a); };
       for (int m = 0; m < n; ++m) {
         const Vec2 from = at_share(m), to = m + 1 == n ? b : at_share(m + 1), middle = 0.5 * (from + to);
-        const bool wanted = where.at(middle) && reach.at(middle, hint) > z - apart_mm;
+        const bool wanted = where.at(middle) && !reach.is_free(middle, z - apart_mm, hint);
         if (!wanted || !reach.is_free(from, to, z, 0.5)) {
           if (wanted) missing.push_back({middle, norm(to - from)});
           close();
@@ -106,7 +106,8 @@ Waterlines waterlines(const Reach& reach, const DropGrid& grid, const Mask& wher
     if (job.stop_requested()) return;
     Level& level = out.levels[i];
     const double z = level.z_mm = at[i];
-    const auto border = [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z); };
+    std::uint32_t hint = 0;
+    const auto border = [&](Vec2 free, Vec2 blocked) { return reach.border(free, blocked, z, hint); };
     for (const auto& part : level_contour(local, z, border)) {
       if (part.size() > 1) follow(part, level, left_out[i]);
     }

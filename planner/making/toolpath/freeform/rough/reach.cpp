@@ -21,21 +21,27 @@ double Reach::at(Vec2 p, std::uint32_t& hint, double share) const {
   return std::max(z, floor_mm);
 }
 
-Vec2 Reach::border(Vec2 free, Vec2 blocked, double z) const {
-  std::uint32_t hint = 0;
+bool Reach::is_free(Vec2 p, double z, std::uint32_t& hint, double share) const {
+  if (z < floor_mm || (!kept_out.empty() && geometry::contains(kept_out, p))) return false;
+  const double by = task.allowance_mm + share * margin_mm;
+  return drop.is_clear(cutter, p, z, by, hint) && (beside || drop.meets(cutter, p, by, hint));
+}
+
+Vec2 Reach::border(Vec2 free, Vec2 blocked, double z, std::uint32_t& hint) const {
   while (norm(blocked - free) > border_mm) {
     const Vec2 middle = 0.5 * (free + blocked);
-    (at(middle, hint) <= z ? free : blocked) = middle;
+    (is_free(middle, z, hint) ? free : blocked) = middle;
   }
   return free;
 }
+
 bool Reach::is_free(Vec2 a, Vec2 b, double z, double share) const {
   const double spacing =
       std::min(spacing_mm, probe_spacing(cutter.ball_mm() + task.allowance_mm, share * margin_mm));
   const int n = std::max(1, static_cast<int>(std::ceil(norm(b - a) / spacing)));
   std::uint32_t hint = 0;
   for (int k = 0; k <= n; ++k) {
-    if (at(a + (static_cast<double>(k) / n) * (b - a), hint, share) > z) return false;
+    if (!is_free(a + (static_cast<double>(k) / n) * (b - a), z, hint, share)) return false;
   }
   return true;
 }

@@ -39,8 +39,11 @@ struct Reach {
 
   /// The lowest height of the tip at p with `share` of the margin; `hint` as that of DropCutter::drop.
   [[nodiscard]] double at(geometry::Vec2 p, std::uint32_t& hint, double share = 1.0) const;
+  /// Whether at(p) <= z, which is told sooner.
+  [[nodiscard]] bool is_free(geometry::Vec2 p, double z, std::uint32_t& hint, double share = 1.0) const;
   /// The last free place at a level from `free` towards `blocked`.
-  [[nodiscard]] geometry::Vec2 border(geometry::Vec2 free, geometry::Vec2 blocked, double z) const;
+  [[nodiscard]] geometry::Vec2 border(geometry::Vec2 free, geometry::Vec2 blocked, double z,
+                                      std::uint32_t& hint) const;
   /// Whether a straight way at this level is clear with `share` of the margin, between the probes too.
   [[nodiscard]] bool is_free(geometry::Vec2 a, geometry::Vec2 b, double z, double share = 1.0) const;
   [[nodiscard]] std::vector<Probes> along(const Hatch& lines, Job& job) const;

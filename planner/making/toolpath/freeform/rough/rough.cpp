@@ -132,7 +132,8 @@ class Rougher {
   }
 
   [[nodiscard]] double border(const Stripe& s, double free, double blocked, double z) const {
-    return dot(reach_.border(hatch_.place(free, s.v), hatch_.place(blocked, s.v), z), hatch_.u_axis);
+    std::uint32_t hint = 0;
+    return dot(reach_.border(hatch_.place(free, s.v), hatch_.place(blocked, s.v), z, hint), hatch_.u_axis);
   }
 
   /// Cuts off, and splits at, long stretches without material; keeps a run-in in air where there is one.
@@ -199,15 +200,15 @@ class Rougher {
 
   bool along_borders(double z) {
     bool any = false;
-    const auto to_border = [&](Vec2 f, Vec2 b) { return reach_.border(f, b, z); };
+    std::uint32_t hint = 0;
+    const auto to_border = [&](Vec2 f, Vec2 b) { return reach_.border(f, b, z, hint); };
     auto lines = level_contour(grid_, z, to_border);
     while (!lines.empty()) {
       auto line = lines.begin();
       if (task_.terrace_mm > 0.0 && out_.path.size() > 0) line = nearest(lines, xy(here()));
       if (!task_.floors_z_mm.empty()) {  // walls: what is left out round their corners meets deeper levels
-        std::uint32_t hint = 0;
         *line = refined(
-            *line, 0.25 * reach_.margin_mm, [&](Vec2 p) { return reach_.at(p, hint) <= z; }, to_border);
+            *line, 0.25 * reach_.margin_mm, [&](Vec2 p) { return reach_.is_free(p, z, hint); }, to_border);
       }
       any |= go_along(*line, z);
       lines.erase(line);

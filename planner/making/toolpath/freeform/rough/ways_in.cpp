@@ -87,7 +87,7 @@ std::optional<Vec2> WaysIn::air_near(Vec2 p, double z) const {
       const double a = 2.0 * std::numbers::pi * i / kAround;
       const Vec2 q = p + Vec2{r * std::cos(a), r * std::sin(a)};
       if (!is_clear(q, z) || grid_.blocks(q, p, z)) continue;
-      if (reach_.at(q, hint) <= z && reach_.is_free(q, p, z, 0.5)) return q;
+      if (reach_.is_free(q, z, hint) && reach_.is_free(q, p, z, 0.5)) return q;
     }
   }
   return std::nullopt;
