@@ -18,13 +18,17 @@ constexpr double kCreaseMm =
     0.02;  // largest height that a ball may leave in a crease, as the check allows it; default, unsourced
 constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  // sharper corners keep any ball's radius
 constexpr double kFlatRad = 0.5 / 180.0 * std::numbers::pi;    // less is the rounding of coordinates
+/// Of the largest coordinate: what the corners of two triangles may be off in an STL file, whose numbers have
+/// 24 bits, each by half of the last one. Derived.
+constexpr double kRounding = 4.0 / 16777216.0;
 constexpr double kLeastMm =
     1.0;  // radius: below, planning takes smaller cutters than shops use; default, unsourced
 
 }  // namespace
 
 // In a crease of angle d between two facets, a ball of radius R leaves R (1 / cos(d / 2) - 1). Facets too
-// narrow for the ball to touch both beside their crease approximate a curve of radius width / d.
+// narrow for the ball to touch both beside their crease approximate a curve of radius width / 2 sin(d / 2).
+// Where it turns by a right angle at most, a ball that is larger by e leaves (sqrt(2) - 1) e in it.
 double surface_radius(const geometry::Mesh& mesh) {
   using geometry::Vec3;
   struct Side {
@@ -41,6 +45,10 @@ double surface_radius(const geometry::Mesh& mesh) {
       edges[{std::min(p, q), std::max(p, q)}].push_back({n, mesh.vertices[t[(k + 2) % 3]]});
     }
   }
+  double largest = 0.0;
+  for (const Vec3& v : mesh.vertices)
+    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  const double rounding_mm = kRounding * largest;
   double out = 0.0;
   for (const auto& [e, sides] : edges) {
     if (sides.size() != 2) continue;
@@ -53,7 +61,9 @@ double surface_radius(const geometry::Mesh& mesh) {
     const double of_crease = kCreaseMm / (1.0 / std::cos(0.5 * angle) - 1.0);
     const double width =
         std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / length;
-    const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, width / angle)));
+    if (angle * width < rounding_mm) continue;  // a needle: its coordinates do not say how it lies
+    const double of_curve = 0.5 * width / std::sin(0.5 * angle) + kCreaseMm / (std::numbers::sqrt2 - 1.0);
+    const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, of_curve)));
     out = out > 0.0 ? std::min(out, limit) : limit;
   }
   return out;
