@@ -265,6 +265,29 @@ TEST(DropCutter, ManyPointsGiveWhatSinglePointsGiveOnAnyNumberOfThreads) {
   }
 }
 
+TEST(DropCutter, IsClearAtAHeightWhereItsOwnIsNoHigher) {
+  // Level ground between the waves: there the height of many contacts is just the one asked for.
+  Mesh mesh = wavy(40, 20.0, 3.0);
+  for (Vec3& v : mesh.vertices) v.z = std::max(v.z, 0.0);
+  const DropCutter d(mesh);
+  std::mt19937 random(7);
+  const auto drawn = [&](double lo, double hi) {
+    return lo + (hi - lo) * static_cast<double>(random()) / 4294967296.0;
+  };
+  for (const Toroid& t : {kBall, kFlat, kBull}) {
+    std::uint32_t hint = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vec2 p{drawn(-5.0, 25.0), drawn(-5.0, 25.0)};
+      const double allowance = i % 2 == 0 ? 0.0 : 0.3, own = d.drop(t, p.x, p.y, allowance);
+      EXPECT_EQ(d.meets(t, p, allowance, hint), own != kNone);
+      const double z = i % 3 == 0 ? own : drawn(-3.0, 4.0);
+      if (std::isfinite(z)) {
+        EXPECT_EQ(d.is_clear(t, p, z, allowance, hint), own <= z) << p.x << " " << p.y << " at " << z;
+      }
+    }
+  }
+}
+
 TEST(MillEnd, OfAToroidWrittenAsAnOutlineDropsToTheSamePlace) {
   const Mesh mesh = wavy(16, 20.0, 3.0);
   const DropCutter d(mesh);

@@ -77,7 +77,7 @@ double depth_beside(const geometry::Mesh& mesh, double radius_mm) {
   const MeshHeights m = heights_of(mesh, form.inside_out || form.faces_down ? -1.0 : 1.0);
   std::vector<double> highest(m.z.size(), MeshHeights::kNone);
   std::vector<double> row(static_cast<std::size_t>(m.nx));
-  const int reach = static_cast<int>(radius_mm / m.cell);
+  const int reach = static_cast<int>(std::min(radius_mm / m.cell, static_cast<double>(m.ny)));
   const auto begin = [&](int y) { return static_cast<std::ptrdiff_t>(y) * m.nx; };
   for (int y = 0; y < m.ny; ++y) {
     poll();
@@ -86,7 +86,8 @@ double depth_beside(const geometry::Mesh& mesh, double radius_mm) {
       if (y + dy < 0 || y + dy >= m.ny) continue;
       const double aside = m.cell * dy;
       const double half = std::sqrt(std::max(0.0, radius_mm * radius_mm - aside * aside));
-      const std::vector<double> best = highest_within(row, static_cast<std::size_t>(half / m.cell));
+      const std::vector<double> best =
+          highest_within(row, static_cast<std::size_t>(std::min(half / m.cell, static_cast<double>(m.nx))));
       for (int x = 0; x < m.nx; ++x) {
         double& z = highest[static_cast<std::size_t>(begin(y + dy) + x)];
         z = std::max(z, best[static_cast<std::size_t>(x)]);

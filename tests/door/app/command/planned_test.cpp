@@ -231,5 +231,48 @@ TEST_F(Planned, WorkholdingThatCannotBeReadEndsWithThree) {
   EXPECT_EQ(run("plan p.p21 -o p.json --workholding bad.yaml"), 3) << said_;
 }
 
+/// A paraboloid of 60 x 60 mm as a sheet, ASCII STL.
+std::string dome() {
+  constexpr int n = 24;
+  const auto corner = [](int i, int j) {
+    const double x = 60.0 * i / n, y = 60.0 * j / n;
+    return "vertex " + std::to_string(x) + " " + std::to_string(y) + " " +
+           std::to_string(-0.006 * ((x - 30) * (x - 30) + (y - 30) * (y - 30))) + "\n";
+  };
+  std::string out = "solid dome\n";
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const std::string a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                        d = corner(i, j + 1);
+      out.append("facet normal 0 0 0\nouter loop\n")
+          .append(a)
+          .append(b)
+          .append(c)
+          .append("endloop\nendfacet\n");
+      out.append("facet normal 0 0 0\nouter loop\n")
+          .append(a)
+          .append(c)
+          .append(d)
+          .append("endloop\nendfacet\n");
+    }
+  }
+  return out + "endsolid dome\n";
+}
+
+TEST_F(Planned, ASurfaceWhoseFinishNoBallMakesIsNotPlannedAndSaysWhichLimitHoldsIt) {
+  std::ofstream(folder_ / "dome.stl") << dome();
+  std::ofstream(folder_ / "t.yaml") << "capstan_tools: 1\nunit: mm\ntools:\n"
+                                       "  - {id: em12, class: endmill, cutting_diameter: 12, teeth: 3, "
+                                       "stick_out: 40, substrate: carbide}\n"
+                                       "  - {id: ball3, class: ball_endmill, cutting_diameter: 3, teeth: 2, "
+                                       "stick_out: 60, usable_length: 20, substrate: carbide}\n";
+  EXPECT_NE(run("plan dome.stl --tools t.yaml --material C45 -o d.json"), 0);
+  EXPECT_THAT(
+      said_, HasSubstr("is not planned: no way to make it works; step 'surface freeform_finish' has no path: "
+                       "ball3: tool deflection "));
+  // The finish is not left out as a rest of roughing is, for the check to find that all of it stands.
+  EXPECT_THAT(said_, Not(HasSubstr("CHK-LEFT")));
+}
+
 }  // namespace
 }  // namespace capstan::app

@@ -1,0 +1,104 @@
+#include "planner/making/piece/mesh/mesh_heights.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "planner/making/piece/mesh/surface_form.h"
+
+namespace capstan::piece {
+namespace {
+
+using geometry::Mesh;
+using geometry::Vec3;
+
+constexpr double kSize = 80.0;
+constexpr double kCell = kSize / 200.0;  // of the map over it
+
+/// A sheet of a height field, in so many squares along each side.
+template <class F>
+Mesh sheet(int n, const F& height) {
+  Mesh m;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const double x = kSize * i / n, y = kSize * j / n;
+      m.vertices.push_back({x, y, height(x, y)});
+    }
+  }
+  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      m.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      m.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return m;
+}
+
+TEST(DepthBeside, OfAPitWithSteepWallsIsItsDepthFromTheHoldersRadiusOn) {
+  // Walls from 20 to 21 mm on all sides, 12 mm deep.
+  const Mesh pit = sheet(160, [](double x, double y) {
+    const double in = std::min({x, kSize - x, y, kSize - y});
+    return -12.0 * std::clamp(in - 20.0, 0.0, 1.0);
+  });
+  EXPECT_NEAR(depth_beside(pit, 16.0), 12.0, 1e-6);
+  EXPECT_NEAR(depth_beside(pit, 3.0), 12.0, 1e-6);
+}
+
+TEST(DepthBeside, OfASlopeIsWhatItRisesOverTheRadius) {
+  const Mesh slope = sheet(20, [](double x, double) { return 0.5 * x; });
+  for (const double radius : {4.0, 10.0, 16.0})
+    EXPECT_NEAR(depth_beside(slope, radius), 0.5 * radius, 0.5 * kCell) << radius;
+  EXPECT_NEAR(depth_beside(slope, 1000.0), 0.5 * kSize, kCell);
+}
+
+TEST(DepthBeside, OfALevelSheetIsNone) {
+  EXPECT_EQ(depth_beside(sheet(4, [](double, double) { return 3.0; }), 16.0), 0.0);
+  EXPECT_EQ(depth_beside(Mesh{}, 16.0), 0.0);
+}
+
+/// A gutter of this radius along y, in facets of so many degrees.
+Mesh gutter(double radius, double degrees) {
+  Mesh m;
+  const int n = static_cast<int>(std::round(90.0 / degrees));
+  for (int i = -n; i <= n; ++i) {
+    const double a = i * degrees / 180.0 * 3.14159265358979;
+    for (const double y : {0.0, kSize})
+      m.vertices.push_back({radius * std::sin(a), y, -radius * std::cos(a)});
+  }
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(2 * n); ++k) {
+    m.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 1});
+    m.triangles.push_back({2 * k + 2, 2 * k + 3, 2 * k + 1});
+  }
+  return m;
+}
+
+TEST(SurfaceRadius, OfAGutterLetsInTheBallOfItsOwnRadius) {
+  for (const double degrees : {1.0, 2.0, 5.0}) {
+    const double radius = surface_radius(gutter(4.0, degrees));
+    EXPECT_GE(radius, 4.0) << degrees;
+    // What a ball leaves in a right angle of it: (sqrt(2) - 1) (R - 4), 0.02 mm at most.
+    EXPECT_LE((std::sqrt(2.0) - 1.0) * (radius - 4.0), 0.02 + 1e-9) << degrees;
+  }
+}
+
+TEST(SurfaceRadius, IsNotThatOfNeedlesWhoseCoordinatesAreRounded) {
+  // Two facets a micrometre wide, as a fan has them in its middle: the last bits of single precision tilt
+  // them.
+  Mesh m = sheet(4, [](double, double) { return 0.0; });
+  EXPECT_EQ(surface_radius(m), 0.0);
+  const auto first = static_cast<std::uint32_t>(m.vertices.size());
+  const double wide = 1e-6, off = 5e-8;
+  for (const Vec3& v : {Vec3{0, 0, off}, Vec3{10, 0, off}, Vec3{0, wide, 0}, Vec3{10, wide, 0},
+                        Vec3{0, 2 * wide, off}, Vec3{10, 2 * wide, off}})
+    m.vertices.push_back(v);
+  for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}})
+    m.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  EXPECT_EQ(surface_radius(m), 0.0);
+}
+
+}  // namespace
+}  // namespace capstan::piece
