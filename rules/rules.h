@@ -51,11 +51,10 @@ struct Context {
   /// Of walls and level floors only: the largest cutter that passes everywhere (0: no limit), and the largest
   /// radius that may stay in the walls' sharp inside corners (0: it has none).
   double surface_passage_mm = 0.0, surface_sharp_mm = 0.0;
-  /// Freeform: the height of its thinnest wall by its thickness, the width of its thinnest floor by its own;
-  /// 0: none is thin, or not known.
+  /// Freeform: the height of its thinnest wall by its thickness, the width of its thinnest floor by its own; 0:
+  /// none is thin, or not known.
   double surface_wall_ratio = 0.0, surface_floor_ratio = 0.0;
-  /// Depth of the walls from the top of the surface to the underside of the raw piece; of a surface without
-  /// walls how deep it lies below what stands within a holder's radius of it. 0: not known.
+  /// Depth of the walls from the top of the surface to the underside of the raw piece; 0: it has none.
   double surface_height_mm = 0.0;
   bool has_coolant = true;
   model::Quality quality;  ///< surface texture and geometric tolerances of the feature

@@ -206,7 +206,7 @@ Made freeform_finish(const Making& m) {
   const bool last = !(s.allowance_side_mm > 0.0);
   if (last) s.tool.diameter_max_mm = limit;
   s.tool.centre_cutting = true;
-  s.tool.reach_mm = reach_on(m);
+  s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   s.strategy = StrategyKind::kBidirectional;
   if (last && !(limit > 0.0))
     s.why.text = "the smallest concave radius is not known: narrower places keep the ball's radius";

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
-#include "planner/making/piece/mesh/mesh_heights.h"
 #include "planner/making/piece/mesh/surface_form.h"
 #include "planner/making/piece/mesh/thin_places.h"
 #include "planner/making/piece/raw_piece_limits.h"
@@ -78,14 +77,6 @@ void unplanned(model::Plan& plan, AnyRef feature, const FeatureShape& s, const s
               .instance = plan.model.origin(s.feature).instance});
 }
 
-/// The widest holder of a ball, which finishes all of a surface.
-double widest_holder_mm(const std::vector<model::Cutter>& usable) {
-  double out = 0.0;
-  for (const model::Cutter& c : usable)
-    if (model::has(c.cutter_class, model::CutterTrait::kBall)) out = std::max(out, c.holder_diameter_mm);
-  return out;
-}
-
 class Proposer {
  public:
   Proposer(model::Plan& plan, const Sources& sources, Proposed& out, Job& job)
@@ -122,9 +113,8 @@ class Proposer {
         thin = piece::thin_places(*plan_.target_mesh, plan_.stock.box);
         if (thin.wall) context.surface_wall_ratio = thin.wall->ratio();
         if (thin.floor) context.surface_floor_ratio = thin.floor->ratio();
-        context.surface_height_mm =
-            form.walls ? geometry::bounds(*plan_.target_mesh).hi.z - plan_.stock.box.lo.z
-                       : piece::depth_beside(*plan_.target_mesh, 0.5 * widest_holder_mm(choice_.usable));
+        if (form.walls)
+          context.surface_height_mm = geometry::bounds(*plan_.target_mesh).hi.z - plan_.stock.box.lo.z;
         // Of what is curved, too, a ball finishes the places that no mill enters.
         if (form.walls && !form.curved)
           context.surface_passage_mm = piece::passage_between(*plan_.target_mesh, form, plan_.stock.box);

@@ -211,8 +211,8 @@ class PathMaker {
     }
     const std::size_t tries = std::max<std::size_t>(1, step.candidates.size());
     step::GroupedReasons why_not;
-    const bool of_rest = roughs_surface(step) && step::roughed_before(p_, step) != nullptr &&
-                         step::left_by_next_mm(p_, step).has_value();
+    const bool of_rest =
+        step::roughed_before(p_, step) != nullptr && step::left_by_next_mm(p_, step).has_value();
     bool gone = step.proposed || of_rest;                 // true: every cutter finds no material to cut
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
     for (std::size_t i = 0; i < tries; ++i) {

@@ -27,8 +27,7 @@ constexpr double kLeastMm =
 }  // namespace
 
 // In a crease of angle d between two facets, a ball of radius R leaves R (1 / cos(d / 2) - 1). Facets too
-// narrow for the ball to touch both beside their crease approximate a curve of radius width / 2 sin(d / 2).
-// Where it turns by a right angle at most, a ball that is larger by e leaves (sqrt(2) - 1) e in it.
+// narrow for the ball to touch both beside their crease approximate a curve of radius width / d.
 double surface_radius(const geometry::Mesh& mesh) {
   using geometry::Vec3;
   struct Side {
@@ -62,8 +61,7 @@ double surface_radius(const geometry::Mesh& mesh) {
     const double width =
         std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / length;
     if (angle * width < rounding_mm) continue;  // a needle: its coordinates do not say how it lies
-    const double of_curve = 0.5 * width / std::sin(0.5 * angle) + kCreaseMm / (std::numbers::sqrt2 - 1.0);
-    const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, of_curve)));
+    const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, width / angle)));
     out = out > 0.0 ? std::min(out, limit) : limit;
   }
   return out;

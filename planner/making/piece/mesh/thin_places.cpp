@@ -8,7 +8,6 @@
 
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/mesh/mesh_form.h"
-#include "planner/making/piece/mesh/mesh_heights.h"
 
 // Walls: from points of each steep triangle a level ray goes into the material; where it comes out is the
 // wall's thickness, and what stands above the middle of it is the wall's height. A part that is cut from
@@ -29,6 +28,7 @@ constexpr double kBeside = 1.0 / 8.0;  // of the height: how far aside a wall is
 constexpr double kStiffer = 1.5;  // times as thick is what holds it: 3.4 times as stiff; default, unsourced
 constexpr double kThinBefore = 0.5;      // of the raw piece's height; default, unsourced
 constexpr double kSamplesAcross = 64.0;  // of the box's diagonal; default, unsourced
+constexpr double kMapAcross = 200.0;     // cells along the longer side; default, unsourced
 constexpr double kSelfMm = 1e-4;         // a ray begins on its own triangle; rounding of coordinates
 
 /// Triangles by the squares of a grid that their boxes touch, seen from above.
@@ -160,10 +160,59 @@ std::optional<ThinPlace> thin_wall(const geometry::Mesh& mesh, double sign) {
   return search ? search->best() : std::nullopt;
 }
 
+/// The heights of a mesh over the cells of a grid; nothing stands at kNone.
+struct Map {
+  static constexpr double kNone = -1e300;
+  Vec2 lo;
+  double cell = 1.0;
+  int nx = 1, ny = 1;
+  std::vector<double> z;
+  [[nodiscard]] double at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= nx || y >= ny) return kNone;
+    return z[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)];
+  }
+};
+
+Map map_of(const geometry::Mesh& mesh, double sign) {
+  const geometry::Box3 box = geometry::bounds(mesh);
+  const double w = box.hi.x - box.lo.x, h = box.hi.y - box.lo.y;
+  Map m;
+  m.lo = xy(box.lo);
+  m.cell = std::max({w, h, 1e-3}) / kMapAcross;
+  m.nx = static_cast<int>(w / m.cell) + 1;
+  m.ny = static_cast<int>(h / m.cell) + 1;
+  m.z.assign(static_cast<std::size_t>(m.nx) * static_cast<std::size_t>(m.ny), Map::kNone);
+  const auto cells = [&](double from, double to, double begin, int n) {
+    const auto i = [&](double v) { return std::clamp((v - begin) / m.cell - 0.5, 0.0, n - 1.0); };
+    return std::pair(static_cast<int>(std::floor(i(from))), static_cast<int>(std::ceil(i(to))));
+  };
+  for (const auto& t : mesh.triangles) {
+    tick();
+    const Vec3 a = mesh.vertices[t[0]], ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
+    const Vec3 n = cross(ab, ac);
+    if (!(sign * n.z > 1e-9 * norm(n))) continue;
+    const auto [x0, x1] =
+        cells(a.x + std::min({0.0, ab.x, ac.x}), a.x + std::max({0.0, ab.x, ac.x}), m.lo.x, m.nx);
+    const auto [y0, y1] =
+        cells(a.y + std::min({0.0, ab.y, ac.y}), a.y + std::max({0.0, ab.y, ac.y}), m.lo.y, m.ny);
+    for (int y = y0; y <= y1; ++y) {
+      for (int x = x0; x <= x1; ++x) {
+        const Vec2 q{m.lo.x + (x + 0.5) * m.cell - a.x, m.lo.y + (y + 0.5) * m.cell - a.y};
+        const double v = (q.x * ac.y - q.y * ac.x) / n.z, u = (ab.x * q.y - ab.y * q.x) / n.z;
+        if (v < -1e-9 || u < -1e-9 || u + v > 1.0 + 1e-9) continue;
+        double& z =
+            m.z[static_cast<std::size_t>(y) * static_cast<std::size_t>(m.nx) + static_cast<std::size_t>(x)];
+        z = std::max(z, a.z + v * ab.z + u * ac.z);
+      }
+    }
+  }
+  return m;
+}
+
 /// Radius of the circle around a cell in which all stands and nothing is higher than z, mm; 0 where it is
 /// less than `least_mm`.
-double circle(const MeshHeights& m, int x, int y, double z, double least_mm) {
-  const auto free = [&](int i, int j) { return m.at(i, j) > MeshHeights::kNone && m.at(i, j) <= z; };
+double circle(const Map& m, int x, int y, double z, double least_mm) {
+  const auto free = [&](int i, int j) { return m.at(i, j) > Map::kNone && m.at(i, j) <= z; };
   const int least = static_cast<int>(least_mm / m.cell);
   for (const int s : {-1, 1}) {  // most are told from these
     if (!free(x + s * least, y) || !free(x, y + s * least)) return 0.0;
@@ -191,7 +240,7 @@ std::optional<ThinPlace> thin_floor(const geometry::Mesh& mesh, double sign, con
     return sign * n.z > kSteepNormal * norm(n) && can_be_thin(std::min({a.z, b.z, c.z}) - raw.lo.z);
   };
   if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), low)) return std::nullopt;
-  const MeshHeights m = heights_of(mesh, sign);
+  const Map m = map_of(mesh, sign);
   std::optional<ThinPlace> best;
   for (int y = 0; y < m.ny; ++y) {
     poll();

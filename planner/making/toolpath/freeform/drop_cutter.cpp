@@ -72,8 +72,8 @@ struct Held {
 };
 /// With the contact at distance c on the side to which a plane of slope g rises, another point of it at (r,
 /// a) about the axis holds the tip lower by (g c - h(c)) - (g r - h(r)) + g r (1 - cos a). The outline h
-/// bends by 1 / ball at least outside of the disc, so that the first two are (c - r)^2 / 2 ball or more, or
-/// of the disc g (c - r) or more; the square of the distance is (c - r)^2 + 2 c r (1 - cos a).
+/// bends by 1 / ball at least outside of the disc, so that the first two are (c - r)^2 / 2 ball or more, and
+/// within the disc half of g (c - r) or more; the square of the distance is (c - r)^2 + 2 c r (1 - cos a).
 Held held_by(const Toroid& t, double rise, double lift) {
   Held out{rise * t.disc_mm + t.ball_mm * lift, t.disc_mm + t.ball_mm * rise / (1.0 + lift), 0.0};
   const double across = rise > 0.0 ? 0.5 * rise / out.at_mm : t.disc_mm > 0.0 ? 0.0 : 1e300;

@@ -57,9 +57,13 @@ struct Item {
   int faces = 0;  ///< 1: up, -1: down, 0: it is upright, or nearly so
 };
 
-Vec3 upward_normal(const Mesh& mesh, std::uint32_t t) {
+Vec3 normal(const Mesh& mesh, std::uint32_t t) {
   const auto& c = mesh.triangles[t];
-  const Vec3 n = cross(mesh.vertices[c[1]] - mesh.vertices[c[0]], mesh.vertices[c[2]] - mesh.vertices[c[0]]);
+  return cross(mesh.vertices[c[1]] - mesh.vertices[c[0]], mesh.vertices[c[2]] - mesh.vertices[c[0]]);
+}
+
+Vec3 upward_normal(const Mesh& mesh, std::uint32_t t) {
+  const Vec3 n = normal(mesh, t);
   return n.z < 0.0 ? -1.0 * n : n;
 }
 
@@ -70,9 +74,7 @@ class TreeBuilder {
     for (std::size_t t = 0; t < items_.size(); ++t) {
       for (const std::uint32_t v : mesh.triangles[t]) items_[t].box.add(mesh.vertices[v]);
       items_[t].centre = 0.5 * (xy(items_[t].box.lo) + xy(items_[t].box.hi));
-      const auto& c = mesh.triangles[t];
-      const Vec3 n =
-          cross(mesh.vertices[c[1]] - mesh.vertices[c[0]], mesh.vertices[c[2]] - mesh.vertices[c[0]]);
+      const Vec3 n = normal(mesh, static_cast<std::uint32_t>(t));
       if (std::abs(n.z) > kUpright * norm(n)) items_[t].faces = n.z > 0.0 ? 1 : -1;
     }
     tree_.order.resize(items_.size());
@@ -82,10 +84,11 @@ class TreeBuilder {
   void run() {
     struct Task {
       std::uint32_t node, first, last;
+      std::size_t depth;
     };
     tree_.nodes.push_back({});
     tree_.planes.push_back({});
-    std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(items_.size())}};
+    std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(items_.size()), 0}};
     while (!tasks.empty()) {
       const Task t = tasks.back();
       tasks.pop_back();
@@ -97,14 +100,14 @@ class TreeBuilder {
         tree_.nodes[t.node].left = tree_.nodes[t.node].right = number;
         continue;
       }
-      const std::uint32_t middle = split(t.first, t.last);
+      const std::uint32_t middle = split(t.first, t.last, t.depth);
       const auto left = static_cast<std::uint32_t>(tree_.nodes.size());
       tree_.nodes.resize(tree_.nodes.size() + 2);
       tree_.planes.resize(tree_.nodes.size());
       tree_.nodes[t.node].left = left;
       tree_.nodes[t.node].right = left + 1;
-      tasks.push_back({left + 1, middle, t.last});
-      tasks.push_back({left, t.first, middle});
+      tasks.push_back({left + 1, middle, t.last, t.depth + 1});
+      tasks.push_back({left, t.first, middle, t.depth + 1});
     }
   }
 
@@ -122,7 +125,7 @@ class TreeBuilder {
   /// apart first: what lies beneath a solid would else spread the boxes of what lies on it. Then the half
   /// perimeters of both boxes times their numbers are made small, over cuts of x and y into equal parts.
   /// Source  the surface area heuristic of ray tracing (MacDonald and Booth 1990), seen along z.
-  std::uint32_t split(std::uint32_t first, std::uint32_t last) {
+  std::uint32_t split(std::uint32_t first, std::uint32_t last, std::size_t depth) {
     const auto begin = tree_.order.begin();
     const int faces = items_[*(begin + first)].faces;
     const auto apart = std::partition(begin + first, begin + last,
@@ -136,7 +139,8 @@ class TreeBuilder {
     }
     const Cut x = cheapest(first, last, centres, true), y = cheapest(first, last, centres, false);
     const Cut& cut = x.cost <= y.cost ? x : y;
-    if (cut.cost < 1e300) {
+    // From there on halves are equal: 2^32 triangles come to 32 more.
+    if (cut.cost < 1e300 && depth + 40 < kDeepestTree) {
       const auto below = [&](std::uint32_t t) { return part_of(t, centres, cut.by_x) < cut.part; };
       return static_cast<std::uint32_t>(std::partition(begin + first, begin + last, below) - begin);
     }
@@ -249,7 +253,7 @@ bool is_valley(const Mesh& mesh, const MeshEdge& e) {
   for (std::size_t k = 0; k < 2; ++k) {
     const std::uint32_t t = e.triangle[k];
     const Vec3 n = upward_normal(mesh, t);
-    if (!(n.z > 1e-6 * norm(n))) return false;
+    if (!(n.z > kUpright * norm(n))) return false;
     side[k] = cross(d, xy(mesh.vertices[third_corner(mesh, e, t)]) - a);
     const double sign = side[k] > 0.0 ? 1.0 : -1.0;
     // slope of the facet away from the edge: gradient times the edge's normal towards the facet

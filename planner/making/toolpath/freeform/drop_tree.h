@@ -34,6 +34,9 @@ struct NodePlane {
   bool made = false;  ///< of small nodes that are not upright; of others nothing is known but their box
 };
 
+/// So many nodes lie below each other at most, whatever the mesh.
+inline constexpr std::size_t kDeepestTree = 100;
+
 /// A tree of boxes over the triangles; each half of a node has an eighth of its triangles or more, but where
 /// they face otherwise.
 struct Tree {

@@ -41,7 +41,7 @@ constexpr double kSteepRad = 47.0 / 180.0 * std::numbers::pi;
 /// diameter, for a narrow one is slender, and no more than a last ball meets after a semi-finish, mm.
 /// Default, unsourced.
 constexpr double kLayerShare = 0.03, kLayerMm = 0.4;
-constexpr int kMostLayers = 40;
+constexpr int kMostLayers = 200;
 /// Of the tolerance, for ridges beside the height asked for: three quarters are the passes' own (Follower).
 /// As long as none is higher by more than half of it, no passes are put between those of the raster.
 constexpr double kRidgeShare = 0.25, kRasterShare = 0.5;
