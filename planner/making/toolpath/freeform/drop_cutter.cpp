@@ -234,7 +234,7 @@ double DropCutter::bound(std::uint32_t node, const Outline& t, double x, double 
   const double off_x = std::max({n.xlo - cx, 0.0, cx - n.xhi});
   const double off_y = std::max({n.ylo - cy, 0.0, cy - n.yhi});
   const double off2 = off_x * off_x + off_y * off_y;
-  return off2 > 0.0 ? std::min(by_box, by_plane - held.lower_per_mm2 * off2) : std::min(by_box, by_plane);
+  return std::min(by_box, by_plane - held.lower_per_mm2 * off2);
 }
 
 /// The highest contact of those above `from_mm`, or the first one above `to_mm`; `from_mm`: there is none.
@@ -249,7 +249,7 @@ double DropCutter::search(const Outline& t, double x, double y, std::uint32_t& h
     std::uint32_t node;
     double bound;
   };
-  std::array<Entry, 128> stack;  // the tree is balanced: its depth is the logarithm of the number of leaves
+  std::array<Entry, kDeepestTree + 2> stack;
   std::size_t n = 0;
   if (best > to_mm) return best;
   stack[n++] = {0, bound(0, t, x, y, best)};
