@@ -193,7 +193,10 @@ Made freeform_levels(const Making& m) {
   return s;
 }
 
-// With an allowance it only evens out what roughing left: a ball wider than the creases will do.
+// With an allowance a it only evens out what roughing left: a ball wider than the creases will do, as long as
+// the last one then bears what is left there. Where it does not, the ball before it is no wider than leaves it
+// kMostBite of the allowance. In a fillet of radius r between faces at a right angle, a ball of radius R along
+// the surface raised by a leaves (R - r - a) (sqrt(2) - 1) more. Source  derived.
 Made freeform_finish(const Making& m) {
   ProposedStep s;
   s.depth_mm = m.shape.depth_mm;
@@ -204,7 +207,13 @@ Made freeform_finish(const Making& m) {
   if (m.shape.corner_radius_mm > 0.0)
     limit = limit > 0.0 ? std::min(limit, 2.0 * m.shape.corner_radius_mm) : 2.0 * m.shape.corner_radius_mm;
   const bool last = !(s.allowance_side_mm > 0.0);
-  if (last) s.tool.diameter_max_mm = limit;
+  if (last) {
+    s.tool.diameter_max_mm = limit;
+  } else if (m.number("into_creases") > 0.0 && limit > 0.0) {
+    constexpr double kMostBite = 2.0;  // as planning bounds it; default, unsourced
+    const double left = s.allowance_side_mm;
+    s.tool.diameter_max_mm = limit + 2.0 * (left + (kMostBite - 1.0) * left / (std::numbers::sqrt2 - 1.0));
+  }
   s.tool.centre_cutting = true;
   s.tool.reach_mm = m.shape.depth_mm + m.context.stock_above_mm + kReachClearanceMm;
   s.strategy = StrategyKind::kBidirectional;
@@ -250,7 +259,8 @@ std::vector<Action> form_actions() {
       {"freeform_levels", TypeId::kFreeformFinishMilling, {}, freeform_levels},
       {"freeform_finish",
        TypeId::kFreeformFinishMilling,
-       {{"allowance_mm", 0.0, "left on the surface; above 0 a semi-finish"}},
+       {{"allowance_mm", 0.0, "left on the surface; above 0 a semi-finish"},
+        {"into_creases", 0.0, "above 0: a semi-finish leaves little in the narrowest places, too"}},
        freeform_finish},
   };
 }

@@ -292,7 +292,14 @@ TEST(Surfaces, AreRoughedEvenedOutAndFinishedByABallThatFitsTheirCreases) {
     const auto& last = p.chains.at(0).at(4);
     EXPECT_DOUBLE_EQ(last.allowance_side_mm, 0.0);
     EXPECT_DOUBLE_EQ(last.tool.diameter_max_mm, 8.0);
-    EXPECT_EQ(p.chains.at(1).size(), 4U) << "where no ball bears the terraces, finished at once";
+    EXPECT_EQ(p.chains.back().size(), 4U) << "where no ball bears the terraces, finished at once";
+    if (kind == ShapeKind::kSphericalCap) continue;
+    // Where the last ball does not bear what a wide one leaves in a fillet of 4 mm, one before it that leaves
+    // it 0.4 mm there: (R - 4 - 0.2) (sqrt(2) - 1) = 0.2.
+    ASSERT_EQ(p.chains.size(), 3U);
+    const auto& narrow = p.chains.at(1).at(3);
+    EXPECT_DOUBLE_EQ(narrow.allowance_side_mm, 0.2);
+    EXPECT_NEAR(narrow.tool.diameter_max_mm, 2.0 * (4.0 + 0.2 + 0.2 / (std::sqrt(2.0) - 1.0)), 1e-9);
   }
 }
 

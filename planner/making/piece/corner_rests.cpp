@@ -48,7 +48,11 @@ std::string tolerance_of(const model::Model& m, const FeatureShape& s) {
          " mm is not kept)";
 }
 
-void tell(const model::Plan& plan, const FeatureShape& s, const CornerRest& r, Job& job) {
+/// What stays of a shape, and where, in words.
+std::string words_of(const model::Plan& plan, const FeatureShape& s, const CornerRest& r) {
+  const std::string radius =
+      "a radius of " + trimmed(r.radius_mm, 4) + " mm stays in place of " + trimmed(r.stated_mm, 4) + " mm";
+  if (s.kind == model::ShapeKind::kFreeform) return "in its narrow places " + radius;
   const auto pieces = stays_of(s, r.radius_mm);
   double area = 0.0;
   std::vector<geometry::Vec3> at;
@@ -58,14 +62,15 @@ void tell(const model::Plan& plan, const FeatureShape& s, const CornerRest& r, J
     const geometry::Vec2 middle = 0.5 * (box.lo + box.hi);
     at.push_back(s.frame.to_parent({middle.x, middle.y, 0.0}));
   }
+  return std::string(at.size() == 1 ? "in its inside corner" : "in its inside corners") +
+         (at.empty() ? "" : " at " + some_places(at)) + " " + radius + tolerance_of(plan.model, s) + ", " +
+         trimmed(area, 3) + " mm2 and " + trimmed(area * s.depth_mm, 2) + " mm3 in all";
+}
+
+void tell(const model::Plan& plan, const FeatureShape& s, const CornerRest& r, Job& job) {
   job.report({.code = "PIP-CORNER",
               .severity = Severity::kWarning,
-              .message = "feature '" + s.name + "': in " +
-                         (at.size() == 1 ? "its inside corner" : "its inside corners") +
-                         (at.empty() ? "" : " at " + some_places(at)) + " a radius of " +
-                         trimmed(r.radius_mm, 4) + " mm stays in place of " + trimmed(r.stated_mm, 4) +
-                         " mm" + tolerance_of(plan.model, s) + ", " + trimmed(area, 3) + " mm2 and " +
-                         trimmed(area * s.depth_mm, 2) + " mm3 in all: " + r.why,
+              .message = "feature '" + s.name + "': " + words_of(plan, s, r) + ": " + r.why,
               .file = plan.file_name,
               .line = plan.model.origin(s.feature).line,
               .instance = plan.model.origin(s.feature).instance,

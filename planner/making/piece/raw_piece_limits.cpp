@@ -128,6 +128,8 @@ std::string drawn_square(const Piece& piece, const FeatureShape& s) {
 
 double narrowest_mill_mm(const Piece& piece, const std::vector<draft::StepDraft>& steps,
                          const FeatureShape& s) {
+  if (s.kind == ShapeKind::kFreeform && piece.plan.target_mesh)
+    return 2.0 * last_ball_mm(piece.plan, steps);
   double diameter = kNoRadius;
   const auto of_it = [&](const FeatureShape& other) {
     return other.feature == s.feature && other.member == s.member;
@@ -145,7 +147,11 @@ double narrowest_mill_mm(const Piece& piece, const std::vector<draft::StepDraft>
 }
 
 void tell_corners(const Piece& piece, const std::vector<draft::StepDraft>& steps, Job& job) {
-  if (piece.plan.target_mesh) return tell_mesh_corners(piece.plan, steps, job);
+  if (piece.plan.target_mesh) {
+    tell_mesh_corners(piece.plan, steps, job);
+    tell_mesh_creases(piece.plan, steps, job);
+    return;
+  }
   const model::PieceForm part = part_form(piece);
   for (const FeatureShape& s : piece.shapes.whole) {
     if (model::corner_rest_of(piece.plan, s.name)) continue;  // told with its reason (corner_rests.h)

@@ -27,7 +27,8 @@ namespace capstan::piece {
 /// Inside corners that a mill leaves round, in words (model::drawn_square); empty: none, or the part is a
 /// mesh.
 [[nodiscard]] std::string drawn_square(const Piece& piece, const model::FeatureShape& shape);
-/// The diameter of the narrowest mill among the steps of a shape that the plan executes, mm; 0: none.
+/// The diameter of the narrowest mill among the steps of a shape that the plan executes, of a surface that of
+/// the last ball that finishes it, mm; 0: none.
 [[nodiscard]] double narrowest_mill_mm(const Piece& piece, const std::vector<draft::StepDraft>& steps,
                                        const model::FeatureShape& shape);
 /// The first of some places, in words, and how many more there are.

@@ -7,6 +7,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/geometry/moved.h"
+#include "planner/making/piece/mesh/surface_form.h"
 #include "planner/model/features/in_piece.h"
 #include "planner/model/features/raw_piece.h"
 #include "planner/model/nouns/arena/walk.h"
@@ -304,6 +305,8 @@ void stop_at_walls(const Piece& piece, model::FeatureShape& s) {
 double stock_above(const Piece& piece, const FeatureShape& s) {
   double top = transformed(piece.plan.stock.box, inverse(s.frame)).hi.z;
   if (s.kind == model::ShapeKind::kFace) return std::max(0.0, top);
+  if (s.kind == model::ShapeKind::kFreeform && piece.plan.target_mesh)
+    return std::max(0.0, top - lowest_seen_mm(*piece.plan.target_mesh, s.frame).value_or(0.0));
   for (const FeatureShape& face : piece.shapes.faces) {
     const auto rel = compose(inverse(s.frame), face.frame);
     if (std::abs(rel.z.z - 1.0) > kSame) continue;

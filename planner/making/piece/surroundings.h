@@ -11,7 +11,8 @@
 
 namespace capstan::piece {
 
-/// Height of raw material above a feature when its steps begin, mm. Faces are cut first.
+/// Height of raw material above a feature when its steps begin, mm; above the lowest place of a surface that
+/// is seen. Faces are cut first.
 [[nodiscard]] double stock_above(const Piece& piece, const model::FeatureShape& shape);
 /// Height of the raw piece above a feature's top, along the feature's axis, mm; at least 0.
 [[nodiscard]] double raw_above(const geometry::Box3& raw, const geometry::Placement& feature);

@@ -25,6 +25,8 @@ using model::ShapeKind;
 /// mills of 2 and 2.5 mm in its corners take 4:37 and 4:02 in all; 18 mm deep, of 3 and 4 mm 18:05 and 7:43.
 /// Default, unsourced.
 constexpr double kDiametersDeep = 4.0;
+/// A ball that finishes a surface, whose last limit is how far it bends. Default, unsourced.
+constexpr double kBallDiametersDeep = 2.5;
 /// Radii for which a chain had its cutters and was tried in vain, before the feature is not planned: each
 /// costs a try of the whole plan. Default, unsourced.
 constexpr int kMostInVain = 3;
@@ -36,25 +38,29 @@ constexpr int kOneRadius = 1000;
 /// The radius that may stay in the corners as they are stated, mm; nothing: none limits the cutters.
 std::optional<double> may_stay(const rules::Context& context, const FeatureShape& s, bool square) {
   if (square) return s.corner_radius_mm;
+  if (s.kind == ShapeKind::kFreeform)
+    return context.surface_radius_mm > 0.0 ? std::optional(context.surface_radius_mm) : std::nullopt;
   if (s.kind != ShapeKind::kPocket && s.kind != ShapeKind::kSlot && context.sharp_corner_mm <= 0.0)
     return std::nullopt;
   if (s.corner_radius_mm > 0.0) return s.corner_radius_mm;
   return context.sharp_corner_mm > 0.0 ? std::optional(context.sharp_corner_mm) : std::nullopt;
 }
 
-/// The radii of mills above one, in the order in which they are tried for walls that are this high.
+/// The radii of mills above one, on a surface of balls, in the order in which they are tried for walls that
+/// are this high.
 std::vector<double> mill_radii_above(const std::vector<model::Cutter>& usable, double radius_mm,
-                                     double depth_mm) {
+                                     double depth_mm, bool balls) {
   std::vector<double> out;
   for (const model::Cutter& c : usable) {
-    const bool mill = c.cutter_class == CutterClass::kEndmill ||
-                      c.cutter_class == CutterClass::kBullnoseEndmill ||
-                      c.cutter_class == CutterClass::kBallEndmill;
+    const bool mill = c.cutter_class == CutterClass::kBallEndmill ||
+                      (!balls && (c.cutter_class == CutterClass::kEndmill ||
+                                  c.cutter_class == CutterClass::kBullnoseEndmill));
     if (mill && 0.5 * c.cutting_diameter_mm > radius_mm) out.push_back(0.5 * c.cutting_diameter_mm);
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  const auto well = std::lower_bound(out.begin(), out.end(), 0.5 * depth_mm / kDiametersDeep);
+  const double well_mm = 0.5 * depth_mm / (balls ? kBallDiametersDeep : kDiametersDeep);
+  const auto well = std::lower_bound(out.begin(), out.end(), well_mm);
   std::reverse(out.begin(), well);
   std::rotate(out.begin(), well, out.end());
   return out;
@@ -63,15 +69,18 @@ std::vector<double> mill_radii_above(const std::vector<model::Cutter>& usable, d
 /// What the rules propose where the corners may keep a radius, the n-th that is tried.
 model::Proposal proposal_for(const Choice& choice, const rules::RuleBase& rules, rules::Context context,
                              FeatureShape s, double radius_mm, int n) {
+  const bool surface = s.kind == ShapeKind::kFreeform;
+  if (surface) context.surface_radius_mm = radius_mm;
   if (context.sharp_corner_mm > 0.0) context.sharp_corner_mm = radius_mm;
   const bool unstated = context.sharp_corner_mm > 0.0 && !(s.corner_radius_mm > 0.0);
-  if (!unstated) s.corner_radius_mm = radius_mm;
+  if (!unstated && !surface) s.corner_radius_mm = radius_mm;
   model::Proposal p = piece::without_drills_at_edges(choice.piece, s, rules::propose(rules, s, context));
   for (auto& chain : p.chains) {
     for (model::ProposedStep& step : chain) {
       step.priority += n * kOneRadius;
       step.why.text += (step.why.text.empty() ? "" : "; ") +
-                       ("rest material of radius " + trimmed(radius_mm, 4)) + " mm stays in the corners";
+                       ("rest material of radius " + trimmed(radius_mm, 4)) + " mm stays in " +
+                       (surface ? "narrow places" : "the corners");
     }
   }
   return p;
@@ -106,22 +115,26 @@ InCorners choose_in_corners(const Choice& choice, const rules::RuleBase& rules, 
   const auto stated = may_stay(context, shape, square);
   if (!stated) return out;
   const std::vector<model::Rejected> before = out.rejected;
-  const double widest = widest_for_time_mm(shape, square);
+  const bool surface = shape.kind == ShapeKind::kFreeform;
+  const int most_in_vain = surface ? 1 : kMostInVain;  // a path over a surface takes long
+  const double widest = surface ? *stated : widest_for_time_mm(shape, square);
+  const double depth = surface ? context.stock_above_mm : shape.depth_mm;
   int n = 0, in_vain = 0;
-  for (const double radius : mill_radii_above(choice.usable, *stated, shape.depth_mm)) {
+  for (const double radius : mill_radii_above(choice.usable, *stated, depth, surface)) {
     const bool taken = out.rest.has_value();
     if (taken && (out.chosen.seconds <= kLongS || radius < out.rest->radius_mm || radius > widest)) break;
     model::Proposal wider = proposal_for(choice, rules, context, shape, radius, ++n);
     std::vector<model::Rejected> rejected = before;
     Chosen chosen = choose(choice, wider, shape, member, steps, used, rejected, job);
     if (chosen.chain == nullptr) {
-      if (!taken && tried(choice, wider, member) && ++in_vain == kMostInVain) break;
+      if (!taken && tried(choice, wider, member) && ++in_vain == most_in_vain) break;
       continue;
     }
     if (taken && !decisively_quicker(chosen.seconds, out.chosen.seconds)) continue;
     const std::string why = square ? out.drawn_square + ", and a mill leaves them round"
-                                   : "no chain has its cutters for corners of radius " + trimmed(*stated, 4) +
-                                         " mm, " + trimmed(shape.depth_mm, 3) + " mm deep";
+                                   : std::string("no chain has its cutters for ") +
+                                         (surface ? "places" : "corners") + " of radius " +
+                                         trimmed(*stated, 4) + " mm, " + trimmed(depth, 3) + " mm deep";
     out.rest = model::CornerRest{shape.name, *stated, radius,
                                  why + "; this is the least radius that the mills that there are make well"};
     out.rejected = std::move(rejected);

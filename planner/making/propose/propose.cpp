@@ -77,6 +77,9 @@ void unplanned(model::Plan& plan, AnyRef feature, const FeatureShape& s, const s
               .instance = plan.model.origin(s.feature).instance});
 }
 
+constexpr double kNarrowMm = 8.0;       ///< passages left to a ball; default, unsourced
+constexpr double kSameHeightMm = 1e-3;  ///< the rounding of coordinates in a mesh; default, unsourced
+
 class Proposer {
  public:
   Proposer(model::Plan& plan, const Sources& sources, Proposed& out, Job& job)
@@ -115,9 +118,10 @@ class Proposer {
         if (thin.floor) context.surface_floor_ratio = thin.floor->ratio();
         if (form.walls)
           context.surface_height_mm = geometry::bounds(*plan_.target_mesh).hi.z - plan_.stock.box.lo.z;
-        // Of what is curved, too, a ball finishes the places that no mill enters.
-        if (form.walls && !form.curved)
+        // Of what is curved, too, a ball finishes the places that no mill enters, or only a narrow one.
+        if (form.walls)
           context.surface_passage_mm = piece::passage_between(*plan_.target_mesh, form, plan_.stock.box);
+        if (form.curved && context.surface_passage_mm < kNarrowMm) context.surface_passage_mm = 0.0;
       }
     }
     std::vector<FeatureShape> in_material = shapes;
@@ -317,6 +321,11 @@ class Proposer {
     if (why.empty()) why = piece::beyond_travel(choice_.piece, given, widest_mm());
     if (why.empty()) why = piece::not_in_piece(choice_.piece, given);
     if (why.empty()) why = piece::lies_within_another(choice_.piece.shapes, given);
+    if (why.empty() && given.kind == model::ShapeKind::kFreeform && plan_.target_mesh &&
+        !context.surface_walls && context.stock_above_mm < kSameHeightMm)
+      why =
+          "the raw piece is the surface already, and nothing of it is to be cut; say what it is cut from "
+          "(--stock block:+2)";
     if (!why.empty() || !proposed.cannot.empty()) {
       fail_member(f, given, why.empty() ? proposed.cannot : why);
       return {};

@@ -115,13 +115,21 @@ std::pair<double, double> mean_extents(const model::SectionSeries& s) {
 
 /// The area below the cutter's end where a step of a plunge is deepest, mm2. What a step removes of a level
 /// top, it removes in the part of its length that is in contact; where the top is uneven, this is the mean
-/// area over the length in contact of the highest part. A round nose's area grows from nothing, ever slower, so that
-/// its mean over the last length c of a depth a is at least (1 - c / (2 a)) of the last (derived).
+/// area over the length in contact of the highest part. A round nose's area grows from nothing, ever slower,
+/// so that its mean over the last length c of a depth a is at least (1 - c / (2 a)) of the last (derived).
 double below_end(const engagement::Engagement& e, const model::Cutter& cutter) {
   const double contact = std::min(e.ap_mm, e.step_mm);
   if (!(contact > 0.0)) return 0.0;
   const bool round = mechanics::tooth_of(cutter).corner_radius_mm > 0.0;
   return e.removed_mm3 / contact / (round ? 1.0 - 0.5 * contact / e.ap_mm : 1.0);
+}
+
+/// The area of a measured step. Of one shorter than a cell, what it removes is a matter of which cells'
+/// middles it meets: its area is no more than that of the contact that was found, each extent known to a
+/// cell.
+double area_of(const engagement::Engagement& e, double known_to_mm) {
+  if (e.plunge || e.step_mm >= known_to_mm) return e.csa_mm2;
+  return std::min(e.csa_mm2, (e.ap_mm + known_to_mm) * (e.ae_mm + known_to_mm));
 }
 
 /// The thickest chip over the feed of a sample and of its neighbours: cells tell of what a cutter meets next
@@ -216,7 +224,7 @@ std::vector<CutSample> samples_of(const engagement::Measurement& m, const model:
          .step_mm = e.step_mm,
          .entry_rad = entry,
          .exit_rad = exit,
-         .csa_mm2 = e.csa_mm2,
+         .csa_mm2 = area_of(e, m.known_to_mm),
          .top_mm = s.y_max_ofs_mm[i] + 0.5 * s.ad_max_mm[i],
          .end_mm2 = e.plunge ? below_end(e, cutter) : 0.0,
          .chip_over_feed = chip_about(m, i)},

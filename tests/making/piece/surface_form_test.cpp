@@ -75,5 +75,31 @@ TEST(SurfaceRadius, IsNotThatOfNeedlesWhoseCoordinatesAreRounded) {
   EXPECT_EQ(surface_radius(m), 0.0);
 }
 
+TEST(SurfaceRadius, InACreaseThatStatesNoneIsWhatMayStayInAnUnstatedCorner) {
+  // Valleys in facets of 2 mm: of 90 degrees, and of 15, in which a ball of 3 mm leaves 0.026 mm.
+  for (const double lean : {45.0, 7.5}) {
+    const double slope = std::tan(lean / 180.0 * 3.14159265358979);
+    const Mesh m = sheet(40, [&](double x, double) { return slope * std::abs(x - 0.5 * kSize); });
+    const double deep = 0.5 * kSize * slope;
+    EXPECT_DOUBLE_EQ(surface_radius(m), std::max(3.0, deep / 6.0)) << lean;
+  }
+}
+
+TEST(LowestSeen, IsThatOfWhatFacesUpWhereverThePartIsDrawn) {
+  // A dish in a block that goes 30 mm deeper.
+  Mesh m = sheet(20, [](double x, double y) {
+    return 100.0 + 0.01 * ((x - 0.5 * kSize) * (x - 0.5 * kSize) + (y - 0.5 * kSize) * (y - 0.5 * kSize));
+  });
+  EXPECT_EQ(lowest_seen_mm(m, {}), 100.0);
+  const auto n = static_cast<std::uint32_t>(m.vertices.size());
+  for (const Vec3 v : {Vec3{0, 0, 70}, Vec3{kSize, 0, 70}, Vec3{kSize, kSize, 70}, Vec3{0, kSize, 70}})
+    m.vertices.push_back(v);
+  m.triangles.push_back({n, n + 2, n + 1});
+  m.triangles.push_back({n, n + 3, n + 2});
+  EXPECT_EQ(lowest_seen_mm(m, {}), 100.0);
+  for (auto& t : m.triangles) std::swap(t[1], t[2]);  // inside out
+  EXPECT_EQ(lowest_seen_mm(m, {}), 100.0);
+}
+
 }  // namespace
 }  // namespace capstan::piece

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "planner/making/step/cut_samples.h"
 
@@ -53,6 +55,32 @@ TEST(PlungeArea, OfABallIsThatOfTheEndOfTheStepAndLittleMore) {
     const double found = sample(5.0, h, volume(h) - (h > 0.5 ? volume(h - 0.5) : 0.0)).end_mm2;
     EXPECT_GE(found, area) << h;
     EXPECT_LE(found, 1.1 * area) << h;
+  }
+}
+
+// A cell of 0.1 mm that a micrometre meets: of 3 mm deep and 0.02 wide contact no more than a cell more each
+// way.
+TEST(ShortMove, HasNoLargerAreaThanItsContact) {
+  model::Cutter c;
+  c.cutter_class = model::CutterClass::kEndmill;
+  c.cutting_diameter_mm = 10.0;
+  c.teeth = 2;
+  model::CutterPath p;
+  p.start({0, 0, 0});
+  p.line({0.001, 0, 0}, model::MoveRole::kCut);
+  engagement::Measurement m;
+  m.engagement = {
+      {.ap_mm = 3.0, .ae_mm = 0.02, .exit_rad = 1.0, .csa_mm2 = 30.0, .removed_mm3 = 0.03, .step_mm = 0.001}};
+  m.sections.move = {1};
+  for (auto* v : {&m.sections.at_mm, &m.sections.ad_max_mm, &m.sections.rd_max_mm, &m.sections.x_max_ofs_mm,
+                  &m.sections.y_max_ofs_mm, &m.sections.csa_mm2, &m.sections.x_cg_ofs_mm,
+                  &m.sections.y_cg_ofs_mm, &m.sections.removed_mm3})
+    *v = {0.0};
+  for (const auto& [cell, most] : {std::pair{0.1, 3.1 * 0.12}, {0.0005, 30.0}}) {
+    m.known_to_mm = cell;
+    double area = 0.0;
+    for (const auto& s : samples_of(m, p, c)) area = std::max(area, s.csa_mm2);
+    EXPECT_NEAR(area, most, 1e-9) << cell;
   }
 }
 

@@ -354,6 +354,26 @@ TEST(Levels, AreAsFewAsTerracesNeedAndEndOnFlats) {
   }
 }
 
+TEST(Levels, EndAtTheFeetOfWallsWhoseFloorIsNotLevel) {
+  FreeformJob task;
+  task.axial_depth_mm = 100.0;
+  DropGrid reach;
+  reach.step_mm = 0.5;
+  reach.nx = reach.ny = 2;
+  reach.z = {-9.0, -9.0, -5.0, -5.0};
+  // Feet from -6 to -3: a level at most 1 mm above each of them, and none that is not needed.
+  std::vector<double> feet;
+  for (int i = 0; i <= 30; ++i) feet.push_back(-6.0 + 0.1 * i);
+  const auto levels = levels_of(task, reach, -9.0, 0.05, feet).z_mm;
+  EXPECT_EQ(levels.size(), 4U);  // the lowest, and three for 3 mm
+  for (const double foot : feet) {
+    EXPECT_TRUE(std::any_of(levels.begin(), levels.end(), [&](double z) {
+      return z >= foot && z <= foot + 1.0 + 1e-9;
+    })) << foot;
+  }
+  EXPECT_EQ(levels_of(task, reach, -9.0, 0.05).z_mm.size(), 1U);
+}
+
 // Steps that exceed the axial depth by less than a share of it, but by more than rounding, were of no group:
 // all levels became one, cut from below.
 TEST(Levels, AreNoDeeperThanTheCutByMoreThanRounding) {

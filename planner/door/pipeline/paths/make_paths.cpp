@@ -23,6 +23,7 @@
 #include "planner/making/step/path/job_of.h"
 #include "planner/making/step/path/progress.h"
 #include "planner/making/step/path/stocks.h"
+#include "planner/making/step/path/surface.h"
 #include "planner/making/step/path/surface_rest.h"
 #include "planner/making/step/record/from_cases.h"
 #include "planner/making/step/record/gone.h"
@@ -215,7 +216,14 @@ class PathMaker {
         step::roughed_before(p_, step) != nullptr && step::left_by_next_mm(p_, step).has_value();
     bool gone = step.proposed || of_rest;                 // true: every cutter finds no material to cut
     std::optional<std::pair<std::size_t, double>> least;  // of those that exceed a limit: which, by how much
+    std::optional<double> bent;  // mm/N: of the cutters that bend too much, the stiffest one's
     for (std::size_t i = 0; i < tries; ++i) {
+      if (const auto why = step::surely_bends(plan_.model, step, i, bent)) {
+        why_not.add(step.candidates[i].cutter.id, *why);
+        step.rejected_tools.push_back({step.candidates[i].cutter.id, *why});
+        gone = false;
+        continue;
+      }
       const auto before = stocks_.before(step.setup);
       auto tried = cutter_.with_cutter(step, i);
       const auto shifts = tried ? longer_than_a_shift(step, *tried) : std::nullopt;
@@ -227,6 +235,7 @@ class PathMaker {
           least = {i, tried->feeds.worst_excess};
         stocks_.put_back(step.setup, before);
       }
+      if (const auto b = step::bent_too_much(step.cutter, why)) bent = std::min(*b, bent.value_or(*b));
       why_not.add(step.cutter.id, why);
       step.rejected_tools.push_back({step.cutter.id, why});
     }

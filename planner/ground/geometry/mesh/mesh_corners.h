@@ -9,6 +9,8 @@ namespace capstan::geometry {
 
 /// Corners of walls are sharp from this turn on; arcs are drawn by smaller ones. Default, unsourced.
 inline constexpr double kSharpTurnRad = 0.349065850398866;  // 20 degrees
+/// Facets whose normals turn by less lie in one plane: the rounding of coordinates. Default, unsourced.
+inline constexpr double kFlatTurnRad = 0.00872664625997165;  // half a degree
 
 /// An upright inside edge of a solid at which two walls meet at a sharp corner: no mill makes it.
 struct MeshCorner {

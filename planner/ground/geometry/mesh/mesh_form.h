@@ -11,6 +11,8 @@ namespace capstan::geometry {
 
 /// A facet is upright if its unit normal has less of z than this. Default, unsourced.
 inline constexpr double kUprightNormal = 1e-3;
+/// A facet is level if its unit normal has more of z than this: the rounding of coordinates.
+inline constexpr double kLevelNormal = 1.0 - 1e-6;
 
 /// What a mesh bounds, by its edges.
 struct MeshForm {

@@ -38,6 +38,7 @@ double passage_between(const geometry::Mesh& mesh, const SurfaceForm& form, cons
   const geometry::Region around =
       geometry::offset_sharp(geometry::rectangle(geometry::xy(raw.lo), geometry::xy(raw.hi)), kAroundMm);
   std::vector<double> heights = form.floors_mm;
+  if (form.curved && form.foot_mm) heights.push_back(*form.foot_mm);
   heights.push_back(std::min(raw.lo.z, geometry::bounds(mesh).lo.z));
   double out = 0.0;
   for (const double z : heights) {

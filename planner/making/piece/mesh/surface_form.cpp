@@ -12,65 +12,9 @@
 #include "planner/ground/geometry/mesh/mesh_form.h"
 
 namespace capstan::piece {
-namespace {
-
-constexpr double kCreaseMm =
-    0.02;  // largest height that a ball may leave in a crease, as the check allows it; default, unsourced
-constexpr double kSharpRad = 20.0 / 180.0 * std::numbers::pi;  // sharper corners keep any ball's radius
-constexpr double kFlatRad = 0.5 / 180.0 * std::numbers::pi;    // less is the rounding of coordinates
-/// Of the largest coordinate: what the corners of two triangles may be off in an STL file, whose numbers have
-/// 24 bits, each by half of the last one. Derived.
-constexpr double kRounding = 4.0 / 16777216.0;
-constexpr double kLeastMm =
-    1.0;  // radius: below, planning takes smaller cutters than shops use; default, unsourced
-
-}  // namespace
-
-// In a crease of angle d between two facets, a ball of radius R leaves R (1 / cos(d / 2) - 1). Facets too
-// narrow for the ball to touch both beside their crease approximate a curve of radius width / d.
-double surface_radius(const geometry::Mesh& mesh) {
-  using geometry::Vec3;
-  struct Side {
-    Vec3 normal, apex;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> edges;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
-    Vec3 n = cross(b - a, c - a);
-    if (std::abs(n.z) < 1e-9 * norm(n)) continue;  // upright: no ball from above finishes it by its facets
-    n = (n.z > 0.0 ? 1.0 : -1.0) / norm(n) * n;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t p = t[k], q = t[(k + 1) % 3];
-      edges[{std::min(p, q), std::max(p, q)}].push_back({n, mesh.vertices[t[(k + 2) % 3]]});
-    }
-  }
-  double largest = 0.0;
-  for (const Vec3& v : mesh.vertices)
-    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  const double rounding_mm = kRounding * largest;
-  double out = 0.0;
-  for (const auto& [e, sides] : edges) {
-    if (sides.size() != 2) continue;
-    const Vec3 a = mesh.vertices[e.first];
-    const Vec3 along = mesh.vertices[e.second] - a;
-    const double length = norm(along);
-    if (!(length > 0.0) || dot(sides[0].normal, sides[1].apex - a) <= 0.0) continue;  // not concave
-    const double angle = std::acos(std::clamp(dot(sides[0].normal, sides[1].normal), -1.0, 1.0));
-    if (angle < kFlatRad || angle > kSharpRad) continue;
-    const double of_crease = kCreaseMm / (1.0 / std::cos(0.5 * angle) - 1.0);
-    const double width =
-        std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / length;
-    if (angle * width < rounding_mm) continue;  // a needle: its coordinates do not say how it lies
-    const double limit = std::max(kLeastMm, std::min(of_crease, std::max(kLeastMm, width / angle)));
-    out = out > 0.0 ? std::min(out, limit) : limit;
-  }
-  return out;
-}
-
 SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) {
   using geometry::Vec3;
-  constexpr double kLevel = 1.0 - 1e-6;  // of unit normals
-  constexpr double kSameMm = 0.02;       // of coordinates; default, unsourced
+  constexpr double kSameMm = 0.02;  // of coordinates; default, unsourced
   SurfaceForm out;
   const geometry::MeshForm form = geometry::form_of(mesh);
   if (form.kind != geometry::MeshForm::Kind::kSolid) return out;
@@ -99,11 +43,13 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
     if (std::abs(n.z) < geometry::kUprightNormal) {
       if (on_side(p)) continue;
       out.walls = true;
+      const double foot = std::min({p[0].z, p[1].z, p[2].z});
+      out.foot_mm = std::max(out.foot_mm.value_or(foot), foot);
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = t[k], b = t[(k + 1) % 3];
         edges[{std::min(a, b), std::max(a, b)}].push_back({n, p[(k + 2) % 3]});
       }
-    } else if (n.z > kLevel) {
+    } else if (n.z > geometry::kLevelNormal) {
       auto& [area, height] =
           floors.emplace(std::round(p[0].z / kSameFloorMm), std::pair(0.0, p[0].z)).first->second;
       area += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
@@ -131,7 +77,7 @@ SurfaceForm surface_form(const geometry::Mesh& mesh, const geometry::Box3& raw) 
     const Vec3 along = mesh.vertices[e.second] - a;
     if (!(norm(along) > 0.0) || dot(sides[0].normal, sides[1].apex - a) <= 0.0) continue;  // not concave
     const double angle = std::acos(std::clamp(dot(sides[0].normal, sides[1].normal), -1.0, 1.0));
-    if (angle < kFlatRad || angle > kSharpRad) continue;
+    if (angle < geometry::kFlatTurnRad || angle > geometry::kSharpTurnRad) continue;
     const double width =
         std::min(norm(cross(sides[0].apex - a, along)), norm(cross(sides[1].apex - a, along))) / norm(along);
     out.corner_mm = out.corner_mm > 0.0 ? std::min(out.corner_mm, width / angle) : width / angle;

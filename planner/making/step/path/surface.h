@@ -1,6 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/making/optimise/cut.h"
@@ -39,5 +42,12 @@ using MakePath = std::function<Result<toolpath::GeneratedPath>(const toolpath::P
 [[nodiscard]] Result<toolpath::GeneratedPath> pass_over(const PlanSoFar& p, const draft::StepDraft& step,
                                                         const toolpath::PathJob& path, Stocks& stocks,
                                                         optimise::CutQuestion& q, const MakePath& make);
+
+/// How far the tip of a cutter bends, mm/N, where that is why it was not taken.
+[[nodiscard]] std::optional<double> bent_too_much(const model::Cutter& cutter, std::string_view why_not);
+/// Why a ball that is to finish a surface is not tried: it bends so much more than one that bends too much,
+/// `bent_mm_n`. A path over a surface takes seconds, and a slender ball is no remedy. Empty: it is tried.
+[[nodiscard]] std::optional<std::string> surely_bends(const model::Model& m, const draft::StepDraft& step,
+                                                      std::size_t candidate, std::optional<double> bent_mm_n);
 
 }  // namespace capstan::step

@@ -13,6 +13,7 @@
 #include "tests/door/app/programs.h"
 #include "tests/support/corpus.h"
 #include "tests/support/rs274.h"
+#include "tests/support/stl_text.h"
 
 // Plans of the examples with one thing changed, as users change them, end to end.
 
@@ -231,36 +232,25 @@ TEST_F(Planned, WorkholdingThatCannotBeReadEndsWithThree) {
   EXPECT_EQ(run("plan p.p21 -o p.json --workholding bad.yaml"), 3) << said_;
 }
 
-/// A paraboloid of 60 x 60 mm as a sheet, ASCII STL.
-std::string dome() {
-  constexpr int n = 24;
-  const auto corner = [](int i, int j) {
-    const double x = 60.0 * i / n, y = 60.0 * j / n;
-    return "vertex " + std::to_string(x) + " " + std::to_string(y) + " " +
-           std::to_string(-0.006 * ((x - 30) * (x - 30) + (y - 30) * (y - 30))) + "\n";
-  };
-  std::string out = "solid dome\n";
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const std::string a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
-                        d = corner(i, j + 1);
-      out.append("facet normal 0 0 0\nouter loop\n")
-          .append(a)
-          .append(b)
-          .append(c)
-          .append("endloop\nendfacet\n");
-      out.append("facet normal 0 0 0\nouter loop\n")
-          .append(a)
-          .append(c)
-          .append(d)
-          .append("endloop\nendfacet\n");
+/// A paraboloid of 60 x 60 mm as a sheet.
+geometry::Mesh dome() {
+  constexpr std::uint32_t n = 24;
+  geometry::Mesh m;
+  for (std::uint32_t j = 0; j <= n; ++j) {
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const double x = 60.0 * i / n, y = 60.0 * j / n;
+      m.vertices.push_back({x, y, -0.006 * ((x - 30) * (x - 30) + (y - 30) * (y - 30))});
+      if (i == n || j == n) continue;
+      const std::uint32_t a = j * (n + 1) + i;
+      m.triangles.push_back({a, a + 1, a + n + 2});
+      m.triangles.push_back({a, a + n + 2, a + n + 1});
     }
   }
-  return out + "endsolid dome\n";
+  return m;
 }
 
 TEST_F(Planned, ASurfaceWhoseFinishNoBallMakesIsNotPlannedAndSaysWhichLimitHoldsIt) {
-  std::ofstream(folder_ / "dome.stl") << dome();
+  std::ofstream(folder_ / "dome.stl") << ::capstan::testing::stl_text(dome());
   std::ofstream(folder_ / "t.yaml") << "capstan_tools: 1\nunit: mm\ntools:\n"
                                        "  - {id: em12, class: endmill, cutting_diameter: 12, teeth: 3, "
                                        "stick_out: 40, substrate: carbide}\n"

@@ -15,6 +15,7 @@
 #include "planner/making/toolpath/freeform/rim.h"
 #include "planner/making/toolpath/freeform/surface_line.h"
 #include "planner/making/toolpath/freeform/task.h"
+#include "planner/making/toolpath/freeform/upright_step.h"
 #include "planner/making/toolpath/path_job.h"
 
 // Passes side by side over all of a surface; where it slopes across them too much, others between them
@@ -45,6 +46,9 @@ constexpr int kMostLayers = 200;
 /// Of the tolerance, for ridges beside the height asked for: three quarters are the passes' own (Follower).
 /// As long as none is higher by more than half of it, no passes are put between those of the raster.
 constexpr double kRidgeShare = 0.25, kRasterShare = 0.5;
+/// Of the tolerance, what ridges in hollows may have beside the height asked for: where a wider ball was
+/// before, all of the rest is hollow; else few places are, and the check allows 3.5. Defaults, unsourced.
+constexpr double kHollowAfter = 1.5, kHollow = 3.0;
 /// Steps are looked for in places so many radii apart along a gap. Default, unsourced.
 constexpr double kStepPlaces = 0.25;
 /// Of what passes run over, that may have higher ridges unsaid. Default, unsourced.
@@ -285,12 +289,13 @@ class Finisher {
                                  : most_apart(task, kRasterShare);
     parallel_for(job_, n, [&](std::size_t i) {
       if (job_.stop_requested() || !are_neighbours(i)) return;
-      const std::vector<Gap> found_here = wide_here(follow, raster, lines[i], lines[i + 1], true);
+      std::vector<Gap> found_here = wide_here(follow, raster, lines[i], lines[i + 1], true);
+      if (!stated) add_hollows(follow, lines[i], lines[i + 1], found_here);
       wide[i] = found_here.empty() ? 0 : 1;
       if (stated) note_high(lines[i], lines[i + 1], found_here, left[i]);
     });
     const bool any = std::any_of(wide.begin(), wide.end(), [](char c) { return c != 0; });
-    if ((any || task_.after) && !stated) {
+    if (any && !stated) {
       const double apart = most_apart(task);
       parallel_for(job_, n, [&](std::size_t i) {
         if (job_.stop_requested() || !are_neighbours(i)) return;
@@ -369,7 +374,7 @@ class Finisher {
   void fill(const Follower& follow, double apart, const Line& below, const Line& above, int halvings,
             std::vector<Piece>& out, std::vector<High>& high) const {
     std::vector<Gap> wide = wide_here(follow, apart, below, above, halvings == kMostHalvings);
-    if (task_.after) add_hollows(follow, below, above, wide);
+    add_hollows(follow, below, above, wide);
     if (wide.empty()) return;
     if (halvings == 0) return note_high(below, above, wide, high);
     Line middle{below.number, 0.5 * (below.v + above.v), {}};
@@ -384,12 +389,13 @@ class Finisher {
     fill(follow, apart, middle, above, halvings - 1, out, high);
   }
 
-  /// What a wider ball left is hollow: places where a ball between two passes would go deeper than the line
-  /// from one to the other. The ridge is higher by that depth than that of a plane.
+  /// Places where a ball between two passes would go deeper than the line from one to the other: in a hollow
+  /// hardly wider than the ball the ridge is higher by that depth than that of a plane.
   void add_hollows(const Follower& follow, const Line& below, const Line& above,
                    std::vector<Gap>& wide) const {
-    const double most = task_.scallop_mm + 1.5 * task_.tolerance_mm + kShareOfLeft * task_.allowance_mm;
-    const double step = 0.5 * cutter_.radius(), v = 0.5 * (below.v + above.v);
+    const double most = task_.scallop_mm + (task_.after ? kHollowAfter : kHollow) * task_.tolerance_mm +
+                        kShareOfLeft * task_.allowance_mm;
+    const double step = kStepPlaces * cutter_.radius(), v = 0.5 * (below.v + above.v);
     const double dv = above.v - below.v;
     const auto ends = [&](const Run& run) {
       return std::pair(dot(xy(run.front()), hatch_.u_axis), dot(xy(run.back()), hatch_.u_axis));

@@ -5,16 +5,13 @@
 #include <optional>
 
 #include "planner/making/toolpath/freeform/rough/reach.h"
+#include "planner/making/toolpath/freeform/upright_step.h"
 
 namespace capstan::toolpath::freeform {
 namespace {
 
 using geometry::Vec2;
 using geometry::Vec3;
-
-constexpr double kUprightTangent = 28.636;  ///< of 88 degrees
-constexpr double kSteepTangent = 4.0;       ///< from here on a step is looked for; derived: 76 degrees
-constexpr int kHalvings = 10;
 
 std::optional<std::size_t> nearest_point(const Mask& mask, Vec2 p) {
   const int ix = static_cast<int>(std::lround((p.x - mask.origin.x) / mask.step_mm));
@@ -98,23 +95,6 @@ Mask inverse(const Mask& mask) {
   Mask out = mask;
   for (char& c : out.on) c = c == 0 ? 1 : 0;
   return out;
-}
-
-bool has_upright_step(const DropCutter& drop, const MillEnd& cutter, double allowance_mm, Vec2 a, Vec2 b) {
-  const auto z = [&](Vec2 p) { return drop.drop(cutter, p.x, p.y, allowance_mm); };
-  double za = z(a), zb = z(b);
-  for (int i = 0; i < kHalvings; ++i) {
-    const Vec2 middle = 0.5 * (a + b);
-    const double zm = z(middle);
-    if (std::abs(zm - za) > std::abs(zb - zm)) {
-      b = middle;
-      zb = zm;
-    } else {
-      a = middle;
-      za = zm;
-    }
-  }
-  return std::abs(zb - za) > kUprightTangent * norm(b - a);
 }
 
 Mask steep_of(const DropGrid& grid, const DropCutter& drop, const MillEnd& cutter, double allowance_mm,

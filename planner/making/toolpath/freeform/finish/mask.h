@@ -43,9 +43,6 @@ struct Mask {
 /// is an edge of the surface and no slope. `grid`: those places, 1e300 and NaN where there are none.
 [[nodiscard]] Mask steep_of(const DropGrid& grid, const DropCutter& drop, const MillEnd& cutter,
                             double allowance_mm, double angle_rad);
-/// Whether the tip's way from a to b has an upright step: found by halving.
-[[nodiscard]] bool has_upright_step(const DropCutter& drop, const MillEnd& cutter, double allowance_mm,
-                                    geometry::Vec2 a, geometry::Vec2 b);
 
 /// The pieces of a run that lie in the mask.
 [[nodiscard]] std::vector<Run> within(const Run& run, const Mask& mask);

@@ -20,6 +20,8 @@ constexpr double kNeighbour = 1.5;  ///< of the spacing, to a neighbouring pass
 constexpr double kDetour = 3.0;     ///< of the straight way, that a link may climb; default, unsourced
 constexpr double kEntryMm = 20.0;   ///< what lifting and coming down count; default, unsourced
 
+constexpr double kSameMm = 1e-6;  ///< places no farther apart are one: the rounding of sums
+
 double way(const Run& run) {
   double sum = 0.0;
   for (std::size_t i = 1; i < run.size(); ++i) sum += norm(run[i] - run[i - 1]);
@@ -153,7 +155,11 @@ void PassWriter::add(const Run& run) {
     path_.rapid(up(run.front()));
     enter(run.front());
   }
-  for (std::size_t i = 1; i < run.size(); ++i) path_.line(run[i], MoveRole::kCut);
+  for (std::size_t i = 1; i < run.size(); ++i) cut_to(run[i]);
+}
+
+void PassWriter::cut_to(Vec3 p) {
+  if (norm(p - here()) > kSameMm) path_.line(p, MoveRole::kCut);
 }
 
 void PassWriter::enter(Vec3 p) {
@@ -180,8 +186,10 @@ bool PassWriter::slide_to(Vec3 to) {
   const Run& piece = pieces.front();
   if (xy(piece.front()) != xy(from) || norm(xy(piece.back()) - xy(to)) > 1e-9) return false;
   if (way(piece) > kDetour * (near_ ? std::max(reach, spacing_mm_) : reach)) return false;
-  for (std::size_t i = 1; i < piece.size(); ++i) path_.line(piece[i], MoveRole::kCut);
-  path_.line(to, MoveRole::kCut);
+  for (std::size_t i = 1; i < piece.size(); ++i) {
+    if (norm(piece[i] - to) > kSameMm) cut_to(piece[i]);
+  }
+  cut_to(to);
   return true;
 }
 

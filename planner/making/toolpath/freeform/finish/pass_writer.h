@@ -44,6 +44,7 @@ class PassWriter {
   [[nodiscard]] geometry::Vec3 up(geometry::Vec3 p) const { return {p.x, p.y, task_.security_z_mm}; }
   [[nodiscard]] geometry::Vec3 here() const { return path_.point(path_.size() - 1); }
   void enter(geometry::Vec3 p);
+  void cut_to(geometry::Vec3 p);
   bool slide_to(geometry::Vec3 to);
   [[nodiscard]] bool meets_what_is_avoided(geometry::Vec2 a, geometry::Vec2 b) const;
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/ground/base/stopping.h"
+#include "planner/making/toolpath/freeform/upright_step.h"
 
 // A place whose lowest height of the tip is h keeps a terrace of z - h, where z is the lowest level above h.
 // It is content with any level of [h, h + b], where b is the bound of terraces at its slope. As few levels as
@@ -186,11 +187,35 @@ std::vector<double> split(const std::vector<double>& levels, double top, double 
 
 }  // namespace
 
-Levels levels_of(const FreeformJob& task, const DropGrid& reach, double lowest_mm, double margin_mm) {
+std::vector<double> feet_of_walls(const DropGrid& reach, const DropCutter& drop, const MillEnd& cutter,
+                                  double allowance_mm, double lowest_mm, double top_mm) {
+  std::vector<double> out;
+  for (int iy = 0; iy < reach.ny; ++iy) {
+    for (int ix = 0; ix < reach.nx; ++ix) {
+      const double h = reach.at(ix, iy);
+      if (!(h >= lowest_mm) || !(h < top_mm)) continue;
+      tick();
+      const auto wall = [&](int dx, int dy) {
+        const int x = ix + dx, y = iy + dy;
+        return x >= 0 && y >= 0 && x < reach.nx && y < reach.ny &&
+               reach.at(x, y) - h > kSteepTangent * reach.step_mm &&
+               has_upright_step(drop, cutter, allowance_mm, reach.place(ix, iy), reach.place(x, y));
+      };
+      if (wall(1, 0) || wall(-1, 0) || wall(0, 1) || wall(0, -1)) out.push_back(h);
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end(), [](double a, double b) { return b - a < kNothing; }),
+            out.end());
+  return out;
+}
+
+Levels levels_of(const FreeformJob& task, const DropGrid& reach, double lowest_mm, double margin_mm,
+                 const std::vector<double>& feet_mm) {
   Levels made;
   std::vector<double>& out = made.z_mm;
   const double most = task.axial_depth_mm;
-  if (task.floors_z_mm.empty() && !(task.terrace_mm > 0.0)) {
+  if (task.floors_z_mm.empty() && feet_mm.empty() && !(task.terrace_mm > 0.0)) {
     const int n = std::max(1, static_cast<int>(std::ceil((task.top_z_mm - lowest_mm) / most - 1e-9)));
     for (int k = 1; k < n; ++k) out.push_back(task.top_z_mm - k * most);
     out.push_back(lowest_mm);
@@ -205,7 +230,14 @@ Levels levels_of(const FreeformJob& task, const DropGrid& reach, double lowest_m
     // Walls first, down to what is left on the floor.
     if (task.left_mm && z + *task.left_mm < task.top_z_mm) stops.push_back(z + *task.left_mm);
   }
-  if (task.terrace_mm > 0.0) add_levels(wishes_of(task, reach), stops);
+  if (task.terrace_mm > 0.0) {
+    add_levels(wishes_of(task, reach), stops);
+  } else if (!feet_mm.empty()) {
+    constexpr double kLeftToBallMm = 1.0;  // default, unsourced
+    std::vector<Wish> wishes;
+    for (const double h : feet_mm) wishes.push_back({h, h + kLeftToBallMm});
+    add_levels(wishes, stops);
+  }
   std::sort(stops.begin(), stops.end(), std::greater<>());
   out = split(stops, task.top_z_mm, most);
   if (task.terrace_mm > 0.0) out = in_groups(out, areas_of(reach, out), task.top_z_mm, most);

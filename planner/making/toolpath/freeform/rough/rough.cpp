@@ -70,7 +70,11 @@ class Rougher {
       for (const double z : grid_.z) lowest = std::isnan(z) ? lowest : std::min(lowest, z);
     }
     if (lowest >= task_.top_z_mm) return fail(kNothingToCut, "nothing above the surface is left to rough");
-    const auto [levels, floors] = levels_of(task_, grid_, lowest, reach_.margin_mm);
+    const auto [levels, floors] = levels_of(
+        task_, grid_, lowest, reach_.margin_mm,
+        task_.left_mm && !(task_.terrace_mm > 0.0)
+            ? feet_of_walls(grid_, reach_.drop, reach_.cutter, task_.allowance_mm, lowest, task_.top_z_mm)
+            : std::vector<double>{});
     floors_ = floors;
     left_out_.resize(levels.size());
     std::vector<bool> cut(levels.size());

@@ -170,8 +170,10 @@ void Interpreter::word_rules(const BlockSaid& s) {
   unused('J', arcs);
   unused('K', motion == 331);
   unused('L', cycles);
-  unused('P', dwells || (blend && !ways_.mach3) || arcs || cycles);
-  unused('Q', (blend && !ways_.mach3) || motion == 730 || motion == 830);
+  // The G64 of Mach3 has no word of its own, whatever the motion of the block may use.
+  const bool bare = blend && ways_.mach3;
+  unused('P', !bare && (dwells || blend || (arcs && !ways_.mach3) || cycles));
+  unused('Q', !bare && (blend || motion == 730 || motion == 830));
   unused('R', arcs || cycles);
   if (arcs && s.is('P') && !dwells && !blend && s.of('P') != 1.0)
     fault(33, "CHK-WORD", "an arc of P" + plain(s.of('P')) + " turns is not followed");

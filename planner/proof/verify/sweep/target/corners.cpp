@@ -68,9 +68,10 @@ Vec2 apex_of(const Corner& c) {
   return c.from + (cross(across, on) / side) * in;
 }
 
-/// The narrowest mill of a form: of a feature with one form only its steps tell, of others the widest is
-/// taken.
-double mill_of(const PartShapes& part, const Asked& a) {
+/// The narrowest mill of a form, of a surface the last ball: of a feature with one form only its steps
+/// tell, of others the widest is taken.
+double mill_of(const PartShapes& part, const volumes::Form& form, const Asked& a) {
+  if (form.kind == model::ShapeKind::kFreeform) return a.ball_mm;
   const PartShapes::Entry* e = part.find(a.feature);
   return e != nullptr && e->shapes.size() == 1 ? a.radius_mm : a.widest_mm;
 }
@@ -107,7 +108,7 @@ Region in_corners(const Region& area, const Region& open, double radius_mm, doub
 std::optional<model::CornerRest> recorded_rest(const model::Plan& plan, const PartShapes& part,
                                                const volumes::Form& form, const Asked& asked) {
   auto r = model::corner_rest_of(plan, form.name);
-  if (r) r->radius_mm = std::min(r->radius_mm, mill_of(part, asked));
+  if (r) r->radius_mm = std::min(r->radius_mm, mill_of(part, form, asked));
   return r;
 }
 
@@ -118,13 +119,16 @@ void check_corner_records(const model::Plan& plan, const PartShapes& part, const
                              " mm stays in the corners of '" + r.feature + "' in place of " +
                              plain(r.stated_mm) + " mm, ";
     bool found = false;
+    if (!(r.stated_mm >= 0.0) || !(r.radius_mm > r.stated_mm) || !std::isfinite(r.radius_mm))
+      out.error(36, "CHK-REST-RECORD", {Findings::kWhole, "", -1},
+                says + "which is no wider radius than that: remove the record, or plan again");
     for (const Asked& a : asked) {
       const PartShapes::Entry* e = part.find(a.feature);
       if (e == nullptr) continue;
       for (const volumes::Form& f : e->shapes) {
         if (f.name != r.feature) continue;
         found = true;
-        if (const double mill = mill_of(part, a); r.radius_mm > mill + kSameMm)
+        if (const double mill = mill_of(part, f, a); r.radius_mm > mill + kSameMm)
           out.error(36, "CHK-REST-RECORD", a.where,
                     says + "and the mills of its steps leave " + plain(mill) +
                         " mm: the record is not what planning wrote; plan the feature again");

@@ -161,6 +161,9 @@ void add_asked(const model::Plan& plan, std::size_t steps, const std::set<model:
         }
         it->ridges_mm = std::min(it->ridges_mm, stated);
       }
+      if (plan.model.holds<model::FreeformFinishMilling>(ws->its_operation) &&
+          model::has(cutter->cutter_class, model::CutterTrait::kBall))
+        it->ball_mm = end_radius_of(*cutter);
       if (!mills(cutter->cutter_class)) continue;
       it->radius_mm = std::min(it->radius_mm, 0.5 * cutter->cutting_diameter_mm);
       it->widest_mm = std::max(it->widest_mm, 0.5 * cutter->cutting_diameter_mm);

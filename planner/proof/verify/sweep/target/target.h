@@ -58,6 +58,7 @@ struct Asked {
   double side_mm = 1e300, bottom_mm = 1e300;    ///< least allowances stated
   double radius_mm = 1e300, corner_mm = 1e300;  ///< of its narrowest mill; of that mill's corner
   double widest_mm = 0.0;                       ///< radius of its widest mill
+  double ball_mm = 0.0;                         ///< freeform: radius of the last ball that finishes it
   double ridges_mm = 1e300;                     ///< freeform: least height of ridges and chords stated
   bool undercut = false;                        ///< one of its tools cuts below an overhang
   bool done_before = false;                     ///< its last step was cut before the plan's

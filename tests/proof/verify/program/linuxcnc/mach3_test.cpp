@@ -37,6 +37,13 @@ TEST(Mach3Reader, ConstantVelocityRoundsAsTheMachinesFileSaysAndTakesNoP) {
   EXPECT_EQ(faults(p), "");
   EXPECT_EQ((p.blocks.end() - 2)->tolerance_mm, 0.02);
   EXPECT_TRUE(finds(read("G64 P0.05\n"), "CHK-WORD"));
+  // Nor where the motion that goes on has a P or Q of its own elsewhere.
+  const std::string arc = "G91.1\nG1 X0 Y0 Z0 F100\nG2 X2 Y0 I1 J0\n",
+                    cycle = "G98\nG82 X1 Y1 Z-1 R1 P0.5 F50\n";
+  for (const std::string& before : {arc, cycle}) {
+    EXPECT_FALSE(finds(read(before + "G64\n"), "CHK-WORD")) << before;
+    EXPECT_TRUE(finds(read(before + "G64 P0.05\n"), "CHK-WORD")) << before;
+  }
 }
 
 TEST(Mach3Reader, PCountsAsTheSettingSays) {

@@ -5,7 +5,10 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
+#include "planner/model/plan/corner_rest.h"
+#include "planner/proof/verify/sweep/target/corners.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "tests/proof/verify/plans.h"
 
@@ -76,6 +79,67 @@ TEST(LeftOnMesh, OnASteepWallIsFoundAsItStandsSquareToIt) {
   EXPECT_FALSE(part.is_left(0.0));
   EXPECT_FALSE(part.is_left(0.016));
   EXPECT_TRUE(part.is_left(0.1));
+}
+
+/// The steps of a plan that finish the surface, and what is found where the foot of the wall keeps a fillet.
+struct Fillet {
+  Part part{false};
+
+  [[nodiscard]] std::vector<model::Finding> found(double radius, double recorded_mm = 0.0) {
+    if (recorded_mm > 0.0) {
+      part.shapes.entries.back().shapes.front().name = "S";
+      part.asked.ball_mm = recorded_mm;
+      part.k.plan.provenance.push_back(model::provenance_of({"S", 3.0, recorded_mm, "a test"}));
+    }
+    Target target(part.k.plan, part.shapes, 0);
+    Grid grid({0, 0}, {kLong, kWide}, 0.1, 4000000);
+    target.fill(grid);
+    // A ball of this radius on floor and wall: its middle is r tan(90 - 70 / 2 degrees) from the foot.
+    const double from_foot = radius * std::tan(0.5 * kLean);
+    for (int iy = 0; iy < grid.ny(); ++iy) {
+      for (int ix = 0; ix < grid.nx(); ++ix) {
+        const double x = grid.centre(ix, iy).x, d = x - (kFoot - from_foot);
+        double z = height_at(x, 0.0);
+        if (d > 0.0 && d < radius * std::sin(kLean))
+          z = std::max(z, -kDeep + radius - std::sqrt(radius * radius - d * d));
+        grid.stock[grid.index(ix, iy)] = z;
+      }
+    }
+    Findings findings;
+    target.left(grid, {part.asked}, {part.asked}, false, findings);
+    return findings.take();
+  }
+  static bool has(const std::vector<model::Finding>& all, const std::string& code) {
+    return std::any_of(all.begin(), all.end(), [&](const model::Finding& f) { return f.code == code; });
+  }
+};
+
+// The mesh draws the foot sharp, so 3 mm may stay there as in an unstated corner: a radius of 4 mm is too
+// much.
+TEST(LeftOnMesh, InACreaseThatStatesNoRadiusMayBeWhatNoBallOfThreeMillimetresReaches) {
+  const auto three = Fillet().found(3.0);
+  EXPECT_FALSE(Fillet::has(three, "CHK-LEFT"));
+  EXPECT_TRUE(Fillet::has(three, "CHK-REST"));
+  EXPECT_TRUE(Fillet::has(Fillet().found(4.0), "CHK-LEFT"));
+}
+
+TEST(LeftOnMesh, OfARecordedRadiusMayBeThatAndNoMore) {
+  const auto recorded = Fillet().found(5.0, 5.0);
+  EXPECT_FALSE(Fillet::has(recorded, "CHK-LEFT"));
+  EXPECT_TRUE(Fillet::has(recorded, "CHK-REST"));
+  EXPECT_TRUE(Fillet::has(Fillet().found(6.0, 5.0), "CHK-LEFT"));
+}
+
+TEST(LeftOnMesh, ARecordOfARadiusWiderThanTheLastBallIsAFault) {
+  Part part(false);
+  part.shapes.entries.back().shapes.front().name = "S";
+  part.asked.ball_mm = 4.0;
+  for (const double radius : {4.0, 5.0}) {
+    part.k.plan.provenance = {model::provenance_of({"S", 3.0, radius, "a test"})};
+    Findings findings;
+    check_corner_records(part.k.plan, part.shapes, {part.asked}, false, findings);
+    EXPECT_EQ(Fillet::has(findings.take(), "CHK-REST-RECORD"), radius > 4.0) << radius;
+  }
 }
 
 // The pocket was not cut: what stands in it lies on the mesh, but not on the part.
