@@ -366,5 +366,38 @@ TEST(Ridges, AnUprightStepElsewhereLeavesASlopeItsPasses) {
   EXPECT_LE(over, task.scallop_mm + task.tolerance_mm + 0.005);
 }
 
+// The left half lies at the stock's height: on the right 0.2 mm stand, on it and up to it all goes over.
+TEST(FinishOfAStock, LeavesOutWhatLiesAtItsHeightAlready) {
+  const Mesh level = height_field(6, 6, [](double, double) { return 0.0; });
+  stock::HeightMap map = stock::from_box({{0, 0, -5}, {kSize, kSize, 0.2}}, 0.25);
+  for (int iy = 0; iy < map.ny; ++iy) {
+    for (int ix = 0; ix < map.nx; ++ix) {
+      if (map.x_of(ix) < kMiddle) map.top[map.index(ix, iy)] = 5.0F;
+    }
+  }
+  const model::Cutter c = ball(6.0);
+  FreeformJob task = job_on(level, c, 0.2);
+  task.area = geometry::rectangle({0, 0}, {kSize, kSize});
+  Job job;
+  for (const bool known : {false, true}) {
+    task.stock = known ? &map : nullptr;
+    const auto made = finish(task, job);
+    ASSERT_TRUE(made) << made.error().message;
+    double least = 1e300, most = -1e300;
+    for (std::size_t i = 1; i < made->path.size(); ++i) {
+      if (made->path.role[i] != MoveRole::kCut) continue;
+      least = std::min({least, made->path.x[i], made->path.x[i - 1]});
+      most = std::max(most, made->path.x[i]);
+    }
+    EXPECT_NEAR(most, kSize, 0.1);
+    if (known) {
+      EXPECT_LE(least, kMiddle);
+      EXPECT_GE(least, kMiddle - 3.0) << "no farther than a radius beside it";
+    } else {
+      EXPECT_NEAR(least, 0.0, 0.1);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace capstan::toolpath::freeform

@@ -43,6 +43,7 @@ constexpr double kSteepRad = 47.0 / 180.0 * std::numbers::pi;
 /// Default, unsourced.
 constexpr double kLayerShare = 0.03, kLayerMm = 0.4;
 constexpr int kMostLayers = 200;
+constexpr const char* kNoSurface = "the area holds no surface to finish";
 /// Of the tolerance, for ridges beside the height asked for: three quarters are the passes' own (Follower).
 /// As long as none is higher by more than half of it, no passes are put between those of the raster.
 constexpr double kRidgeShare = 0.25, kRasterShare = 0.5;
@@ -74,6 +75,12 @@ class Finisher {
     std::vector<High> high;
     const std::vector<Piece> between = between_passes(task_, found, high);
     if (job_.stop_requested()) return stopped();
+    const Reach reach = reach_of(task_);
+    if (task_.stock != nullptr && !task_.area.empty() && cutter_.ball_mm() == cutter_.radius()) {
+      const DropGrid grid = reach.grid(area_, job_);
+      const std::optional<Mask> standing = where_stock_stands(grid, drop_, cutter_, task_, job_);
+      if (standing) return run_within(*standing, reach, grid, found, between, high);
+    }
     PassWriter all(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (job_.stop_requested()) return stopped();
@@ -86,7 +93,7 @@ class Finisher {
         all.add(r);
       }
     }
-    if (all.empty()) return fail("FRF-EMPTY", "the area holds no surface to finish");
+    if (all.empty()) return fail("FRF-EMPTY", kNoSurface);
     if (between.empty()) {
       say_of_ridges(high, found, nullptr);
       return written(all);
@@ -95,7 +102,6 @@ class Finisher {
     all.add_nearest_first(between, hatch_.v_axis);
     PassWriter split(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     split.link_within(cutter_.radius());
-    const Reach reach = reach_of(task_);
     const DropGrid grid = reach.grid(area_, job_);
     const Mask steep = steep_of(grid, drop_, cutter_, task_.allowance_mm, kSteepRad);
     const Mask passed = add_area(task_, reach, grid, steep, nullptr, found, between, split);
@@ -103,6 +109,28 @@ class Finisher {
     const bool shorter = !split.empty() && split.way_mm() < all.way_mm();
     say_of_ridges(high, found, shorter ? &passed : nullptr);
     return written(shorter ? split : all);
+  }
+
+  /// Passes, and ways at constant heights, where stock stands: what other mills or the raw piece have left at
+  /// its height already is not gone over.
+  Result<FreeformPath> run_within(const Mask& standing, const Reach& reach, const DropGrid& grid,
+                                  const std::vector<std::vector<Run>>& found,
+                                  const std::vector<Piece>& between, const std::vector<High>& high) const {
+    PassWriter out(task_, drop_, cutter_, hatch_.spacing_mm, job_);
+    out.link_within(cutter_.radius());
+    const Mask steep =
+        between.empty() ? empty_mask(grid) : steep_of(grid, drop_, cutter_, task_.allowance_mm, kSteepRad);
+    std::vector<std::vector<Run>> runs(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) runs[i] = within(found[i], standing);
+    std::vector<Piece> pieces;
+    for (const Piece& p : between) {
+      for (Run& piece : within(p.run, standing)) pieces.push_back({p.v, std::move(piece)});
+    }
+    const Mask passed = add_area(task_, reach, grid, steep, &standing, runs, pieces, out);
+    if (job_.stop_requested()) return stopped();
+    if (out.empty()) return fail("FRF-EMPTY", kNoSurface);
+    say_of_ridges(high, runs, &passed);
+    return written(out);
   }
 
   /// What a wider ball left.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "planner/making/toolpath/freeform/rough/reach.h"
 #include "planner/making/toolpath/freeform/upright_step.h"
@@ -140,6 +141,14 @@ std::vector<Run> within(const Run& run, const Mask& mask) {
     }
   }
   close();
+  return out;
+}
+
+std::vector<Run> within(const std::vector<Run>& runs, const Mask& mask) {
+  std::vector<Run> out;
+  for (const Run& run : runs) {
+    for (Run& piece : within(run, mask)) out.push_back(std::move(piece));
+  }
   return out;
 }
 

@@ -46,5 +46,6 @@ struct Mask {
 
 /// The pieces of a run that lie in the mask.
 [[nodiscard]] std::vector<Run> within(const Run& run, const Mask& mask);
+[[nodiscard]] std::vector<Run> within(const std::vector<Run>& runs, const Mask& mask);
 
 }  // namespace capstan::toolpath::freeform

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/ground/base/job.h"
 #include "planner/making/toolpath/freeform/drop_cutter.h"
 #include "planner/making/toolpath/freeform/finish/mask.h"
+#include "planner/making/toolpath/freeform/freeform.h"
 #include "planner/physics/stock/height_map.h"
 
 namespace capstan::toolpath::freeform {
@@ -20,5 +22,11 @@ namespace capstan::toolpath::freeform {
 
 /// Where more than `limit_mm` is left.
 [[nodiscard]] Mask more_than(const DropGrid& grid, const std::vector<double>& left_mm, double limit_mm);
+
+/// Where a task's stock stands on the surface raised by the allowance, square to it, at the places at which a
+/// ball touches it, and two places around: what lies at its height already is not gone over. Nothing where it
+/// stands all over, or nearly so. Needs  a stock.
+[[nodiscard]] std::optional<Mask> where_stock_stands(const DropGrid& grid, const DropCutter& drop,
+                                                     const MillEnd& ball, const FreeformJob& task, Job& job);
 
 }  // namespace capstan::toolpath::freeform
