@@ -76,10 +76,11 @@ class Finisher {
     const std::vector<Piece> between = between_passes(task_, found, high);
     if (job_.stop_requested()) return stopped();
     const Reach reach = reach_of(task_);
+    std::optional<DropGrid> grid;
     if (task_.stock != nullptr && !task_.area.empty() && cutter_.ball_mm() == cutter_.radius()) {
-      const DropGrid grid = reach.grid(area_, job_);
-      const std::optional<Mask> standing = where_stock_stands(grid, drop_, cutter_, task_, job_);
-      if (standing) return run_within(*standing, reach, grid, found, between, high);
+      grid = reach.grid(area_, job_);
+      const std::optional<Mask> standing = where_stock_stands(*grid, drop_, cutter_, task_, job_);
+      if (standing) return run_within(*standing, reach, *grid, found, between, high);
     }
     PassWriter all(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -102,9 +103,9 @@ class Finisher {
     all.add_nearest_first(between, hatch_.v_axis);
     PassWriter split(task_, drop_, cutter_, hatch_.spacing_mm, job_);
     split.link_within(cutter_.radius());
-    const DropGrid grid = reach.grid(area_, job_);
-    const Mask steep = steep_of(grid, drop_, cutter_, task_.allowance_mm, kSteepRad);
-    const Mask passed = add_area(task_, reach, grid, steep, nullptr, found, between, split);
+    if (!grid) grid = reach.grid(area_, job_);
+    const Mask steep = steep_of(*grid, drop_, cutter_, task_.allowance_mm, kSteepRad);
+    const Mask passed = add_area(task_, reach, *grid, steep, nullptr, found, between, split);
     if (job_.stop_requested()) return stopped();
     const bool shorter = !split.empty() && split.way_mm() < all.way_mm();
     say_of_ridges(high, found, shorter ? &passed : nullptr);

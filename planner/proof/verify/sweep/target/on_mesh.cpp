@@ -42,12 +42,12 @@ Creases creases_of(const geometry::Mesh& mesh, const Grid& grid, double slack) {
   const std::vector<geometry::MeshCrease> all = geometry::creases(mesh);
   double least = 1e300;
   bool any = false;
-  const auto states_none = [&](const geometry::MeshCrease& c) {
-    return c.curve_mm() >= volumes::unstated_corner_mm(top - std::min(c.a.z, c.b.z));
+  const auto unstated = [&](const geometry::MeshCrease& c) {
+    return volumes::unstated_corner_mm(top - std::min(c.a.z, c.b.z));
   };
+  const auto states_none = [&](const geometry::MeshCrease& c) { return c.curve_mm() >= unstated(c); };
   for (const geometry::MeshCrease& c : all) {
-    const double unstated = volumes::unstated_corner_mm(top - std::min(c.a.z, c.b.z));
-    least = std::min(least, states_none(c) ? unstated : std::max(kLeastBallMm, c.curve_mm()));
+    least = std::min(least, states_none(c) ? unstated(c) : std::max(kLeastBallMm, c.curve_mm()));
     any = any || states_none(c);
   }
   if (!any) return out;
