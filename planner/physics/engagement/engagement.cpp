@@ -19,6 +19,9 @@
 //     ADmax = tallest contact of a bin   RDmax = right - left contact, within the outline's width there
 //     entry, exit = acos(-x / R) of the left and the right contact; a plunge is the whole circle
 //
+// A plunge takes the same section at each step from where all of the cutter is in material until it goes
+// through the piece: those steps are swept as one.
+//
 // A rapid straight back where the cutter has been takes nothing (stock::Upright), also from cells that are
 // coarse for it. The lateral contact is known to a cell. Where a flat cutter takes an even layer, CSA / ADmax
 // is more exact, so that the side away from the cutter's edge is set by it (`sharpen`). Moves above all
@@ -134,8 +137,12 @@ class Measurer {
     if (arc)
       n = std::max(n, static_cast<int>(std::ceil(model::arc_sweep(path_, i) / (std::numbers::pi / 6.0))));
     Vec3 from = path_.point(i - 1);
+    const auto end_of = [&](int k) {
+      return k == n ? path_.point(i) : model::point_on_move(path_, i, static_cast<double>(k) / n);
+    };
+    const Steady steady = arc || n == 1 ? Steady{} : steady_from(from, path_.point(i));
     for (int k = 1; k <= n; ++k) {
-      const Vec3 to = k == n ? path_.point(i) : model::point_on_move(path_, i, static_cast<double>(k) / n);
+      const Vec3 to = end_of(k);
       Tally tally;
       turn_to(to - from);
       const bool plunge = !arc && norm(xy(to) - xy(from)) < 1e-9;
@@ -154,7 +161,47 @@ class Measurer {
       } else {
         close(i, at);
       }
+      if (from.z <= steady.highest_mm && tally.removed_mm3 > 0.0) {
+        int last = k;
+        while (last < n && end_of(last + 1).z >= steady.lowest_mm) ++last;
+        if (last > k) {
+          const Vec3 down = end_of(last);
+          go_on(i, to, down, k, last, length / n, tally);
+          k = last;
+          from = down;
+          continue;
+        }
+      }
       from = to;
+    }
+  }
+
+  /// Heights of the tip from `highest_mm`, where all of the cutter is in material, down to `lowest_mm`, below
+  /// which it goes through the piece: there a plunge takes one section.
+  struct Steady {
+    double highest_mm = -1e300, lowest_mm = 1e300;
+  };
+  [[nodiscard]] Steady steady_from(Vec3 from, Vec3 to) const {
+    if (norm(xy(to) - xy(from)) >= 1e-9 || to.z >= from.z) return {};
+    return {
+        stock::min_height(map_, xy(from), profile_.radius_mm) - profile_.height(profile_.radius_mm) - kSlack,
+        map_.origin.z};
+  }
+
+  /// The steps after the kth up to the last of a plunge as steady as its kth, in one sweep.
+  void go_on(std::size_t i, Vec3 from, Vec3 to, int k, int last, double step, const Tally& kth) {
+    Tally all;
+    stock::sweep(map_, profile_, {.from = from, .to = to, .centre = {}}, true, heading_, all);
+    const int n = last - k;
+    for (int next = k + 1; next <= last; ++next) {
+      const double down = step * (next - k);
+      Tally t = kth;
+      t.removed_mm3 = all.removed_mm3 / n;
+      t.sum_x = kth.sum_x * (t.removed_mm3 / kth.removed_mm3);
+      t.sum_y = kth.sum_y * (t.removed_mm3 / kth.removed_mm3);
+      for (float* bins : {t.low.data(), t.high.data()})
+        for (std::size_t b = 0; b < Tally::kBins; ++b) bins[b] -= static_cast<float>(down);
+      add(i, step * next, step, true, from.z - down - map_.origin.z, 0.0, t);
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "planner/ground/base/stopping.h"
@@ -13,6 +14,8 @@ namespace {
 using geometry::Box3;
 using geometry::Vec2;
 using geometry::Vec3;
+
+constexpr double kCornerOfCell = 0.7072;  // from its centre, in cells, rounded up: it may lie under a rim
 
 int index_of(double p, double origin, double cell, int n) {
   return static_cast<int>(std::clamp(std::floor((p - origin) / cell), -1.0, static_cast<double>(n)));
@@ -84,7 +87,10 @@ double cell_for(double diameter_mm, const Box3& piece, double cells_per_diameter
   return std::ceil(std::max(wanted, affordable) * 1000.0 - 1e-6) / 1000.0;
 }
 
-HeightMap empty_map(const Box3& box, double cell_mm) {
+namespace {
+
+/// The grid over a box, without its columns.
+HeightMap grid_over(const Box3& box, double cell_mm) {
   if (box.empty() || !(cell_mm > 0.0)) throw std::logic_error("a height map needs a box and a cell");
   const Vec3 size = box.size();
   double cell = cell_mm;
@@ -93,22 +99,40 @@ HeightMap empty_map(const Box3& box, double cell_mm) {
   HeightMap map{.origin = box.lo, .cell_mm = cell, .nx = 0, .ny = 0, .top = {}, .low = {}, .share = {}};
   map.nx = std::max(1, static_cast<int>(std::ceil(size.x / cell - 1e-6)));
   map.ny = std::max(1, static_cast<int>(std::ceil(size.y / cell - 1e-6)));
-  for (auto* column : {&map.top, &map.low, &map.share}) column->resize(map.cells() + HeightMap::kPadding);
+  return map;
+}
+
+/// Columns of one height, each written once; the padding has none.
+void fill(HeightMap& map, float height) {
+  for (auto* column : {&map.top, &map.low}) {
+    column->reserve(map.cells() + HeightMap::kPadding);
+    column->assign(map.cells(), height);
+    column->resize(map.cells() + HeightMap::kPadding);
+  }
+  map.share.resize(map.cells() + HeightMap::kPadding);
+}
+
+}  // namespace
+
+HeightMap empty_map(const Box3& box, double cell_mm) {
+  HeightMap map = grid_over(box, cell_mm);
+  fill(map, 0.0F);
   return map;
 }
 
 HeightMap from_box(const Box3& box, double cell_mm) {
-  HeightMap map = empty_map(box, cell_mm);
+  HeightMap map = grid_over(box, cell_mm);
   const double height = box.size().z;
+  fill(map, static_cast<float>(height));
+  poll();
+  // The far sides cut through the last cells of rows and columns alone.
   const auto filled = [&](int i, double size) { return std::clamp(size / map.cell_mm - i, 0.0, 1.0); };
-  for (int iy = 0; iy < map.ny; ++iy) {
-    tick(8);
-    const double fy = filled(iy, box.size().y);
-    for (int ix = 0; ix < map.nx; ++ix) {
-      const double full = fy * filled(ix, box.size().x);
-      map.set(ix, iy, partial(height, full > 1.0 - 1e-6 ? 0.0 : 1.0 - full));
-    }
-  }
+  const auto far_side = [&](int ix, int iy) {
+    const double full = filled(iy, box.size().y) * filled(ix, box.size().x);
+    map.set(ix, iy, partial(height, full > 1.0 - 1e-6 ? 0.0 : 1.0 - full));
+  };
+  for (int iy = 0; iy < map.ny; ++iy) far_side(map.nx - 1, iy);
+  for (int ix = 0; ix < map.nx; ++ix) far_side(ix, map.ny - 1);
   return map;
 }
 
@@ -217,8 +241,25 @@ double max_height(const HeightMap& map, Vec2 centre, double radius_mm) {
   return max_height(map, centre, centre, radius_mm);
 }
 
+double min_height(const HeightMap& map, Vec2 centre, double radius_mm) {
+  const double reach = radius_mm + kCornerOfCell * map.cell_mm;
+  const auto rows = [&](double y) { return index_of(y, map.origin.y, map.cell_mm, map.ny); };
+  const auto columns = [&](double x) { return index_of(x, map.origin.x, map.cell_mm, map.nx); };
+  float lowest = std::numeric_limits<float>::max();
+  for (int iy = rows(centre.y - reach); iy <= rows(centre.y + reach); ++iy) {
+    if (iy < 0 || iy >= map.ny) return map.origin.z;
+    const double y = map.y_of(iy) - centre.y;
+    const double half = std::sqrt(std::max(0.0, reach * reach - y * y));
+    const int ix0 = columns(centre.x - half), ix1 = columns(centre.x + half);
+    if (ix0 < 0 || ix1 >= map.nx) return map.origin.z;
+    const float* const row = map.low.data() + map.index(0, iy);
+    lowest = std::min(lowest, *std::min_element(row + ix0, row + ix1 + 1));
+  }
+  return map.origin.z + static_cast<double>(lowest);
+}
+
 double max_height(const HeightMap& map, Vec2 a, Vec2 b, double radius_mm) {
-  const double reach = radius_mm + 0.7072 * map.cell_mm;  // a cell's corner may lie under the rim
+  const double reach = radius_mm + kCornerOfCell * map.cell_mm;
   const int iy0 = std::max(0, index_of(std::min(a.y, b.y) - reach, map.origin.y, map.cell_mm, map.ny));
   const int iy1 =
       std::min(map.ny - 1, index_of(std::max(a.y, b.y) + reach, map.origin.y, map.cell_mm, map.ny));

@@ -94,7 +94,10 @@ void exchange(HeightMap& map, Patch& patch);
 /// Highest material under a disc, set-up z; the floor if there is none. Cells that the disc only touches
 /// count, so that the result is never too low.
 [[nodiscard]] double max_height(const HeightMap& map, geometry::Vec2 centre, double radius_mm);
-/// As above under the band that a disc sweeps from a to b.
+/// Lowest material under a disc, set-up z; the floor where the disc goes beyond the map. Cells that the disc
+/// only touches count, so that the result is never too high.
+[[nodiscard]] double min_height(const HeightMap& map, geometry::Vec2 centre, double radius_mm);
+/// The highest under the band that a disc sweeps from a to b.
 [[nodiscard]] double max_height(const HeightMap& map, geometry::Vec2 a, geometry::Vec2 b, double radius_mm);
 
 }  // namespace capstan::stock
