@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "planner/door/late/other_material.h"
 #include "planner/door/pipeline/cases/corrected_card.h"
 #include "planner/making/given/machine_needs.h"
 #include "planner/making/given/tool_material.h"
@@ -19,7 +20,6 @@
 #include "planner/model/plan/field_differences.h"
 #include "planner/model/plan/resources/by_cases.h"
 #include "planner/model/plan/resources/machine_fields.h"
-#include "planner/model/plan/resources/material_fields.h"
 
 // A tool that was set anew is the commonest change at a machine, and the one that plans nothing: its length
 // goes into the tool table, its holder may be nearer to the piece. What the check says of the plan with it is
@@ -55,11 +55,7 @@ bool chosen_alike(const Plan& plan, const pipeline::Inputs& in) {
 bool made_for(const Plan& plan, const pipeline::Inputs& in) {
   if (plan.machine.id != in.machine.id || !model::told_differences(plan.machine, in.machine).empty())
     return false;
-  if (in.material_name && *in.material_name != plan.material.id) return false;
-  const auto at = std::find_if(in.materials.begin(), in.materials.end(),
-                               [&](const auto& m) { return m.id == plan.material.id; });
-  return at == in.materials.end() ||
-         model::told_differences(*at, model::without_cases(plan.material)).empty();
+  return other_material(plan, in).empty();
 }
 
 /// Whether the plan's card has of cases what these cases say of it now: nothing where there are none. They

@@ -8,6 +8,7 @@
 
 #include "planner/door/late/answers.h"
 #include "planner/door/late/kept.h"
+#include "planner/door/late/other_material.h"
 #include "planner/door/late/record.h"
 #include "planner/door/late/tools/tool_life.h"
 #include "planner/door/late/unbound.h"
@@ -297,7 +298,7 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
     if (!ways->empty() && plan.steps.size() > bound) plan.steps.resize(bound);
   }
   std::optional<pipeline::Window> window;
-  std::set<model::AnyRef> operations;
+  std::set<model::AnyRef> operations, cut;
   poll();
   if (policy.next) {
     std::vector<model::AnyRef> steps = given::steps_in_order(as_it_came());
@@ -314,6 +315,7 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
     if (auto ok = cut_as_bound(as_it_came(), *policy.next, *window, steps); !ok)
       return tl::unexpected(ok.error());
     operations = operations_of(as_it_came(), *window, steps);
+    cut = operations_of(as_it_came(), {0, window->first}, steps);
   }
   poll();
   if (!model::fresh_edits(as_it_came().ledger).empty()) {
@@ -332,6 +334,13 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
     for (const model::DecisionKey& key : matched->open) reopened->ledger.reopen(key);
     for (const auto& w : matched->worn)
       given::give_tool(*reopened, w.operation, w.mill, {"late.worn", w.why, "the tool table"}, {});
+    poll();
+  }
+  if (const std::string other = other_material(brought, inputs); !other.empty()) {
+    const auto speeds = planned_speeds(brought, cut);
+    if (!speeds.empty() && !reopened) reopened = as_it_came();
+    for (const model::DecisionKey& key : speeds) reopened->ledger.reopen(key);
+    if (!speeds.empty()) why.push_back(other + ": the speeds and feeds that planning chose are chosen anew");
     poll();
   }
   const model::Plan& plan = reopened ? *reopened : as_it_came();

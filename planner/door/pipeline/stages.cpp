@@ -39,9 +39,20 @@ optimise::Options options_of(const Inputs& inputs) {
   return out;
 }
 
+namespace {
+
+piece::WorkpieceWish wish_of(const Inputs& inputs) {
+  return {inputs.material_name, inputs.materials, inputs.stock, inputs.stock_allowance_mm, inputs.margin};
+}
+
+}  // namespace
+
+Result<model::WorkMaterial> material_of(const model::Plan& plan, const Inputs& inputs, Job& job) {
+  return piece::material_of(plan, wish_of(inputs), job);
+}
+
 Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs, Job& job) {
-  const piece::WorkpieceWish wish{inputs.material_name, inputs.materials, inputs.stock,
-                                  inputs.stock_allowance_mm, inputs.margin};
+  const piece::WorkpieceWish wish = wish_of(inputs);
   auto material = piece::material_of(plan, wish, job);
   if (!material) return tl::unexpected(material.error());
   auto margin = piece::margin_of(plan, wish, job);

@@ -71,6 +71,9 @@ struct Resolved {
   model::Stock raw;
   piece::Margin margin;
 };
+/// The material that the work is of, by the caller's name, else by the part's (piece::material_of).
+[[nodiscard]] Result<model::WorkMaterial> material_of(const model::Plan& plan, const Inputs& inputs,
+                                                      Job& job);
 /// Material, raw piece and margin.
 [[nodiscard]] Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs, Job& job);
 /// General tolerance and the demands on each feature.
