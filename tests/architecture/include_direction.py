@@ -34,7 +34,7 @@ FOLDERS = {
     "planner/proof/verify/volumes": "volumes", "planner/proof/verify/compared": "compared",
     "planner/proof/verify/sweep/grid": "grid", "planner/proof/verify/sweep/target": "target",
     "planner/proof/verify/copies": "copies", "planner/proof/verify/touches": "touches",
-    "planner/proof/verify/pocket": "pocket",
+    "planner/proof/verify/pocket": "pocket", "planner/proof/verify/following": "following",
     "planner/proof/verify/shape": "finished", **READER_ROOMS,
     "planner/model/features/fit": "fit",
     "planner/making/toolpath/freeform": "freeform",
@@ -104,14 +104,16 @@ ALLOWED = {
     "grid": GROUND + " nouns plan copies verify",
     # What the part's features leave, as the check reads them, and what stands above it.
     "target": PROVEN + " volumes copies verify grid",
+    # A program's text beside the plan's path, move by move.
+    "following": PROVEN + " verify",
     # The finished part against a CAD shape: moves as the check reads them, swept over its own points.
     "finished": PROVEN + " copies verify grid target",
     # Macros of touches: the plan's touches, where the piece lies, and what a text does around them.
     "touches": PROVEN + " volumes verify target",
     **{room: GROUND + " plan copies verify" for room in READER_ROOMS.values()},
     # Pockets as cycles of a control: a step of a program beside the plan's, of the check's own kinds.
-    "pocket": PROVEN + " mechanics volumes copies verify grid target",
-    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid target touches pocket", *READER_ROOMS.values()]),
+    "pocket": PROVEN + " mechanics volumes copies verify grid target following",
+    "verify": " ".join([PROVEN, "p21", EXCHANGE, "exchange mechanics volumes compared copies grid target touches pocket following", *READER_ROOMS.values()]),
     "pipeline": " ".join(r for r in FOLDERS.values() if r not in DOORS),
     "late": MODEL + " motion given pipeline",
     "report": MODEL + " mechanics motion optimise step",

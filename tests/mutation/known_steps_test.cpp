@@ -10,12 +10,15 @@
 #include "planner/proof/verify/verify.h"
 #include "tests/mutation/classes.h"
 #include "tests/support/soak.h"
+#include "tests/support/subjects.h"
 
 // A check that knows what earlier ones found of steps says what one says that knows nothing, whatever became
 // of plan, program or table in between.
 
 namespace capstan::mutation {
 namespace {
+
+using testing::subjects;
 
 std::uint64_t next_seed() {
   static std::uint64_t seed =
@@ -51,6 +54,31 @@ TEST(KnownStepsProperty, AProgramThatWasEditedHasTheFindingsOfAWholeCheck) {
     }
     EXPECT_GT(differ, soaking() ? 20U : 20U / kSample) << e.name;
   }
+}
+
+TEST(KnownStepsProperty, AProgramWhosePlanIsKnownHasTheFindingsOfAWholeCheck) {
+  std::size_t taken = 0, steps = 0;
+  for (const Emitted& e : emitted_and_planned()) {
+    Job job;
+    memo::Memo known;
+    (void)verify::check_plan(e.plan, job, &known);
+    const auto planned = known.counts(memo::Stage::kSweep);
+    EXPECT_EQ(subjects(of_program(e, {e.text, e.table}, &known)),
+              subjects(of_program(e, {e.text, e.table}, nullptr)))
+        << e.name;
+    steps += planned.made;
+    taken += planned.made - (known.counts(memo::Stage::kSweep).made - planned.made);
+    std::size_t at = 0;
+    for (const Class& c : classes()) {
+      Random random(next_seed());
+      if (!soaking() && at++ % kSample != 1) continue;
+      const auto edit = c.make(e, random);
+      if (!edit) continue;
+      EXPECT_EQ(subjects(of_program(e, *edit, &known)), subjects(of_program(e, *edit, nullptr)))
+          << e.name << ", " << c.name;
+    }
+  }
+  EXPECT_GE(2 * taken, steps) << "of " << steps << " steps that move as planned few are known";
 }
 
 /// A change of a plan that may change what the check finds of some of its steps.

@@ -14,6 +14,10 @@ namespace capstan::verify {
 /// A height that a program leaves unknown (after a move in machine coordinates) is taken as clear of all.
 inline constexpr double kUnknownHeightMm = 1e5;
 
+/// By which feeds and speeds of a program may be off through their decimals, of themselves; default,
+/// unsourced.
+inline constexpr double kWritten = 0.005;
+
 /// One move as the checks see it, whether it comes from a plan's path or from a program's text.
 /// Frame  the set-up's. Units  mm, mm/min, 1/min, s.
 struct Move {
@@ -39,6 +43,8 @@ struct StepMoves {
   const model::Cutter* cutter = nullptr;
   std::size_t setup = 0;
   std::vector<Move> moves;
+  /// By which feeds and speeds may be off, for a program has so many decimals; 0: a plan's.
+  double feed_rounding_mm_min = 0.0, speed_rounding_rpm = 0.0;
 };
 
 /// Swept angle, rad, in (0, 2 pi].

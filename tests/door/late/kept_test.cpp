@@ -16,6 +16,7 @@
 #include "planner/model/plan/resources/specific_force.h"
 #include "tests/door/late/brought.h"
 #include "tests/support/soak.h"
+#include "tests/support/subjects.h"
 
 namespace capstan::late {
 namespace {
@@ -140,7 +141,10 @@ TEST(LateKeptProperty, WhateverChangedTheFindingsAreThoseOfAWholeCheck) {
       if (!bound) continue;
       ++bound_to_end;
       Job whole;
-      EXPECT_EQ(bound->findings, pipeline::findings_of(bound->plan, whole)) << tool << "\n" << table;
+      EXPECT_EQ(testing::subjects(bound->findings),
+                testing::subjects(pipeline::findings_of(bound->plan, whole)))
+          << tool << "\n"
+          << table;
     }
   }
   EXPECT_GT(bound_to_end, rounds(1, 2) * tools(bracket()));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ using model::CutBefore;
 /// The same of its first steps only.
 [[nodiscard]] std::vector<StepMoves> moves_of_first(const model::Plan& plan, std::size_t steps,
                                                     Findings& findings);
+
+/// The moves of one step; nothing where it has no path, or one with columns that differ or numbers that are
+/// not finite.
+[[nodiscard]] std::optional<StepMoves> moves_of_step(const model::Plan& plan, const model::StepResult& step,
+                                                     std::size_t order, const std::string& id);
 
 /// Values of machine, tools, material, raw piece and steps against what they can be at all: 1.
 void check_ranges(const model::Plan& plan, Findings& findings);

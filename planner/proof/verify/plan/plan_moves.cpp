@@ -121,4 +121,12 @@ std::vector<StepMoves> moves_of_first(const model::Plan& plan, std::size_t steps
   return out;
 }
 
+std::optional<StepMoves> moves_of_step(const model::Plan& plan, const model::StepResult& step,
+                                       std::size_t order, const std::string& id) {
+  Findings unsaid;
+  if (!step.path || step.path->size() == 0 || !columns_agree(step) || !moves_finite(step, id, order, unsaid))
+    return std::nullopt;
+  return of_step(plan, step, order, id);
+}
+
 }  // namespace capstan::verify

@@ -6,7 +6,8 @@ namespace capstan::verify {
 
 std::vector<StepMoves> moves_of(const ProgramCase& c) {
   std::vector<StepMoves> out;
-  const double half_unit = 0.5 * std::pow(10.0, -c.machine.control.decimals);
+  const auto half_unit_of = [](int decimals) { return 0.5 * std::pow(10.0, -decimals); };
+  const double half_unit = half_unit_of(c.machine.control.decimals);
   for (const Block& b : c.program.blocks) {
     if ((b.kind != Block::Kind::kMove && b.kind != Block::Kind::kDwell) || b.in_machine) continue;
     const model::Cutter* cutter = c.cutter(b.tool);
@@ -17,6 +18,8 @@ std::vector<StepMoves> moves_of(const ProgramCase& c) {
       s.order = at.order - 1;
       s.id = at.step;
       s.cutter = cutter;
+      s.feed_rounding_mm_min = half_unit_of(c.machine.control.feed_decimals);
+      s.speed_rounding_rpm = half_unit_of(c.reader.speed_decimals);
       if (c.plan != nullptr && marker_step >= 0) {
         s.planned = &c.plan->steps[static_cast<std::size_t>(marker_step)];
         s.setup = s.planned->setup;

@@ -18,7 +18,6 @@ namespace {
 /// Centres of a helix's arcs in a program agree to this, mm: a few of its last digits.
 constexpr double kSameCentre = 0.01;
 constexpr double kJudgedAloneMm = 1.0;  ///< rounding at 3 decimals is 0.1 degrees of it; default, unsourced
-constexpr double kWritten = 0.005;      ///< by which a feed may be off through its decimals
 
 bool cuts_to_centre(const model::Cutter& c) {
   return verify::cuts_to_centre(c.cutter_class) || c.centre_cutting;

@@ -23,7 +23,6 @@ constexpr double kWider = 8.0;      ///< mean section over that planned, at most
 /// Of the diameter squared: smaller sections are nothing for a cutter, however little was planned; default,
 /// unsourced.
 constexpr double kFeltShare = 0.01;
-constexpr double kWritten = 0.005;  ///< by which feed and speed may be off through their decimals
 
 /// How far the outermost point of the edge goes: on an arc farther than the centre. A volume divided by it is
 /// the least width that can have been cut, whichever side of the arc it lies on.

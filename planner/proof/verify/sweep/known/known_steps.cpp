@@ -5,8 +5,12 @@
 //
 // What stands somewhere is not compared cell by cell. A square of the area has a key, which is made anew from
 // itself and the step's cuts whenever a step cuts within it; squares with one key were cut alike. A step's
-// question holds the keys of the squares that its tool, shank or holder may come over. Moves above the raw
-// piece meet nothing. This errs on one side: what other cuts left alike is swept again.
+// question holds the keys of the squares that its tool may come over, and its shank and holder where they
+// come below the raw piece's top. Moves above the raw piece meet nothing. This errs on one side: what other
+// cuts left alike is swept again.
+//
+// A program's step whose moves are the plan's, but for its decimals (as_planned.cpp), is that step: what was
+// found of the plan's holds for it.
 #include "planner/proof/verify/sweep/known/known_steps.h"
 
 #include <algorithm>
@@ -22,6 +26,8 @@
 #include "planner/ground/memo/remembered.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/copies/copies.h"
+#include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/sweep/known/as_planned.h"
 #include "planner/proof/verify/sweep/step_checks.h"
 
 namespace capstan::verify {
@@ -61,13 +67,6 @@ std::vector<Move> placeless(const StepMoves& step, bool all) {
     out.back().role = {};
   }
   return out;
-}
-
-/// How far from its axis a tool meets anything, shank and holder included.
-double reach_of(const model::Cutter& c, const Grid& grid) {
-  double r = std::max(outline_of(c).radius_mm, 0.5 * c.holder_diameter_mm);
-  for (const BodyPart& p : body_of(c)) r = std::max(r, p.radius_mm);
-  return r + 4.0 * grid.cell();
 }
 
 /// The cells that a step may lower.
@@ -144,7 +143,29 @@ bool sound(const Known& known, const StepMoves& step, const Grid& grid) {
          });
 }
 
+/// Takes what is known of a step instead of sweeping it.
+void take(Known known, const StepMoves& step, SweptSetup setup, Findings& findings) {
+  to_moves(known.said, step);
+  findings.repeat(known.said, step.order + 1, step.id);
+  lower(setup.grid, known);
+  cut_before(setup.earlier, step);
+}
+
 }  // namespace
+
+ToolReach::ToolReach(const model::Cutter& cutter, double cell_mm, double top_mm)
+    : more_mm_(4.0 * cell_mm), radius_mm_(outline_of(cutter).radius_mm), top_mm_(top_mm) {
+  for (const BodyPart& p : body_of(cutter)) wider_.push_back({p.from_mm, p.radius_mm});
+  // As StepChecks::reach looks, also without a holder that is described.
+  if (cutter.stick_out_mm > 0.0) wider_.push_back({cutter.stick_out_mm, 0.5 * cutter.holder_diameter_mm});
+}
+
+double ToolReach::of(double tip_mm) const {
+  double r = radius_mm_;
+  for (const Wider& w : wider_)
+    if (tip_mm + w.from_mm < top_mm_) r = std::max(r, w.radius_mm);
+  return r + more_mm_;
+}
 
 void CutSquares::begin(const Grid& grid, const Key& of_setup, bool carried) {
   of_setup_ = of_setup;
@@ -169,7 +190,8 @@ void CutSquares::begin(const Grid& grid, const Key& of_setup, bool carried) {
   }
 }
 
-std::vector<char> CutSquares::touched(const StepMoves& step, double reach_mm, double top_mm,
+template <class Reach>
+std::vector<char> CutSquares::touched(const StepMoves& step, const Reach& reach, double top_mm,
                                       bool rapids) const {
   std::vector<char> out(keys_.size(), 0);
   const auto at = [](double v, double begin, double wide) {
@@ -180,6 +202,7 @@ std::vector<char> CutSquares::touched(const StepMoves& step, double reach_mm, do
     if (m.kind == MoveKind::kDwell || (!rapids && !feeds(m))) continue;
     const geometry::Box3 box = box_of(m);
     if (box.lo.z >= top_mm) continue;
+    const double reach_mm = reach(box.lo.z);
     // One square more: the cells of a square are counted from its corner, lengths from a cell's centre.
     const int x0 = std::max(0, at(box.lo.x - reach_mm, lo_.x, square_.x) - 1);
     const int x1 = std::min(kSquares - 1, at(box.hi.x + reach_mm, lo_.x, square_.x) + 1);
@@ -193,8 +216,9 @@ std::vector<char> CutSquares::touched(const StepMoves& step, double reach_mm, do
   return out;
 }
 
-Key CutSquares::near(const StepMoves& step, double reach_mm, double top_mm) const {
-  const std::vector<char> of = touched(step, reach_mm, top_mm, true);
+Key CutSquares::near(const StepMoves& step, const ToolReach& reach) const {
+  const std::vector<char> of = touched(
+      step, [&](double tip_mm) { return reach.of(tip_mm); }, reach.top_mm(), true);
   std::string bytes;
   memo::pack(bytes, of_setup_);
   for (std::size_t i = 0; i < of.size(); ++i) {
@@ -206,7 +230,8 @@ Key CutSquares::near(const StepMoves& step, double reach_mm, double top_mm) cons
 }
 
 void CutSquares::cut(const StepMoves& step, double reach_mm, double top_mm, const Key& what) {
-  const std::vector<char> of = touched(step, reach_mm, top_mm, false);
+  const std::vector<char> of = touched(
+      step, [&](double) { return reach_mm; }, top_mm, false);
   for (std::size_t i = 0; i < of.size(); ++i)
     if (of[i] != 0) keys_[i] = memo::key_of(Stage::kSweep, keys_[i], what);
 }
@@ -243,7 +268,7 @@ const Key& KnownSteps::key_of_cutter(const model::Cutter& cutter) const {
 }
 
 /// All that StepChecks asks: who adds a question there adds it here.
-Key KnownSteps::key_of(const StepMoves& step, const SweptSetup& setup, bool begun, double reach_mm) const {
+Key KnownSteps::key_of(const StepMoves& step, const SweptSetup& setup, bool begun) const {
   std::string bytes;
   memo::pack(bytes, placeless(step, true));
   memo::pack(bytes, key_of_cutter(*step.cutter));
@@ -267,8 +292,64 @@ Key KnownSteps::key_of(const StepMoves& step, const SweptSetup& setup, bool begu
       memo::pack(bytes, chose_feed(plan_, *ws));
     }
   }
-  memo::pack(bytes, setup.squares.near(step, reach_mm, setup.target.stock().hi.z + kClearMm));
+  const ToolReach reach(*step.cutter, setup.grid.cell(), setup.target.stock().hi.z + kClearMm);
+  memo::pack(bytes, setup.squares.near(step, reach));
+  memo::pack(bytes, setup.grid.top());  // where nothing stands so high, less is looked at
   return memo::key_of_bytes(Stage::kSweep, bytes);
+}
+
+void KnownSteps::leave(const StepMoves& step, SweptSetup setup) const {
+  // A head under an overhang leaves what is above it: its size counts.
+  const model::Cutter& c = *step.cutter;
+  const geometry::CutterProfile profile = outline_of(c);
+  setup.squares.cut(step, profile.radius_mm + 2.0 * setup.grid.cell(), setup.target.stock().hi.z + kClearMm,
+                    memo::key_of(Stage::kSweep, placeless(step, false), profile, c.cutter_class,
+                                 c.cutting_width_mm, c.maximum_depth_of_cut_mm));
+}
+
+void KnownSteps::sweep_rapids(const StepMoves& step, std::size_t from, std::size_t to, SweptSetup setup,
+                              Findings& findings) const {
+  if (from == to) return;
+  StepMoves some{step.order, step.id, step.planned, step.cutter, step.setup, {}};
+  some.moves.assign(step.moves.begin() + static_cast<std::ptrdiff_t>(from),
+                    step.moves.begin() + static_cast<std::ptrdiff_t>(to));
+  Findings apart;
+  std::vector<Findings::Reported> said;
+  {
+    const Findings::Recording recording(apart, said);
+    StepChecks(plan_, some, setup.grid, setup.target, setup.earlier, apart).run();
+  }
+  // What is said of the step as a whole was said with its plan's moves.
+  std::erase_if(said, [](const Findings::Reported& s) { return s.move < 0; });
+  findings.repeat(said, step.order + 1, step.id);
+}
+
+std::optional<SweptStep> KnownSteps::sweep_as_planned(const StepMoves& step, SweptSetup setup, bool begun,
+                                                      Findings& findings) const {
+  const model::Cutter& c = *step.cutter;
+  // Of a ring of teeth it counts what stood before it came, also for its last way up.
+  if (step.planned == nullptr || step.feed_rounding_mm_min == 0.0 || mills_threads(c.cutter_class) ||
+      under_overhangs(c.cutter_class))
+    return std::nullopt;
+  auto planned = moves_of_step(plan_, *step.planned, step.order, step.id);
+  if (!planned) return std::nullopt;
+  const auto same = as_planned(step, planned->moves);
+  if (!same) return std::nullopt;
+  planned->cutter = step.cutter;
+  planned->setup = step.setup;
+  const auto bytes = memo_->find(Stage::kSweep, key_of(*planned, setup, begun));
+  if (!bytes) return std::nullopt;
+  auto known = memo::unpacked<Known>(*bytes);
+  if (!known || !sound(*known, *planned, setup.grid)) return std::nullopt;
+  for (std::size_t i = 0; i < planned->moves.size(); ++i) planned->moves[i].where = same->where[i];
+  sweep_rapids(step, 0, same->first, setup, findings);
+  // The plan comes to its first point in its own way, the program in another, which is looked at.
+  std::erase_if(known->said, [](const Findings::Reported& s) { return s.move == 0; });
+  const SweptStep out{known->cuts, known->speed_share};
+  take(*std::move(known), *planned, setup, findings);
+  leave(*planned, setup);
+  sweep_rapids(step, same->last, step.moves.size(), setup, findings);
+  return out;
 }
 
 SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun, Findings& findings) const {
@@ -279,20 +360,16 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
     return SweptStep{checks.cuts(), checks.speed_share()};
   };
   if (memo_ == nullptr) return anew();
-  const double reach = reach_of(*step.cutter, setup.grid);
-  const Key key = key_of(step, setup, begun, reach);
+  if (const auto planned = sweep_as_planned(step, setup, begun, findings)) return *planned;
+  const Key key = key_of(step, setup, begun);
   SweptStep out;
   std::optional<Known> known;
   if (const auto bytes = memo_->find(Stage::kSweep, key)) known = memo::unpacked<Known>(*bytes);
-  const geometry::CutterProfile profile = outline_of(*step.cutter);
   if (known && sound(*known, step, setup.grid)) {
-    to_moves(known->said, step);
-    findings.repeat(known->said, step.order + 1, step.id);
-    lower(setup.grid, *known);
-    cut_before(setup.earlier, step);
     out = {known->cuts, known->speed_share};
+    take(*std::move(known), step, setup, findings);
   } else {
-    const Window w = window_of(step, setup.grid, profile.radius_mm);
+    const Window w = window_of(step, setup.grid, outline_of(*step.cutter).radius_mm);
     std::vector<double> before;
     for (int iy = w.y0; iy < w.y1; ++iy) {
       const auto row = setup.grid.stock.begin() + static_cast<std::ptrdiff_t>(setup.grid.index(0, iy));
@@ -316,11 +393,7 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
       memo_->keep(Stage::kSweep, key, std::move(bytes));
     }
   }
-  // A head under an overhang leaves what is above it: its size counts.
-  const model::Cutter& c = *step.cutter;
-  setup.squares.cut(step, profile.radius_mm + 2.0 * setup.grid.cell(), setup.target.stock().hi.z + kClearMm,
-                    memo::key_of(Stage::kSweep, placeless(step, false), profile, c.cutter_class,
-                                 c.cutting_width_mm, c.maximum_depth_of_cut_mm));
+  leave(step, setup);
   return out;
 }
 
