@@ -9,8 +9,8 @@
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/mutation/classes.h"
+#include "tests/support/differences/subjects.h"
 #include "tests/support/soak.h"
-#include "tests/support/subjects.h"
 
 // A check that knows what earlier ones found of steps says what one says that knows nothing, whatever became
 // of plan, program or table in between.

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "planner/door/late/answers.h"
-#include "planner/door/late/kept.h"
-#include "planner/door/late/other_material.h"
+#include "planner/door/late/kept/kept.h"
+#include "planner/door/late/kept/other_material.h"
 #include "planner/door/late/record.h"
 #include "planner/door/late/tools/tool_life.h"
 #include "planner/door/late/unbound.h"

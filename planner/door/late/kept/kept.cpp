@@ -1,4 +1,4 @@
-#include "planner/door/late/kept.h"
+#include "planner/door/late/kept/kept.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "planner/door/late/other_material.h"
+#include "planner/door/late/kept/other_material.h"
 #include "planner/door/pipeline/cases/corrected_card.h"
 #include "planner/making/given/machine_needs.h"
 #include "planner/making/given/tool_material.h"

@@ -1,4 +1,4 @@
-#include "planner/door/late/other_material.h"
+#include "planner/door/late/kept/other_material.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/door/late/kept.h"
+#include "planner/door/late/kept/kept.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include "planner/model/plan/resources/by_cases.h"
 #include "planner/model/plan/resources/specific_force.h"
 #include "tests/door/late/brought.h"
+#include "tests/support/differences/subjects.h"
 #include "tests/support/soak.h"
-#include "tests/support/subjects.h"
 
 namespace capstan::late {
 namespace {
