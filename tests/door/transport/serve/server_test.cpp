@@ -216,6 +216,36 @@ TEST_F(Serve, TheQueueIsBoundedAndHealthAnswersBesideIt) {
   EXPECT_THAT(metrics, HasSubstr("capstan_queue_length 0\n"));
 }
 
+TEST_F(Serve, WhatComesWhenOneWorksAndOneWaitsIsRefused) {
+  RunningServer server({.queue = 1});
+  Client client(server.socket());
+  std::vector<std::string> paths;
+  for (int i = 0; i < 3; ++i) {
+    paths.push_back(opened(client));
+    // A part that takes longer than what is asked meanwhile.
+    ASSERT_EQ(client
+                  .ask("PUT", paths.back() + "/plan",
+                       testing::slurp(testing::source_dir() + "/examples/bracket.p21"))
+                  .status,
+              200);
+  }
+  const auto bind = [&](const std::string& path) {
+    return Client(server.socket()).ask("POST", path + "/bind", R"({"deadline_ms": 600000})").status;
+  };
+  std::thread works([&] { EXPECT_NE(bind(paths[0]), 503); });
+  bool busy = false, queued = false;
+  for (int i = 0; i < 10'000 && !busy; ++i) busy = client.ask("GET", paths[0] + "/result").json()["busy"];
+  std::thread waits([&] { EXPECT_NE(bind(paths[1]), 503); });
+  for (int i = 0; i < 10'000 && !queued; ++i)
+    queued = client.ask("GET", "/metrics").body.find("capstan_queue_length 1\n") != std::string::npos;
+  EXPECT_TRUE(busy && queued);
+  EXPECT_EQ(bind(paths[2]), 503);
+  EXPECT_THAT(client.ask("GET", "/metrics").body, HasSubstr("capstan_refused_total{reason=\"queue\"} 1\n"));
+  works.join();
+  waits.join();
+  EXPECT_NE(bind(paths[2]), 503);
+}
+
 TEST_F(Serve, ASessionServesOneCallAtATimeAndCanBeCancelled) {
   RunningServer server({.workers = 2});
   Client client(server.socket());
