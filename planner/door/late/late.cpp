@@ -341,8 +341,8 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
     if (!speeds.empty() && !reopened) reopened = as_it_came();
     for (const model::DecisionKey& key : speeds) reopened->ledger.reopen(key);
     if (!speeds.empty()) why.push_back(other + ": the speeds and feeds that planning chose are chosen anew");
-    poll();
   }
+  poll();
   const model::Plan& plan = reopened ? *reopened : as_it_came();
   why.insert(why.end(), matched->why.begin(), matched->why.end());
   const Case c{plan,
