@@ -23,6 +23,7 @@
 #include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/decision/fresh_edits.h"
+#include "tooling/library/cutters/generic.h"
 
 // A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
 // takes; then an improvement on the rest of the time, where the small budget of the fallback ended a search:
@@ -62,6 +63,7 @@ struct Call {
 struct Case {
   const model::Plan& plan;  ///< with what the machine's state re-opened
   const pipeline::Inputs& inputs;
+  const std::optional<model::WorkMaterial>& material;  ///< the work's, now
   const LatePolicy& policy;
   std::optional<pipeline::Window> window;
   std::function<Status(const model::Plan&)> acceptable;
@@ -149,7 +151,7 @@ Result<LateOutcome> judged(pipeline::Checked made, const Case& c, bool allow_fin
 /// or does not hold any more. What is not given says nothing.
 std::optional<LateOutcome> still_holds(const Case& c, Duration& checking, Job& job) {
   const std::vector<Diagnostic> said = job.diagnostics();
-  auto as_brought = as_it_is(c.plan, c.inputs, c.window, job);
+  auto as_brought = as_it_is(c.plan, c.inputs, c.material, c.window, job);
   poll();
   if (as_brought && c.acceptable(*as_brought)) {
     const auto before = c.cut_before();
@@ -336,7 +338,12 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
       given::give_tool(*reopened, w.operation, w.mill, {"late.worn", w.why, "the tool table"}, {});
     poll();
   }
-  if (const std::string other = other_material(brought, inputs); !other.empty()) {
+  const auto material = material_now(brought, inputs);
+  if (material) {
+    // Tools that are the plan's have what its card said.
+    if (auto ok = tooling::add_start_values(*material, inputs.library); !ok) return tl::unexpected(ok.error());
+  }
+  if (const std::string other = other_material(brought, material); !other.empty()) {
     const auto speeds = planned_speeds(brought, cut);
     if (!speeds.empty() && !reopened) reopened = as_it_came();
     for (const model::DecisionKey& key : speeds) reopened->ledger.reopen(key);
@@ -347,6 +354,7 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
   why.insert(why.end(), matched->why.begin(), matched->why.end());
   const Case c{plan,
                inputs,
+               material,
                policy,
                window,
                [&](const model::Plan& made) -> Status {

@@ -22,6 +22,7 @@
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/range/positions.h"
 #include "planner/model/plan/resources/by_cases.h"
+#include "tooling/library/cutters/generic.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -203,6 +204,9 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   if (!resolved) return tl::unexpected(resolved.error());
   const mechanics::MarginPolicy margin = resolved->margin.policy;
   put_workpiece(plan, *std::move(resolved), inputs);
+  // Cutters of the plan have what its card said, and this may be another.
+  if (auto ok = tooling::add_start_values(plan.material, recorded.cutters); !ok)
+    return tl::unexpected(ok.error());
   take_cases(plan, inputs.cases.get(), recorded.material, tries, job);
   const Asked asked{.inputs = inputs,
                     .policy = policy,

@@ -168,6 +168,33 @@ TEST(StartValues, OfAShopsOwnMaterialAreItsSpeedTimesTheSeriesFactor) {
             80.0);
 }
 
+TEST(StartValues, OfAChangedCardStandInPlaceOfThoseThatItHadBefore) {
+  model::WorkMaterial own = material("c45");
+  own.id = "shop_steel";
+  own.names.clear();
+  own.vc_carbide_m_min = 100.0;
+  own.vc_hss_m_min = 30.0;
+  auto all = library();
+  ASSERT_TRUE(add_start_values(own, all));
+  own.vc_carbide_m_min = 50.0;
+  own.vc_hss_m_min = 0.0;  // not cut with it any more
+  ASSERT_TRUE(add_start_values(own, all));
+  auto afresh = library();
+  ASSERT_TRUE(add_start_values(own, afresh));
+  EXPECT_TRUE(all == afresh);
+  const auto mill = std::find_if(all.begin(), all.end(),
+                                 [](const Cutter& c) { return c.id == "generic/endmill_4f_short/10"; });
+  EXPECT_NEAR(start_values(*mill, own, machine()).vc_m_min, 85.0, 1e-3);  // coated: 1.7 times
+}
+
+TEST(StartValues, OfAShippedMaterialAreTheLibrarys) {
+  auto all = library();
+  model::WorkMaterial shipped = material("c45");
+  shipped.vc_carbide_m_min *= 0.5;
+  ASSERT_TRUE(add_start_values(shipped, all));
+  EXPECT_TRUE(all == library());
+}
+
 TEST(StartValues, NameTheSourceOfTheMaterialsSpeed) {
   const auto start = start_values(library().front(), material("c45"), machine());
   EXPECT_NE(start.why.source.find("; the material's speed: "), std::string::npos) << start.why.source;

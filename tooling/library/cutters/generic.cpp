@@ -406,6 +406,7 @@ void read_list(Fields& top, Reader& r) {
   const Node* list = top.child("series", true);
   if (list == nullptr) return;
   for (const Node& n : list->items) {
+    poll();
     Fields f = top.below("series", n);
     const Series s = read_series(f);
     if (!r.names.insert(s.name).second)
@@ -454,6 +455,7 @@ Result<std::vector<Cutter>> generic_library() {
   std::sort(names.begin() + 1, names.end());
   std::vector<SeriesFile> files;
   for (const std::string& name : names) {
+    poll();
     auto root = shipped_tree(name);
     if (!root) return fail(root.error());
     files.push_back({name, std::move(*root)});
@@ -462,9 +464,16 @@ Result<std::vector<Cutter>> generic_library() {
   return expand_series(files, *materials, job);
 }
 
+/// Whether a preset is one that add_start_values made for the material of that id.
+bool by_the_card(const model::CuttingPreset& p, const std::string& id) {
+  return p.material_group == id && p.source.starts_with("vc: ") &&
+         p.source.find(kMaterialsSpeed) != std::string::npos;
+}
+
 Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {
   const auto shipped = shipped_materials();
   if (!shipped) return fail(shipped.error());
+  if (std::any_of(shipped->begin(), shipped->end(), [&](const auto& m) { return m.id == own.id; })) return {};
   // The slowest speed in the group, by substrate: a series' speed is a factor times a material's.
   double slowest[2] = {0.0, 0.0};
   for (const WorkMaterial& m : *shipped) {
@@ -476,18 +485,26 @@ Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {
   for (Cutter& c : library) {
     const int i = c.substrate == model::Substrate::kHss ? 0 : 1;
     const double bare = i == 0 ? own.vc_hss_m_min : own.vc_carbide_m_min;
-    if (!(bare > 0.0) || !(slowest[i] > 0.0)) continue;
+    const auto before = std::find_if(c.presets.begin(), c.presets.end(),
+                                     [&](const auto& p) { return by_the_card(p, own.id); });
     const auto of_group = std::find_if(c.presets.begin(), c.presets.end(), [&](const auto& p) {
       return p.material_group == own.iso_group && p.source.starts_with(kSlowestOfGroup);
     });
-    if (of_group == c.presets.end()) continue;
+    if (!(bare > 0.0) || !(slowest[i] > 0.0) || of_group == c.presets.end()) {
+      if (before != c.presets.end()) c.presets.erase(before);
+      continue;
+    }
     model::CuttingPreset p = *of_group;
     p.material_group = own.id;
     const double factor = rounded(p.vc_m_min / slowest[i], 6);
     p.vc_m_min = rounded(factor * bare, 3);
     p.source = "vc: " + trimmed(factor, 3) + " x " + std::string(kMaterialsSpeed) +
                p.source.text().substr(std::string_view(kSlowestOfGroup).size());
-    c.presets.insert(c.presets.begin(), std::move(p));
+    if (before != c.presets.end()) {
+      *before = std::move(p);
+    } else {
+      c.presets.insert(c.presets.begin(), std::move(p));
+    }
   }
   return {};
 }

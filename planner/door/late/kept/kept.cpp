@@ -52,10 +52,11 @@ bool chosen_alike(const Plan& plan, const pipeline::Inputs& in) {
 }
 
 /// Whether machine and material are those that the steps were planned for.
-bool made_for(const Plan& plan, const pipeline::Inputs& in) {
+bool made_for(const Plan& plan, const pipeline::Inputs& in,
+              const std::optional<model::WorkMaterial>& material) {
   if (plan.machine.id != in.machine.id || !model::told_differences(plan.machine, in.machine).empty())
     return false;
-  return other_material(plan, in).empty();
+  return other_material(plan, material).empty();
 }
 
 /// Whether the plan's card has of cases what these cases say of it now: nothing where there are none. They
@@ -148,9 +149,10 @@ void state_pockets(Plan& plan) {
 }  // namespace
 
 std::optional<Plan> as_it_is(const Plan& plan, const pipeline::Inputs& inputs,
+                             const std::optional<model::WorkMaterial>& material,
                              std::optional<pipeline::Window> window, Job& job) {
   if (edited(job) || !model::unreadable(plan).empty() || !model::contradictions(plan).empty() ||
-      !made_for(plan, inputs) || !chosen_alike(plan, inputs) || !by_the_same_cases(plan, inputs))
+      !made_for(plan, inputs, material) || !chosen_alike(plan, inputs) || !by_the_same_cases(plan, inputs))
     return std::nullopt;
   if (window && plan.steps.size() < window->first + window->count) return std::nullopt;
   Plan out = plan;

@@ -13,10 +13,14 @@
 
 namespace capstan::late {
 
-std::string other_material(const model::Plan& plan, const pipeline::Inputs& inputs) {
+std::optional<model::WorkMaterial> material_now(const model::Plan& plan, const pipeline::Inputs& inputs) {
   Job unsaid;
-  const auto now = pipeline::material_of(plan, inputs, unsaid);
-  if (!now) return {};  // planning says why
+  auto now = pipeline::material_of(plan, inputs, unsaid);
+  return now ? std::optional(*std::move(now)) : std::nullopt;
+}
+
+std::string other_material(const model::Plan& plan, const std::optional<model::WorkMaterial>& now) {
+  if (!now) return {};
   const model::WorkMaterial then = model::without_cases(plan.material);
   if (now->id != then.id) return "the work is of " + now->id + ", the plan was made for " + then.id;
   const std::string differ = model::told_differences(*now, then);

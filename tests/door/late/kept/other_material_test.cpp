@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <string>
 
 #include "planner/door/late/late.h"
@@ -24,6 +25,10 @@ pipeline::Inputs of(const std::string& material) {
   pipeline::Inputs in = shop_of(bracket().table);
   in.material_name = material;
   return in;
+}
+
+std::string other_now(const pipeline::Inputs& in) {
+  return other_material(bracket().plan, material_now(bracket().plan, in));
 }
 
 model::AnyRef technology_of(const model::Plan& plan, const model::StepResult& s) {
@@ -61,14 +66,82 @@ TEST(LateOtherMaterial, AHarderOneIsCutSlowerByTheSameToolsToTheSameDepths) {
 TEST(LateOtherMaterial, TheSameByAnotherNameIsTheSame) {
   const std::string id = bracket().plan.material.id;
   EXPECT_NE(id, "EN AW-6061");
-  EXPECT_EQ(other_material(bracket().plan, of("EN AW-6061")), "");
+  EXPECT_EQ(other_now(of("EN AW-6061")), "");
   pipeline::Inputs unnamed = shop_of(bracket().table);
-  EXPECT_EQ(other_material(bracket().plan, unnamed), "");
+  EXPECT_EQ(other_now(unnamed), "");
   const auto card = std::find_if(unnamed.materials.begin(), unnamed.materials.end(),
                                  [&](const model::WorkMaterial& m) { return m.id == id; });
   ASSERT_NE(card, unnamed.materials.end());
   card->kc11_n_mm2 *= 1.2;
-  EXPECT_NE(other_material(bracket().plan, unnamed), "");
+  EXPECT_NE(other_now(unnamed), "");
+}
+
+/// A shop's own card of a steel, by its id and the speed of carbide in it.
+std::string own_card(const std::string& id, double vc_m_min) {
+  const std::string path = capstan::testing::scratch_file(id + "_" + std::to_string(vc_m_min) + ".yaml");
+  std::ofstream(path) << "capstan_materials: 1\n"
+                         "source: the shop\n"
+                         "kc_uncertainty: {value: 0.375, source: the shop}\n"
+                         "materials:\n"
+                         "  - id: "
+                      << id
+                      << "\n"
+                         "    iso_group: P\n"
+                         "    kc11_n_mm2: 1500\n"
+                         "    mc: 0.22\n"
+                         "    vc_hss_m_min: 20\n"
+                         "    vc_carbide_m_min: "
+                      << vc_m_min
+                      << "\n"
+                         "    tensile_strength_n_mm2: 650\n"
+                         "    hardness_hb: 190\n";
+  return path;
+}
+
+/// The bracket, planned for a material at the desk and bound for another at the machine.
+struct TwoCards {
+  model::Plan early, bound;
+};
+TwoCards by_two_cards(const std::string& then, const std::string& now) {
+  TwoCards out;
+  Job job;
+  const auto in = [&](const std::string& material, const std::string& tools) {
+    auto shop = pipeline::load_shop({.machine = {}, .tools = tools, .rules = {}, .material = material}, job);
+    EXPECT_TRUE(shop) << to_text(shop.error());
+    return shop ? *std::move(shop) : pipeline::Inputs{};
+  };
+  auto read = pipeline::read_plan(testing::slurp(kBracket), kBracket, job);
+  auto early = pipeline::bind(*std::move(read), in(then, {}), {}, job);
+  EXPECT_TRUE(early) << to_text(early.error());
+  if (!early) return out;
+  out.early = *std::move(early);
+  const std::string table = capstan::testing::scratch_file("two_cards.tbl");
+  std::ofstream(table) << controls::linuxcnc::write_tool_table(out.early);
+  LatePolicy policy = {.deadline = std::nullopt};
+  policy.budget = policy.fallback_budget;  // no improvement
+  auto bound = bind(out.early, in(now, table), policy, job);
+  EXPECT_TRUE(bound) << to_text(bound.error());
+  if (bound) out.bound = std::move(bound->plan);
+  return out;
+}
+
+void expect_as_much_slower(const TwoCards& two, double by) {
+  ASSERT_EQ(two.bound.steps.size(), two.early.steps.size());
+  for (std::size_t i = 0; i < two.early.steps.size(); ++i) {
+    const model::StepResult &now = two.bound.steps[i], &then = two.early.steps[i];
+    const model::Cutter* c = model::find_cutter(two.early, then.cutter_id);
+    ASSERT_NE(c, nullptr);
+    if (c->substrate != model::Substrate::kCarbide) continue;
+    EXPECT_NEAR(now.vc_m_min, by * then.vc_m_min, 0.05 * by * then.vc_m_min) << now.cutter_id;
+  }
+}
+
+TEST(LateOtherMaterial, ACardThatWasChangedUnderItsOwnIdReachesTheSpeeds) {
+  expect_as_much_slower(by_two_cards(own_card("shop_c45", 78), own_card("shop_c45", 40)), 40.0 / 78.0);
+}
+
+TEST(LateOtherMaterial, AShopsOwnCardOfTheGroupReachesTheSpeeds) {
+  expect_as_much_slower(by_two_cards("c45", own_card("shop_p40", 40)), 40.0 / 78.0);
 }
 
 TEST(LateOtherMaterial, WhatTheOperatorPinnedStays) {
