@@ -103,6 +103,8 @@ Change compared(const Plan& before, const Plan& after, const StepResult& a, cons
     const model::Cutter* is = model::find_cutter(after, b.cutter_id);
     return was && is ? std::abs(was->cutting_diameter_mm - is->cutting_diameter_mm) : 0.0;
   };
+  // By less, it is what a cut before leaves and follows from its feed: no control's program has it.
+  constexpr double kResolutionMm = 1e-3;
   const bool depth = !model::same_value(a.axial_depth_mm, b.axial_depth_mm);
   const bool width = !model::same_value(a.radial_depth_mm, b.radial_depth_mm) &&
                      std::abs(a.radial_depth_mm - b.radial_depth_mm) > (measured ? followed_mm() : 0.0);
@@ -112,7 +114,10 @@ Change compared(const Plan& before, const Plan& after, const StepResult& a, cons
       words = numbers("depth", a.axial_depth_mm, b.axial_depth_mm, 3, " mm");
     if (shown(a.radial_depth_mm, b.radial_depth_mm, 3))
       words += (words.empty() ? "" : ", ") + numbers("width", a.radial_depth_mm, b.radial_depth_mm, 3, " mm");
-    out.add(Choice::kDepths, words.empty() ? "depth or width, by less than a micrometre" : words);
+    const bool decided = std::abs(a.axial_depth_mm - b.axial_depth_mm) > kResolutionMm ||
+                         std::abs(a.radial_depth_mm - b.radial_depth_mm) > kResolutionMm;
+    out.add(decided ? std::optional(Choice::kDepths) : std::nullopt,
+            decided && !words.empty() ? words : "depth or width, by less than a micrometre");
   }
   const auto changed = [](const auto& p, const auto& q) {
     return (p == nullptr) != (q == nullptr) || (p != nullptr && !(*p == *q));
