@@ -7,6 +7,7 @@
 
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/base/tables/data_tree.h"
 #include "rules/engine/stray.h"
 #include "rules/engine/table.h"
@@ -398,8 +399,10 @@ Result<RuleBase> base_of(std::vector<Document> documents) {
   std::stable_partition(documents.begin(), documents.end(),
                         [](const Document& d) { return is_map(d.root) && d.root.find("facts") != nullptr; });
   RuleBase base;
-  for (const Document& d : documents)
+  for (const Document& d : documents) {
+    poll();
     if (auto ok = add(base, d, true); !ok) return fail(ok.error());
+  }
   return base;
 }
 
@@ -407,8 +410,10 @@ Result<RuleBase> base_of(std::vector<Document> documents) {
 Result<RuleBase> shipped_rules() {
   std::vector<Document> documents;
   for (const std::string_view name : embedded_names())
-    for (DataNode& root : unpack(embedded_tree(name)))
+    for (DataNode& root : unpack(embedded_tree(name))) {
+      poll();
       documents.push_back({std::string(name), std::move(root)});
+    }
   return base_of(std::move(documents));
 }
 

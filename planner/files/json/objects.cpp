@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/arena/stand_in.h"
 
 namespace capstan::json {
@@ -23,8 +24,10 @@ class Objects {
     for (const auto& kind : objects.items()) {
       const Place here{&at, kind.key()};
       const TypeId type = *kind_from_name(kind.key());
-      for (std::uint32_t i = 0; i < kind.value().size(); ++i)
+      for (std::uint32_t i = 0; i < kind.value().size(); ++i) {
+        tick(4);
         object({type, i}, kind.value()[i], {&here, {}, i});
+      }
     }
   }
 
@@ -182,7 +185,10 @@ void make_objects(const T& objects, const Place& at, model::Model& model) {
     const auto type = kind_from_name(kind.key());
     if (!type || model::noun_type(*type).abstract) fault(here, "the name of a kind of object");
     need_array(kind.value(), here);
-    for (std::size_t i = 0; i < kind.value().size(); ++i) model.add_object(*type);
+    for (std::size_t i = 0; i < kind.value().size(); ++i) {
+      tick();
+      model.add_object(*type);
+    }
   }
 }
 

@@ -15,6 +15,7 @@
 #include "planner/files/json/printer.h"
 #include "planner/files/json/summary.h"
 #include "planner/files/json/tree/tree.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/plan/decision/edited.h"
@@ -248,6 +249,7 @@ class ValueReader {
     const Place here{&at, name};
     need_array(list, here);
     for (std::size_t i = 0; i < list.size(); ++i) {
+      poll();
       auto item = std::make_shared<T>();
       get(list[i], *item, {&here, {}, i});
       out.push_back(std::move(item));

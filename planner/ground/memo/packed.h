@@ -15,7 +15,9 @@
 #include <variant>
 #include <vector>
 
+#include "planner/ground/base/memory/grow.h"
 #include "planner/ground/base/shared_text.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/memo/fields.h"
 
 // Values as bytes, and back: numbers, enumerations, text, vectors, maps, pairs, optionals, shared constants,
@@ -44,26 +46,41 @@ inline constexpr bool kArray = false;
 template <class T, std::size_t N>
 inline constexpr bool kArray<std::array<T, N>> = true;
 
+/// Appends in parts, between which `poll` is asked: pages that are new to it cost more than what is copied.
+inline void append(std::string& out, const char* from, std::size_t n) {
+  constexpr std::size_t kAtOnce = std::size_t{32} << 10;
+  for (std::size_t i = 0; i < n; i += kAtOnce) {
+    if (i > 0) poll();
+    out.append(from + i, std::min(kAtOnce, n - i));
+  }
+}
+
+/// Counts bytes in place of keeping them.
+struct Counted {
+  std::size_t bytes = 0;
+};
+inline void append(Counted& out, const char*, std::size_t n) { out.bytes += n; }
+
 }  // namespace detail
 
 /// Appends a value to the bytes.
-template <class T>
-void pack(std::string& out, const T& v) {
+template <class Out, class T>
+void pack(Out& out, const T& v) {
   using namespace detail;
   if constexpr (kPlain<T>) {
     char raw[sizeof(T)];
     std::memcpy(raw, &v, sizeof(T));
-    out.append(raw, sizeof(T));
+    append(out, raw, sizeof(T));
   } else if constexpr (std::is_same_v<T, std::string>) {
     pack(out, static_cast<std::uint64_t>(v.size()));
-    out += v;
+    append(out, v.data(), v.size());
   } else if constexpr (std::is_same_v<T, SharedText>) {
     pack(out, v.text());
   } else if constexpr (kIs<T, std::vector>) {
     using E = typename T::value_type;
     pack(out, static_cast<std::uint64_t>(v.size()));
     if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {
-      if (!v.empty()) out.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(E));
+      append(out, reinterpret_cast<const char*>(v.data()), v.size() * sizeof(E));
     } else {
       for (const auto& e : v) pack(out, static_cast<const E&>(e));
     }
@@ -96,6 +113,15 @@ void pack(std::string& out, const T& v) {
   }
 }
 
+/// How many bytes `pack` appends: to ask for them at once. What grows with a long value copies what is there
+/// again and again.
+template <class T>
+[[nodiscard]] std::size_t packed_size(const T& v) {
+  detail::Counted out;
+  pack(out, v);
+  return out.bytes;
+}
+
 /// Reads values in the order in which they were packed. After bytes that are too few `whole` is false, and
 /// what was read is to be thrown away.
 class Unpacker {
@@ -125,7 +151,8 @@ class Unpacker {
       using E = typename T::value_type;
       if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {
         const std::size_t n = count(sizeof(E));
-        v.resize(n);
+        v.clear();
+        grow(v, n);
         raw(v.data(), n * sizeof(E));
       } else {
         const std::size_t n = count(1);

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/memo/memo.h"
 #include "planner/ground/memo/packed.h"
 
@@ -36,7 +37,9 @@ template <class T, class Make, class Sound>
   Result<T> out = make();
   if (!out || !sound(*out)) return out;
   std::string bytes;
+  bytes.reserve(packed_size(*out));
   pack(bytes, *out);
+  poll();
   memo->keep(stage, key, std::move(bytes));
   return out;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
 #include "planner/making/piece/mesh/surface_form.h"
 #include "planner/making/piece/mesh/thin_places.h"
 #include "planner/making/piece/raw_piece_limits.h"
@@ -477,6 +478,7 @@ Proposed propose_missing(model::Plan& plan, Drafts given, const Sources& sources
   std::size_t done = 0;
   for (const AnyRef f : features) {
     job.progress("propose", static_cast<double>(done++) / static_cast<double>(features.size()));
+    poll();
     FeatureShape nameless;
     nameless.feature = f;
     nameless.name = plan.model.get<model::ManufacturingFeature>(f)->its_id.value_or("");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "planner/ground/base/memory/grow.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/physics/stock/coverage.h"
 
@@ -106,10 +107,10 @@ HeightMap grid_over(const Box3& box, double cell_mm) {
 void fill(HeightMap& map, float height) {
   for (auto* column : {&map.top, &map.low}) {
     column->reserve(map.cells() + HeightMap::kPadding);
-    column->assign(map.cells(), height);
+    grow(*column, map.cells(), height);
     column->resize(map.cells() + HeightMap::kPadding);
   }
-  map.share.resize(map.cells() + HeightMap::kPadding);
+  grow(map.share, map.cells() + HeightMap::kPadding);
 }
 
 }  // namespace

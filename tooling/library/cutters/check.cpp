@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "planner/ground/base/stopping.h"
 #include "planner/ground/base/text.h"
 
 namespace capstan::tooling {
@@ -30,6 +31,7 @@ std::vector<Diagnostic> check_cutters(const std::vector<Cutter>& cutters, const 
   std::map<std::string, std::size_t> ids;
   std::map<int, std::size_t> numbers;
   for (std::size_t i = 0; i < cutters.size(); ++i) {
+    tick();
     const Cutter& c = cutters[i];
     const std::uint64_t line = i < lines.size() ? lines[i] : 0;
     for (std::string& what : faults_of(c))

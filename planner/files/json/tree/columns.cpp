@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "planner/ground/base/memory/grow.h"
 #include "planner/ground/base/stopping.h"
 
 // A general parser of JSON makes a value of each number: a plan of a million path points has twenty million
@@ -82,8 +83,13 @@ bool column(const char*& p, const char* end, Column& out, std::size_t& lines) {
     bool whole = true;
     if (!number(at, end, value, whole)) return false;
     if (!whole && !out.not_whole) out.not_whole = n;
-    if (out.bytes.size() < (n + 1) * sizeof value)
-      out.bytes.resize(std::max(2 * out.bytes.size(), kLeastColumn * sizeof value));
+    if (n == kLeastColumn) {
+      // It is one: as many as have a comma behind them follow, and one more.
+      const auto* const close = static_cast<const char*>(std::memchr(at, ']', static_cast<std::size_t>(end - at)));
+      if (close == nullptr) return false;
+      grow(out.bytes, (n + 1 + static_cast<std::size_t>(std::count(at, close, ','))) * sizeof value);
+    }
+    if (out.bytes.size() < (n + 1) * sizeof value) out.bytes.resize((n + 1) * sizeof value);
     std::memcpy(out.bytes.data() + n * sizeof value, &value, sizeof value);
     ++n;
     skip();
@@ -93,8 +99,6 @@ bool column(const char*& p, const char* end, Column& out, std::size_t& lines) {
     if (c != ',') return false;
   }
   if (n < kLeastColumn) return false;
-  out.bytes.resize(n * sizeof(double));
-  out.bytes.shrink_to_fit();
   p = at;
   return true;
 }
@@ -105,6 +109,7 @@ Columns take_columns(std::string_view text) {
   Columns out;
   const char* p = text.data();
   const char* const end = p + text.size();
+  out.rest.reserve(text.size());
   const char* kept = p;  // what is before it is in the rest
   std::size_t arrays = 0;
   int level = 0;

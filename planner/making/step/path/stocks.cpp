@@ -175,10 +175,11 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     if (exact->lost().empty()) exact->lose(measured.error().message);
     return measure_again(map, path, cutter, memo_);
   }
-  poll();
+  poll();  // sections are many numbers
   // Two accounts of one cut: where they contradict each other the map's is kept. A map whose cells are coarse
   // for the cutter, as that of a large piece is, is off by itself in proportion.
   const double cells_mm3 = stock::cut(map, profile, path);
+  poll();
   const double exact_mm3 = measured->removed_mm3 + measured->rapid_removed_mm3;
   const double fair = std::max(1.0, kFairCells * map.cell_mm / cutter.cutting_diameter_mm);
   if (std::abs(cells_mm3 - exact_mm3) > fair * kContradiction * std::max(cells_mm3, exact_mm3) + kTraceMm3) {

@@ -1,5 +1,6 @@
 #include "planner/physics/stock/planar/planar_stock.h"
 
+#include "planner/ground/base/memory/grow.h"
 #include "planner/ground/base/stopping.h"
 
 #include <algorithm>
@@ -79,9 +80,10 @@ PlanarStock PlanarStock::from_box(const Box3& box, double tile_mm) {
   s.tile_mm_ = std::max(s.tile_mm_, std::sqrt(size.x * size.y / kMostTiles));
   s.nx_ = std::max(1, static_cast<int>(std::ceil(size.x / s.tile_mm_)));
   s.ny_ = std::max(1, static_cast<int>(std::ceil(size.y / s.tile_mm_)));
-  s.tiles_.resize(static_cast<std::size_t>(s.nx_) * static_cast<std::size_t>(s.ny_));
-  for (Tile& t : s.tiles_) t.highest_mm = box.hi.z;
-  s.reaching_.resize(s.tiles_.size());
+  Tile whole;
+  whole.highest_mm = box.hi.z;
+  grow(s.tiles_, static_cast<std::size_t>(s.nx_) * static_cast<std::size_t>(s.ny_), whole);
+  grow(s.reaching_, s.tiles_.size());
   return s;
 }
 
@@ -151,6 +153,7 @@ void PlanarStock::thin(Tile& tile, Vec2 middle) {
   std::vector<std::uint32_t> others;
   for (std::size_t i = 0; i < tile.trails.size();) {  // oldest first
     const Trail& t = trails_[tile.trails[i]];
+    tick(4);
     others.clear();
     for (std::size_t k = 0; k < tile.trails.size(); ++k) {
       if (k != i && trails_[tile.trails[k]].highest_mm <= t.lowest_mm) others.push_back(tile.trails[k]);

@@ -1,4 +1,5 @@
 #include "planner/proof/verify/sweep/grid/grid.h"
+#include "planner/ground/base/memory/grow.h"
 #include "planner/ground/base/stopping.h"
 
 #include <algorithm>
@@ -65,14 +66,10 @@ Raster::Raster(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : lo_(lo) {
 }
 
 Grid::Grid(Vec2 lo, Vec2 hi, double cell_mm, long maximum_cells) : Raster(lo, hi, cell_mm, maximum_cells) {
-  constexpr std::size_t kAtOnce = 1 << 16;  // a new page costs more than its numbers
   for (std::vector<double>* heights : {&stock, &part, &base}) {
     const std::size_t n = index(0, ny_);
     *heights = spare.take(n);
-    while (heights->size() < n) {
-      heights->resize(std::min(n, heights->size() + kAtOnce), kNothing);
-      poll();
-    }
+    grow(*heights, n, kNothing);
   }
   row_top_.assign(static_cast<std::size_t>(ny_), kNothing);
   blocks_ = (nx_ + kBlock - 1) / kBlock;
@@ -100,8 +97,12 @@ std::pair<int, int> Raster::rows(double a, double b) const {
 }
 
 void Grid::begin_level(double stock_mm, double base_mm) {
-  std::fill(stock.begin(), stock.end(), stock_mm);
-  std::fill(base.begin(), base.end(), base_mm);
+  for (int iy = 0; iy < ny_; ++iy) {
+    tick(8);
+    const auto from = static_cast<std::ptrdiff_t>(index(0, iy));
+    std::fill_n(stock.begin() + from, nx_, stock_mm);
+    std::fill_n(base.begin() + from, nx_, base_mm);
+  }
   std::fill(row_top_.begin(), row_top_.end(), stock_mm);
   std::fill(block_top_.begin(), block_top_.end(), stock_mm);
   for (int iy = 0; iy < ny_; ++iy) nothing_cut(iy);

@@ -89,11 +89,12 @@ Window window_of(const StepMoves& step, const Grid& grid, double radius_mm) {
   return out;
 }
 
-/// What was lowered in the window since `before`, which holds its rows.
+/// What was lowered in the window since `before`, which holds its rows; more than kMostCells where it is more.
 void lowered(const Grid& grid, const Window& w, const std::vector<double>& before, Known& out) {
   std::size_t k = 0;
   for (int iy = w.y0; iy < w.y1; ++iy) {
-    tick(4);
+    tick(16);
+    if (out.cells.size() > kMostCells) return;  // it is not kept
     for (int ix = w.x0; ix < w.x1; ++ix, ++k) {
       const std::size_t i = grid.index(ix, iy);
       if (grid.stock[i] == before[k]) continue;
@@ -271,6 +272,7 @@ const Key& KnownSteps::key_of_cutter(const model::Cutter& cutter) const {
 Key KnownSteps::key_of(const StepMoves& step, const SweptSetup& setup, bool begun) const {
   std::string bytes;
   memo::pack(bytes, placeless(step, true));
+  poll();
   memo::pack(bytes, key_of_cutter(*step.cutter));
   memo::pack(bytes, begun);
   memo::pack(bytes, step.planned != nullptr);
@@ -362,6 +364,7 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
   if (memo_ == nullptr) return anew();
   if (const auto planned = sweep_as_planned(step, setup, begun, findings)) return *planned;
   const Key key = key_of(step, setup, begun);
+  poll();
   SweptStep out;
   std::optional<Known> known;
   if (const auto bytes = memo_->find(Stage::kSweep, key)) known = memo::unpacked<Known>(*bytes);
@@ -371,7 +374,10 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
   } else {
     const Window w = window_of(step, setup.grid, outline_of(*step.cutter).radius_mm);
     std::vector<double> before;
+    before.reserve(static_cast<std::size_t>(std::max(0, w.x1 - w.x0)) *
+                   static_cast<std::size_t>(std::max(0, w.y1 - w.y0)));
     for (int iy = w.y0; iy < w.y1; ++iy) {
+      tick(16);
       const auto row = setup.grid.stock.begin() + static_cast<std::ptrdiff_t>(setup.grid.index(0, iy));
       before.insert(before.end(), row + w.x0, row + w.x1);
     }
@@ -388,6 +394,7 @@ SweptStep KnownSteps::sweep(const StepMoves& step, SweptSetup setup, bool begun,
     if (placed && placed->size() <= kMostSaid && made.cells.size() <= kMostCells) {
       made.said = *std::move(placed);
       std::string bytes;
+      bytes.reserve(memo::packed_size(made));
       memo::pack(bytes, made);
       poll();
       memo_->keep(Stage::kSweep, key, std::move(bytes));
