@@ -3,7 +3,10 @@
 #include <string>
 
 #include "planner/ground/base/number.h"
+#include "planner/model/nouns/all.h"
+#include "planner/model/nouns/arena/walk.h"
 #include "planner/model/plan/corner_rest.h"
+#include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/order/step_ids.h"
 
 namespace capstan::late {
@@ -60,6 +63,24 @@ Status no_more_rest(const model::Plan& brought, const model::Plan& made) {
          .hint = "load a mill for these corners, or plan the part anew where the rest can be agreed to"});
   }
   return {};
+}
+
+bool planning_chose_all(const model::Plan& plan) {
+  const auto chosen = [&](model::AnyRef object, const char* attribute) {
+    return model::by_planning(plan.ledger.find(object, attribute));
+  };
+  for (const auto& [key, decision] : plan.ledger.entries()) {
+    if (decision.pinned) return false;
+  }
+  const std::vector<model::AnyRef> roots = {plan.project};
+  for (const model::AnyRef r : model::reachable(plan.model, roots)) {
+    const auto* step = plan.model.get<model::MachiningWorkingstep>(r);
+    if (step == nullptr) continue;
+    const auto* op = plan.model.get<model::MachiningOperation>(step->its_operation);
+    if (op == nullptr || !chosen(r, "its_operation")) return false;
+    if (op->its_toolpath.set() && !chosen(step->its_operation, "its_toolpath")) return false;
+  }
+  return true;
 }
 
 }  // namespace capstan::late

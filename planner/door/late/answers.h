@@ -21,4 +21,8 @@ namespace capstan::late {
 /// Nobody at the machine agrees to rest material that was not agreed to when the part was planned: LATE-REST.
 [[nodiscard]] Status no_more_rest(const model::Plan& brought, const model::Plan& made);
 
+/// Whether planning chose all operations and paths of the plan, and nobody pinned a value: then it may choose
+/// them once more.
+[[nodiscard]] bool planning_chose_all(const model::Plan& plan);
+
 }  // namespace capstan::late

@@ -13,17 +13,14 @@
 #include "planner/door/late/tools/tool_life.h"
 #include "planner/door/late/unbound.h"
 #include "planner/door/pipeline/program_check.h"
+#include "planner/door/pipeline/stages.h"
 #include "planner/door/pipeline/trial.h"
 #include "planner/ground/base/earlier_diagnostics.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/listed_steps.h"
 #include "planner/making/given/magazine.h"
-#include "planner/model/nouns/all.h"
-#include "planner/model/nouns/arena/walk.h"
-#include "planner/model/plan/decision/by_planning.h"
 #include "planner/model/plan/decision/fresh_edits.h"
-#include "tooling/library/cutters/generic.h"
 
 // A plan that is bound to its end and still holds is given as it is. Else a fallback first, whatever it
 // takes; then an improvement on the rest of the time, where the small budget of the fallback ended a search:
@@ -82,38 +79,22 @@ struct Case {
   }
 };
 
-/// Whether planning chose all operations and paths of the plan, and nobody pinned a value: then it may choose
-/// them once more.
-bool planning_chose_all(const model::Plan& plan) {
-  const auto chosen = [&](model::AnyRef object, const char* attribute) {
-    return model::by_planning(plan.ledger.find(object, attribute));
-  };
-  for (const auto& [key, decision] : plan.ledger.entries()) {
-    if (decision.pinned) return false;
-  }
-  const std::vector<model::AnyRef> roots = {plan.project};
-  for (const model::AnyRef r : model::reachable(plan.model, roots)) {
-    const auto* step = plan.model.get<model::MachiningWorkingstep>(r);
-    if (step == nullptr) continue;
-    const auto* op = plan.model.get<model::MachiningOperation>(step->its_operation);
-    if (op == nullptr || !chosen(r, "its_operation")) return false;
-    if (op->its_toolpath.set() && !chosen(step->its_operation, "its_toolpath")) return false;
-  }
-  return true;
-}
-
 std::string ms(Duration d) {
   return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(d).count()) + " ms";
 }
 
-/// Says that the deadline is past, if it is.
+}  // namespace
+
 void tell_late(LateOutcome& out, const LatePolicy& policy, TimePoint began, Job& job) {
+  if (out.late) return;
   const Duration passed = job.now() - began;
   out.late = policy.deadline && passed > *policy.deadline;
   if (out.late)
     job.warn("LATE-DEADLINE",
              "the deadline of " + ms(*policy.deadline) + " is past: a checked plan took " + ms(passed));
 }
+
+namespace {
 
 /// What the improvement goes by.
 struct Spent {
@@ -341,7 +322,7 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
   const auto material = material_now(brought, inputs);
   if (material) {
     // Tools that are the plan's have what its card said.
-    if (auto ok = tooling::add_start_values(*material, inputs.library); !ok) return tl::unexpected(ok.error());
+    if (auto ok = pipeline::take_start_values(*material, inputs.library); !ok) return tl::unexpected(ok.error());
   }
   if (const std::string other = other_material(brought, material); !other.empty()) {
     const auto speeds = planned_speeds(brought, cut);

@@ -68,6 +68,10 @@ struct LateOutcome {
   double fallback_s = 0.0, machining_s = 0.0;  ///< machining time of the fallback, and of what was bound
 };
 
+/// Says that the deadline is past, if it is: of an answer that is given after what the caller still looks at.
+void tell_late(LateOutcome& out, const LatePolicy& policy, std::chrono::steady_clock::time_point began,
+               Job& job);
+
 /// Binds at the machine the decisions that a plan leaves open, with the tools in the magazine
 /// (`inputs.library`, Cutter::pocket > 0). Where all of the plan is bound, and still holds with the tools as
 /// they are measured, it is checked and given as it is. Else it makes a checked fallback on a small budget;

@@ -22,7 +22,6 @@
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/range/positions.h"
 #include "planner/model/plan/resources/by_cases.h"
-#include "tooling/library/cutters/generic.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -205,7 +204,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   const mechanics::MarginPolicy margin = resolved->margin.policy;
   put_workpiece(plan, *std::move(resolved), inputs);
   // Cutters of the plan have what its card said, and this may be another.
-  if (auto ok = tooling::add_start_values(plan.material, recorded.cutters); !ok)
+  if (auto ok = take_start_values(plan.material, recorded.cutters); !ok)
     return tl::unexpected(ok.error());
   take_cases(plan, inputs.cases.get(), recorded.material, tries, job);
   const Asked asked{.inputs = inputs,

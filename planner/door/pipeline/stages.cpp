@@ -5,6 +5,7 @@
 
 #include "planner/making/given/open_tools.h"
 #include "planner/making/propose/shared_tools.h"
+#include "tooling/library/cutters/generic.h"
 
 namespace capstan::pipeline {
 namespace {
@@ -49,6 +50,10 @@ piece::WorkpieceWish wish_of(const Inputs& inputs) {
 
 Result<model::WorkMaterial> material_of(const model::Plan& plan, const Inputs& inputs, Job& job) {
   return piece::material_of(plan, wish_of(inputs), job);
+}
+
+Status take_start_values(const model::WorkMaterial& card, std::vector<model::Cutter>& cutters) {
+  return tooling::add_start_values(card, cutters);
 }
 
 Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs, Job& job) {

@@ -74,6 +74,8 @@ struct Resolved {
 /// The material that the work is of, by the caller's name, else by the part's (piece::material_of).
 [[nodiscard]] Result<model::WorkMaterial> material_of(const model::Plan& plan, const Inputs& inputs,
                                                       Job& job);
+/// Start values of cutters that a plan brought, which an own card gave it then, become those of the card.
+[[nodiscard]] Status take_start_values(const model::WorkMaterial& card, std::vector<model::Cutter>& cutters);
 /// Material, raw piece and margin.
 [[nodiscard]] Result<Resolved> resolve_workpiece(const model::Plan& plan, const Inputs& inputs, Job& job);
 /// General tolerance and the demands on each feature.

@@ -350,7 +350,7 @@ std::vector<Option> table() {
        {"sections"}},
       {"profile",
        Value::kText,
-       {nullptr, nullptr, profile_help()},
+       {nullptr, profile_help(), profile_help()},
        [](Request& r, Text t) { return r.profile = t, std::string(); },
        {}},
       {"schema",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/controls/suitability.h"
+#include "planner/door/service/state/at_machine.h"
 #include "planner/door/late/late.h"
 #include "planner/door/late/measured_names.h"
 #include "planner/door/pipeline/cases/corrected_card.h"
@@ -271,6 +272,24 @@ Outcome<Planned> bound(const Request& request, const model::Plan& brought, pipel
   if (auto left = leaves_limits(request.state, outcome->part ? *outcome->part : outcome->plan,
                                 outcome->program.text, outcome->program.tool_table))
     return failed(*std::move(left), Code::kImpossible);
+  if (request.profile) {
+    const model::Plan& made = outcome->part ? *outcome->part : outcome->plan;
+    auto found = unsuited(request, made.machine, made, job);
+    if (!found) return failed(found.error(), code_of(found.error(), Code::kUnreadable));
+    for (model::Finding& f : *found) {
+      if (f.code == "FIT-OPEN" && outcome->part) continue;  // of the other workingsteps
+      if (f.severity == Severity::kError && !request.allow_findings)
+        return failed({.code = "LATE-UNSUITED",
+                       .message = "the plan does not suit the control '" + *request.profile + "': " + f.message +
+                                  " [" + f.code + "]",
+                       .file = plan.file_name,
+                       .path = f.step,
+                       .hint = "retract and stop; plan it for this control, or correct its profile"},
+                      Code::kImpossible);
+      outcome->of_plan.push_back(std::move(f));
+    }
+  }
+  late::tell_late(*outcome, policy, began, job);
   for (const std::string& what : outcome->reopened) job.note("LATE-REOPENED", what, "");
   return Planned{std::move(outcome->plan),
                  std::move(outcome->of_plan),

@@ -50,7 +50,7 @@ struct Request {
   std::optional<std::string> measured;                ///< bind: of NC variables (late/branches.h)
   std::string time;                                   ///< bind: when it is, for the record
   MachineState state = {};                            ///< bind: of the machine as it runs
-  std::optional<std::string> profile;                 ///< check: a control's profile, by id or file
+  std::optional<std::string> profile;                 ///< bind, check: a control's profile, by id or file
   bool schema = false;                                ///< check: what reading found is a finding, too
   std::vector<model::Edit> edits;                     ///< of the operator, in the order they were given
   std::optional<std::string> edits_file;              ///< more of them, which come first

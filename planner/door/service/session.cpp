@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "planner/door/service/state/at_machine.h"
 #include "planner/door/service/explain/explain.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
@@ -154,6 +155,7 @@ Code Session::take(std::string plan) {
     last_.reset();
     goes_on_ = false;
     taken_since_ = true;
+    run_.plan_changed(false);
     message_.clear();
     if (plan.empty()) return end(Code::kUsage, "error: there is no plan");
     Job job;
@@ -170,10 +172,59 @@ std::vector<std::string> Session::left_open() const {
   return plan == nullptr ? std::vector<std::string>{} : open_texts(*plan);
 }
 
+template <class Ask>
+Code Session::asked(Ask ask) {
+  return guarded([&] {
+    message_.clear();
+    const model::Plan* plan = at_hand();
+    if (plan == nullptr || failed_)
+      return end(Code::kUsage, "error: there is no plan, or the session did not open");
+    Job job;
+    if (const Code code = opened(job); code != Code::kDone) return end(code);
+    const Code code = ask(*plan, job);
+    for (const auto& d : job.take_diagnostics()) message_ += to_text(d) + "\n";
+    return end(code);
+  });
+}
+
+Code Session::no_longer_valid(std::vector<std::string>& out) {
+  out.clear();
+  return asked([&](const model::Plan& plan, Job& job) {
+    auto said = service::no_longer_valid(*shop_, *in_shop_, plan, job);
+    if (!said) return end(said.error().code, to_text(said.error().what));
+    out = *std::move(said);
+    return Code::kDone;
+  });
+}
+
+Code Session::unsuited(std::vector<std::string>& out) {
+  out.clear();
+  return asked([&](const model::Plan& plan, Job& job) {
+    const auto found = service::unsuited(*in_shop_, shop_->machine, plan, job);
+    if (!found) return end(code_of(found.error(), Code::kUnreadable), to_text(found.error()));
+    for (const model::Finding& f : *found)
+      out.push_back(to_text(Diagnostic{
+          .code = f.code, .severity = f.severity, .message = (f.step.empty() ? "" : "step '" + f.step + "': ") + f.message}));
+    return Code::kDone;
+  });
+}
+
+Code Session::tell(const ControlEvent& event, bool over, std::vector<BroadcastLine>& due) {
+  due.clear();
+  return guarded([&] {
+    message_.clear();
+    auto lines = run_.tell(event, over, [&] { return broadcasts(DefaultContent{}); });
+    if (!lines) return end(Code::kUsage, to_text(lines.error()));
+    due = *std::move(lines);
+    return end(Code::kDone);
+  });
+}
+
 Code Session::bind(std::string plan, std::optional<std::chrono::milliseconds> deadline) {
   return guarded([&] {
     last_.reset();
     goes_on_ = false;
+    run_.plan_changed(false);
     Request request = request_;
     if (deadline) request.deadline = deadline;
     return bind_as(std::move(plan), std::move(request));
@@ -187,6 +238,8 @@ Code Session::bind_next(std::string plan, std::size_t from, std::size_t count,
       last_.reset();
       goes_on_ = false;
     }
+    // Behind the first, the text is that of the same plan as far as it was bound.
+    run_.plan_changed(plan.empty() || from > 1);
     Request request = request_;
     if (deadline) request.deadline = deadline;
     request.next = std::max<std::size_t>(1, count);

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/door/service/broadcast/broadcast.h"
+#include "planner/door/service/broadcast/run.h"
 #include "planner/door/service/planning.h"
 #include "planner/door/service/request.h"
 #include "planner/ground/base/job.h"
@@ -45,6 +45,14 @@ class Session {
   /// with) leaves open, each in a few words ("its_tool
   /// of DRILLING 'x'").
   [[nodiscard]] std::vector<std::string> left_open() const;
+  /// What of the plan at hand no longer holds with machine, material and tools as they are set, a sentence
+  /// each (late::no_longer_valid): what a bind would open or check anew. Nothing is bound.
+  Code no_longer_valid(std::vector<std::string>& out);
+  /// What of the plan at hand does not suit the control (service::unsuited), a line each, errors first.
+  Code unsuited(std::vector<std::string>& out);
+  /// The broadcasts that are due by what the control tells (`over`: the run is); they go on while the plan is
+  /// bound further, and begin anew with another one.
+  Code tell(const ControlEvent& event, bool over, std::vector<BroadcastLine>& due);
   /// Binds a plan before the deadline (unset: that of the options, or none). After it the code is kLate,
   /// never kDone.
   Code bind(std::string plan, std::optional<std::chrono::milliseconds> deadline);
@@ -92,6 +100,9 @@ class Session {
   /// cut, and after another plan was taken it does not.
   [[nodiscard]] bool goes_on_from_bound() const;
   [[nodiscard]] const model::Plan* at_hand() const;
+  /// Asks something of the plan at hand, in the shop: `ask(plan, job)` gives a code.
+  template <class Ask>
+  Code asked(Ask ask);
   Code bind_as(std::string plan, Request request);
 
   /// A plan as it was read: the next bind of the same bytes need not read them again.
@@ -119,6 +130,7 @@ class Session {
   bool goes_on_ = false;
   bool taken_since_ = false;  ///< another plan was taken since that was bound
   std::map<std::string, std::string, std::less<>> outputs_;
+  BroadcastRun run_;
   std::string message_;
   Code code_ = Code::kDone;
   std::mutex mutex_;  // of running_

@@ -3,6 +3,8 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "capstan/capstan_late.h"
 #include "planner/door/service/session.h"
@@ -12,7 +14,7 @@
 /// A session behind the C interface.
 struct capstan_late {
   capstan::service::Session session;
-  std::string left_open;  ///< as it was told last
+  std::string left_open, no_longer_valid, unsuited, broadcasts;  ///< as they were told last
 };
 
 namespace {
@@ -32,6 +34,20 @@ const char* text_of(const std::string* text, size_t* size) {
   if (text == nullptr || text->empty()) return nullptr;
   if (size != nullptr) *size = text->size();
   return text->c_str();
+}
+
+/// What a call of the session says, a line each, kept with it; null where the call fails.
+template <class Ask>
+const char* lines_of(capstan_late& s, std::string capstan_late::*kept, Ask ask) {
+  try {
+    std::vector<std::string> out;
+    if (ask(out) != Code::kDone) return nullptr;
+    std::string text;
+    for (const std::string& one : out) text += one + "\n";
+    return (s.*kept = std::move(text)).c_str();
+  } catch (...) {
+    return nullptr;
+  }
 }
 
 }  // namespace
@@ -103,6 +119,49 @@ const char* capstan_late_left_open(capstan_late* s) {
   } catch (...) {
     return nullptr;
   }
+}
+
+const char* capstan_late_no_longer_valid(capstan_late* s) {
+  return s == nullptr ? nullptr : lines_of(*s, &capstan_late::no_longer_valid, [&](auto& out) {
+    return s->session.no_longer_valid(out);
+  });
+}
+
+const char* capstan_late_unsuited(capstan_late* s) {
+  return s == nullptr ? nullptr
+                      : lines_of(*s, &capstan_late::unsuited, [&](auto& out) { return s->session.unsuited(out); });
+}
+
+const char* capstan_late_measured(capstan_late* s, const char* event, const char* workingstep,
+                                  const char* time, double elapsed_s, const char* const* names,
+                                  const char* const* values, size_t count) {
+  if (s == nullptr) return nullptr;
+  return lines_of(*s, &capstan_late::broadcasts, [&](std::vector<std::string>& out) {
+    using capstan::service::ControlEvent;
+    const std::string what = event == nullptr ? "" : event;
+    ControlEvent told;
+    told.kind = what == "start" ? ControlEvent::Kind::kStart
+                : what == "end" ? ControlEvent::Kind::kEnd
+                                : ControlEvent::Kind::kAt;
+    const bool over = what == "finish";
+    if (told.kind == ControlEvent::Kind::kAt && what != "at" && !over)
+      return s->session.wrong("error: the event is '" + what + "'; expected start, at, end or finish");
+    if (count > 0 && (names == nullptr || values == nullptr))
+      return s->session.wrong("error: names and values must be given");
+    if (workingstep != nullptr) told.workingstep = workingstep;
+    if (time != nullptr) told.time = time;
+    if (elapsed_s >= 0.0) told.elapsed_s = elapsed_s;
+    for (size_t i = 0; i < count; ++i) {
+      if (names[i] == nullptr || values[i] == nullptr)
+        return s->session.wrong("error: name or value " + std::to_string(i) + " is null");
+      if (auto ok = capstan::service::take_measured(names[i], values[i], told); !ok)
+        return s->session.wrong(capstan::to_text(ok.error()));
+    }
+    std::vector<capstan::service::BroadcastLine> due;
+    const auto code = s->session.tell(told, over, due);
+    for (auto& line : due) out.push_back(std::move(line.json));
+    return code;
+  });
 }
 
 void capstan_late_on_progress(capstan_late* s, capstan_late_progress progress, void* user) {

@@ -36,7 +36,7 @@ TEST(LateInterface, AJsonPlanMayBeginWithAByteOrderMark) {
 }
 
 TEST(LateInterface, TakesOptionsByTheirNames) {
-  EXPECT_EQ(capstan_late_interface(), 8U);
+  EXPECT_EQ(capstan_late_interface(), 9U);
   capstan_late* session = capstan_late_create();
   ASSERT_NE(session, nullptr);
   EXPECT_EQ(capstan_late_set(session, "machine", "generic_vmc"), CAPSTAN_LATE_OK);

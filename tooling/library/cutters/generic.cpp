@@ -464,11 +464,15 @@ Result<std::vector<Cutter>> generic_library() {
   return expand_series(files, *materials, job);
 }
 
+namespace {
+
 /// Whether a preset is one that add_start_values made for the material of that id.
 bool by_the_card(const model::CuttingPreset& p, const std::string& id) {
   return p.material_group == id && p.source.starts_with("vc: ") &&
          p.source.find(kMaterialsSpeed) != std::string::npos;
 }
+
+}  // namespace
 
 Status add_start_values(const WorkMaterial& own, std::vector<Cutter>& library) {
   const auto shipped = shipped_materials();

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "planner/door/transport/serve/endpoints.h"
@@ -10,7 +8,6 @@
 
 namespace capstan::transport {
 
-using Json = nlohmann::json;
 using service::Code;
 
 namespace {
@@ -93,14 +90,9 @@ HttpReply Endpoints::tell(const HttpRequest& request, const Words& words, const 
   event.time = text("time");
   if (const auto at = read->wholes.find("elapsed_ms"); at != read->wholes.end())
     event.elapsed_s = static_cast<double>(at->second) / 1000.0;
-  if (const auto at = read->objects.find("measured"); at != read->objects.end()) event.measured = at->second;
-  if (const auto at = event.measured.find("location"); at != event.measured.end()) {
-    const Json xyz = Json::parse(at->second);
-    if (!xyz.is_array() || xyz.size() != 3 ||
-        !std::all_of(xyz.begin(), xyz.end(), [](const Json& v) { return v.is_number(); }))
-      return refused(
-          400, {.code = "SERVE-JSON", .message = "`location` is no place", .expected = "[x, y, z] in mm"});
-    event.location_mm = {xyz[0].get<double>(), xyz[1].get<double>(), xyz[2].get<double>()};
+  if (const auto at = read->objects.find("measured"); at != read->objects.end()) {
+    for (const auto& [name, json] : at->second)
+      if (auto ok = service::take_measured(name, json, event); !ok) return refused(400, ok.error());
   }
   const auto make =
       [&](const std::optional<service::DefaultContent>& otherwise) -> std::optional<service::Broadcasts> {

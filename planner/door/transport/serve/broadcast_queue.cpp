@@ -22,38 +22,21 @@ void BroadcastQueue::set(std::optional<service::DefaultContent> otherwise, std::
   file_ = std::move(file);
   if (fd_ >= 0) ::close(fd_);
   fd_ = -1;
-  stale_ = true;
+  run_.plan_changed(true);
 }
 
 void BroadcastQueue::plan_changed(bool bound) {
   const std::lock_guard lock(mutex_);
-  stale_ = true;
-  fresh_ = fresh_ || !bound;
+  run_.plan_changed(bound);
 }
 
 Result<BroadcastQueue::Queued> BroadcastQueue::tell(const service::ControlEvent& event, bool over,
                                                     std::size_t most, std::chrono::milliseconds patience,
                                                     const Make& make) {
   const std::lock_guard lock(mutex_);
-  if (stale_) {
-    if (auto made = make(otherwise_)) {
-      if (broadcasts_ && !fresh_) made->take_over(*broadcasts_);
-      broadcasts_ = std::move(made);
-      stale_ = fresh_ = false;
-    }
-  }
-  if (!broadcasts_)
-    return fail({.code = "BROADCAST-PLAN",
-                 .message = "there is no plan whose broadcasts could be sent, or it is being bound",
-                 .hint = "bring a plan first"});
-  Queued told;
-  if (over) {
-    told.lines = broadcasts_->finish(event);
-  } else {
-    auto lines = broadcasts_->tell(event);
-    if (!lines) return tl::unexpected(lines.error());
-    told.lines = *std::move(lines);
-  }
+  auto lines = run_.tell(event, over, [&] { return make(otherwise_); });
+  if (!lines) return tl::unexpected(lines.error());
+  Queued told{*std::move(lines), {}};
   std::size_t dropped = 0;
   for (const service::BroadcastLine& line : told.lines) {
     if (line.waits) awaited_.insert(line.number);

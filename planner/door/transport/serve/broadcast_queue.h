@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/door/service/broadcast/broadcast.h"
+#include "planner/door/service/broadcast/run.h"
 #include "planner/ground/base/result.h"
 
 namespace capstan::transport {
@@ -65,8 +65,7 @@ class BroadcastQueue {
   std::optional<service::DefaultContent> otherwise_;
   std::string file_;
   int fd_ = -1;
-  std::optional<service::Broadcasts> broadcasts_;
-  bool fresh_ = false, stale_ = true;  ///< a new run; the plan is not that of broadcasts_
+  service::BroadcastRun run_;
   std::deque<std::string> queue_;
   std::set<std::uint64_t> awaited_;
   bool streamed_ = false;

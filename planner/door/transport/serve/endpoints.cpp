@@ -60,6 +60,9 @@ struct Rows {
       Endpoint{"state", "PUT", "/v1/sessions/*/state", true, false, &Endpoints::put_state},
       Endpoint{"plan", "PUT", "/v1/sessions/*/plan", true, false, &Endpoints::put_plan},
       Endpoint{"left_open", "GET", "/v1/sessions/*/open", true, false, &Endpoints::left_open},
+      Endpoint{"no_longer_valid", "GET", "/v1/sessions/*/no-longer-valid", true, false,
+               &Endpoints::no_longer_valid},
+      Endpoint{"unsuited", "GET", "/v1/sessions/*/unsuited", true, false, &Endpoints::unsuited},
       Endpoint{"bind", "POST", "/v1/sessions/*/bind", true, false, &Endpoints::bind},
       Endpoint{"result", "GET", "/v1/sessions/*/result", false, false, &Endpoints::result},
       Endpoint{"output", "GET", "/v1/sessions/*/output/*", true, false, &Endpoints::output},
@@ -235,6 +238,24 @@ HttpReply Endpoints::left_open(const HttpRequest&, const Words& words, const Cal
     if (s.plan.empty()) return refused(409, "SERVE-PLAN", "no plan was brought", "PUT one to .../plan");
     return object_reply(200, {{"open", json_of(s.session.left_open())}});
   });
+}
+
+HttpReply Endpoints::asked(const Words& words, const Caller& caller, const char* name,
+                           Code (service::Session::*ask)(std::vector<std::string>&)) {
+  return in_session(words, caller, [&](ServedSession& s) {
+    if (s.plan.empty()) return refused(409, "SERVE-PLAN", "no plan was brought", "PUT one to .../plan");
+    std::vector<std::string> out;
+    const Code code = (s.session.*ask)(out);
+    return of_call(code, s.session.message(), {{name, json_of(out)}});
+  });
+}
+
+HttpReply Endpoints::no_longer_valid(const HttpRequest&, const Words& words, const Caller& caller) {
+  return asked(words, caller, "no_longer_valid", &service::Session::no_longer_valid);
+}
+
+HttpReply Endpoints::unsuited(const HttpRequest&, const Words& words, const Caller& caller) {
+  return asked(words, caller, "unsuited", &service::Session::unsuited);
 }
 
 HttpReply Endpoints::bind(const HttpRequest& request, const Words& words, const Caller& caller) {

@@ -82,6 +82,10 @@ class Endpoints {
   HttpReply put_state(const HttpRequest&, const Words&, const Caller&);
   HttpReply put_plan(const HttpRequest&, const Words&, const Caller&);
   HttpReply left_open(const HttpRequest&, const Words&, const Caller&);
+  HttpReply no_longer_valid(const HttpRequest&, const Words&, const Caller&);
+  HttpReply unsuited(const HttpRequest&, const Words&, const Caller&);
+  HttpReply asked(const Words& words, const Caller& caller, const char* name,
+                  service::Code (service::Session::*ask)(std::vector<std::string>&));
   HttpReply bind(const HttpRequest&, const Words&, const Caller&);
   HttpReply result(const HttpRequest&, const Words&, const Caller&);
   HttpReply output(const HttpRequest&, const Words&, const Caller&);

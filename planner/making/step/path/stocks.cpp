@@ -175,7 +175,7 @@ Result<engagement::Measurement> Stocks::measure(std::size_t setup, const model::
     if (exact->lost().empty()) exact->lose(measured.error().message);
     return measure_again(map, path, cutter, memo_);
   }
-  poll();  // sections are many numbers
+  poll();
   // Two accounts of one cut: where they contradict each other the map's is kept. A map whose cells are coarse
   // for the cutter, as that of a large piece is, is off by itself in proportion.
   const double cells_mm3 = stock::cut(map, profile, path);

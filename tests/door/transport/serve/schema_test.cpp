@@ -74,6 +74,8 @@ TEST(ServeSchema, KnowsWhatIsAnsweredAndNothingElse) {
   answer("answer", "PUT", path + "/state", R"({"broadcast": {"at": "start", "wait_for_reply": "no"}})");
   answer("answer", "PUT", path + "/plan", plate());
   answer("open", "GET", path + "/open");
+  answer("answer", "GET", path + "/no-longer-valid");
+  answer("answer", "GET", path + "/unsuited");
   answer("answer", "POST", path + "/bind", R"({"deadline_ms": 600000})");
   answer("answer", "POST", path + "/bind", R"({"deadline_ms": 0})");
   answer("answer", "GET", path + "/result");

@@ -149,12 +149,17 @@ TEST_F(Serve, TellsWhatIsOpenBeforeItIsBound) {
   RunningServer server;
   Client client(server.socket());
   const std::string path = opened(client);
-  EXPECT_EQ(client.ask("GET", path + "/open").status, 409);
+  for (const char* what : {"/open", "/no-longer-valid", "/unsuited"})
+    EXPECT_EQ(client.ask("GET", path + what).status, 409) << what;
   EXPECT_EQ(client.ask("POST", path + "/bind", R"({"deadline_ms": 1000})").status, 409);
   EXPECT_EQ(client.ask("PUT", path + "/plan", plate()).status, 200);
   const auto open = client.ask("GET", path + "/open").json()["open"];
   ASSERT_EQ(open.size(), 2U) << open;
   EXPECT_THAT(open[0].get<std::string>(), HasSubstr("MILLING_TECHNOLOGY"));
+  const auto no_longer = client.ask("GET", path + "/no-longer-valid").json()["no_longer_valid"];
+  ASSERT_EQ(no_longer.size(), 1U) << no_longer;
+  EXPECT_THAT(no_longer[0].get<std::string>(), HasSubstr("'DRILL 9' (twist_drill 9 mm) is not in the magazine"));
+  EXPECT_THAT(client.ask("GET", path + "/unsuited").body, HasSubstr("FIT-OPEN"));
   EXPECT_EQ(client.ask("POST", path + "/bind", "{}").status, 400);
   EXPECT_EQ(client.ask("POST", path + "/bind", R"({"deadline_ms": 600000})").status, 200);
   const auto result = client.ask("GET", path + "/result").json();

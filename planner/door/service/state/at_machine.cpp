@@ -1,0 +1,48 @@
+#include "planner/door/service/state/at_machine.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "planner/controls/controls.h"
+#include "planner/controls/profile/profile.h"
+#include "planner/controls/specification.h"
+#include "planner/controls/suitability.h"
+#include "planner/door/late/kept/no_longer.h"
+#include "planner/door/service/planning.h"
+#include "planner/door/service/shop.h"
+
+namespace capstan::service {
+
+Result<std::vector<model::Finding>> unsuited(const Request& request, const model::Machine& machine,
+                                             const model::Plan& plan, Job& job) {
+  std::optional<controls::Conformance> can;
+  if (request.profile) {
+    auto read = controls::load_profile(*request.profile, job);
+    if (!read) return tl::unexpected(read.error());
+    can = std::move(read->can);
+  } else if (const controls::Dialect* own = controls::find_dialect(machine.control.dialect)) {
+    can = own->conformance;
+  }
+  if (!can) return std::vector<model::Finding>{};
+  auto out = controls::specification(plan, *can);
+  auto cannot = controls::suitability(plan, *can);
+  std::move(cannot.begin(), cannot.end(), std::back_inserter(out));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto& a, const auto& b) { return a.severity > b.severity; });
+  return out;
+}
+
+Outcome<std::vector<std::string>> no_longer_valid(const pipeline::Inputs& shop, const Request& request,
+                                                  const model::Plan& plan, Job& job) {
+  pipeline::Inputs inputs = shop;
+  if (auto ok = take_choices(request, plan, inputs, job); !ok)
+    return failed(ok.error(), code_of(ok.error(), Code::kUnreadable));
+  if (!request.tools) take_tools_of_plan(request, plan, inputs, job);
+  auto out = late::no_longer_valid(plan, std::move(inputs), request.state.tools, job);
+  if (!out) return failed(out.error(), code_of(out.error(), Code::kImpossible));
+  return *std::move(out);
+}
+
+}  // namespace capstan::service
