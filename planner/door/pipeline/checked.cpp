@@ -201,7 +201,7 @@ void tell_tries(const Tries& tries, Job& job) {
 Checked checked(model::Plan plan, Job& job, memo::Memo* proofs, const model::CutBefore* before) {
   Checked out;
   const auto began = job.now();
-  out.findings = verify::check_plan(plan, job, proofs, before);
+  out.findings = verify::check_plan(plan, job, proofs, before, &out.part);
   out.plan = std::move(plan);
   out.checking = job.now() - began;
   return out;

@@ -69,6 +69,7 @@ Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const
       tell_first(first, out->plan, job);
     } else {
       out->plan = std::move(edited);
+      out->part = nullptr;
     }
     keep_rows(out->plan, taken->edits);
   }

@@ -23,6 +23,7 @@
 #include "planner/model/plan/resources/machine.h"
 #include "planner/model/plan/resources/material.h"
 #include "planner/physics/mechanics/loads/margin.h"
+#include "planner/proof/verify/verify.h"
 #include "rules/rules.h"
 
 namespace capstan::casebase {
@@ -138,6 +139,7 @@ struct Checked {
   std::chrono::steady_clock::duration checking{};  ///< what checking it took
   bool budget_spent = true;  ///< false: planned with a larger evaluation budget it comes out the same
   std::vector<model::NeededTool> needed = {};  ///< what its unplanned features lack; not proved
+  std::shared_ptr<const verify::ReadPart> part = nullptr;  ///< of just this plan, as it was checked
 };
 
 /// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a

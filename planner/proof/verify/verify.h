@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,10 @@ struct ProgramText {
 
 using model::CutBefore;
 
+/// What a check read of a plan's features, for the check of a program of the very same plan
+/// (sweep/target/target.h).
+struct ReadPart;
+
 /// What is wrong with a plan. Reads what the plan holds, computes everything else itself: stock, removal,
 /// force bound, order. Findings come by step in the order of execution, then property, then move; equal
 /// ones of a step are folded into the worst with their number.
@@ -36,17 +41,21 @@ using model::CutBefore;
 /// Part       steps of `before` get no finding, and features that later steps work on need not be done. The
 ///            life of a tool is judged without
 ///            its cuts before.
+/// `part`     gets what was read of the part, unless the check ended before.
 [[nodiscard]] std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job,
                                                      memo::Memo* known = nullptr,
-                                                     const CutBefore* before = nullptr);
+                                                     const CutBefore* before = nullptr,
+                                                     std::shared_ptr<const ReadPart>* part = nullptr);
 
 /// What is wrong with a program, alone or against the plan that it was written from. Steps are found by the
-/// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1.
+/// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1. `part`: what the check
+/// of this very plan read of its part, with the same `known`; null: it is read.
 [[nodiscard]] std::vector<model::Finding> check_program(const ProgramText& program, const model::Plan* plan,
                                                         const model::Machine& machine,
                                                         const std::vector<model::Cutter>& cutters, Job& job,
                                                         memo::Memo* known = nullptr,
-                                                        const CutBefore* before = nullptr);
+                                                        const CutBefore* before = nullptr,
+                                                        const ReadPart* part = nullptr);
 
 /// What each property asks, one sentence; empty for a number that is not checked.
 [[nodiscard]] std::string_view property_text(int number);

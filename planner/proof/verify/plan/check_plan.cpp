@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "planner/ground/base/stopping.h"
 #include "planner/model/plan/range/positions.h"
 #include "planner/proof/verify/compared/feature_readings.h"
@@ -14,7 +16,7 @@ namespace {
 
 /// False if a stop ended it and the finding says where.
 bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* known,
-           const CutBefore* before) {
+           const CutBefore* before, std::shared_ptr<const ReadPart>* kept) {
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   poll();
   check_ranges(plan, findings);
@@ -37,7 +39,9 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_machine(plan, findings);
   check_holding(plan, findings);
   poll();
-  const PartShapes part = shapes_of_part(plan);
+  const auto read = std::make_shared<const ReadPart>(read_part(plan, known != nullptr));
+  const PartShapes& part = read->shapes;
+  if (kept != nullptr) *kept = read;
   poll();
   check_order(plan, part, findings, before);
   check_coverage(plan, findings, before);
@@ -50,7 +54,7 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
   check_threads(plan, part, steps, findings);
   poll();
   std::vector<double> speed_shares;
-  const bool swept = check_removal(plan, part, steps, findings, job, &speed_shares, known, before);
+  const bool swept = check_removal(plan, *read, steps, findings, job, &speed_shares, known, before);
   check_predicted(plan, part, steps, speed_shares, findings);
   if (!swept) return false;
   job.progress("check", 1.0);
@@ -60,9 +64,9 @@ bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* kn
 }  // namespace
 
 std::vector<model::Finding> check_plan(const model::Plan& plan, Job& job, memo::Memo* known,
-                                       const CutBefore* before) {
+                                       const CutBefore* before, std::shared_ptr<const ReadPart>* part) {
   Findings findings;
-  check_to_its_end(job, findings, [&] { return judge(plan, findings, job, known, before); });
+  check_to_its_end(job, findings, [&] { return judge(plan, findings, job, known, before, part); });
   return findings.take();
 }
 

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/touches/macros.h"
@@ -107,7 +109,8 @@ std::vector<model::Finding> check_program_text(const ProgramText& text, const mo
 std::vector<model::Finding> check_program(const ProgramText& text, const model::Plan* plan,
                                           const model::Machine& machine,
                                           const std::vector<model::Cutter>& cutters, Job& job,
-                                          memo::Memo* known, const CutBefore* before) {
+                                          memo::Memo* known, const CutBefore* before,
+                                          const ReadPart* part) {
   Findings findings;
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
@@ -122,9 +125,10 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
         judge_text(*reader, program, text, plan, machine, tools, true, macros, findings);
     poll();
     if (plan != nullptr) {
-      const PartShapes part = shapes_of_part(*plan);
+      std::optional<ReadPart> here;
+      if (part == nullptr) part = &here.emplace(read_part(*plan, known != nullptr));
       poll();
-      if (!check_removal(*plan, part, steps, findings, job, nullptr, known, before)) return false;
+      if (!check_removal(*plan, *part, steps, findings, job, nullptr, known, before)) return false;
     }
     job.progress("check", 1.0);
     return true;

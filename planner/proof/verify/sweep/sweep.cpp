@@ -122,9 +122,10 @@ double cell_for(double area_mm2, double smallest_mm) {
                    std::min(std::sqrt(area_mm2 / kUsualCells), smallest_mm / kCellsPerCutter)});
 }
 
-bool check_removal(const model::Plan& plan, const PartShapes& part, const std::vector<StepMoves>& steps,
+bool check_removal(const model::Plan& plan, const ReadPart& read, const std::vector<StepMoves>& steps,
                    Findings& findings, Job& job, std::vector<double>* speed_shares, memo::Memo* known,
                    const CutBefore* before) {
+  const PartShapes& part = read.shapes;
   if (speed_shares != nullptr) speed_shares->assign(steps.size(), 1.0);
   check_bodies(plan, steps, findings);
   check_fixtures(plan, steps, findings);
@@ -134,7 +135,7 @@ bool check_removal(const model::Plan& plan, const PartShapes& part, const std::v
     return true;
   }
   const double cell = cell_of(plan);
-  const KnownSteps known_steps(plan, part, known);
+  const KnownSteps known_steps(plan, read, known);
   // Set-ups that hold the piece alike go on with the same stock; others begin with what is left.
   std::vector<std::unique_ptr<Scene>> scenes;
   Scene* last = nullptr;

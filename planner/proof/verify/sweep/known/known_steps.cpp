@@ -237,11 +237,8 @@ void CutSquares::cut(const StepMoves& step, double reach_mm, double top_mm, cons
     if (of[i] != 0) keys_[i] = memo::key_of(Stage::kSweep, keys_[i], what);
 }
 
-KnownSteps::KnownSteps(const model::Plan& plan, const PartShapes& part, memo::Memo* memo)
-    : plan_(plan), memo_(memo) {
-  if (memo_ == nullptr) return;
-  of_plan_ = memo::key_of(Stage::kSweep, plan.machine, plan.material, plan.target_mesh, part);
-}
+KnownSteps::KnownSteps(const model::Plan& plan, const ReadPart& part, memo::Memo* memo)
+    : plan_(plan), memo_(part.known_by ? memo : nullptr), of_plan_(part.known_by.value_or(Key{})) {}
 
 Key KnownSteps::key_of_setup(const Target& target, const Grid& grid) const {
   std::string bytes;

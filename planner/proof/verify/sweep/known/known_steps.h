@@ -75,7 +75,7 @@ struct SweptSetup {
 class KnownSteps {
  public:
   /// `memo` may be null: every step is swept. It outlives this, as the others do.
-  KnownSteps(const model::Plan& plan, const PartShapes& part, memo::Memo* memo);
+  KnownSteps(const model::Plan& plan, const ReadPart& part, memo::Memo* memo);
   /// Lets a set-up's finished part be taken from earlier checks: before its grid is filled.
   void remember(Target& target, const Grid& grid) const;
   /// Where a set-up begins, and where it goes on after another.

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/base/stopping.h"
+#include "planner/ground/memo/remembered.h"
 #include "planner/model/nouns/all.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/volumes/nouns.h"
@@ -144,6 +146,15 @@ PartShapes shapes_of_part(const model::Plan& plan) {
                    std::min(own.hi.z, out.part.hi.z)};
     if (out.part.empty()) out.part = plan.stock.box;
   }
+  return out;
+}
+
+ReadPart read_part(const model::Plan& plan, bool keyed) {
+  ReadPart out{shapes_of_part(plan), {}};
+  poll();
+  if (keyed)
+    out.known_by =
+        memo::key_of(memo::Stage::kSweep, plan.machine, plan.material, plan.target_mesh, out.shapes);
   return out;
 }
 

@@ -39,6 +39,17 @@ struct PartShapes {
   [[nodiscard]] const Entry* find(model::AnyRef feature) const;
 };
 [[nodiscard]] PartShapes shapes_of_part(const model::Plan& plan);
+
+/// What a check reads of a plan's part. Of a program of the very same plan it is the same: a large part takes
+/// as long to read as one workingstep takes to be checked.
+struct ReadPart {
+  PartShapes shapes;
+  /// Of these shapes with the plan's machine, material and mesh; nothing: no step is known by it.
+  std::optional<memo::Key> known_by;
+};
+/// `keyed`: with the key.
+[[nodiscard]] ReadPart read_part(const model::Plan& plan, bool keyed);
+
 /// Around all of a feature with its tolerances, seen along z of a set-up's frame.
 [[nodiscard]] geometry::Box2 seen_of(const volumes::Form& form, const geometry::Placement& in_setup);
 
