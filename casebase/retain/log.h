@@ -71,9 +71,9 @@ inline constexpr LogUnits kTraceUnits = {1.0, 60.0};
 
 /// What LinuxCNC's `halsampler -t` writes: number of the sample, then the pins in the order in which they
 /// were added. Without `columns` they are x, y, z, motion.current-vel (mm/s), motion.program-line and, as far
-/// as the first row has them, the spindle's speed (1/min), the tool and a mark, as examples/linuxcnc/machine
-/// records them. `period_s`: the period of the servo thread; the column of the sample's number, which may
-/// have gaps (overruns), times the period is the time.
+/// as the first row has them, the spindle's speed (1/min), the tool, a mark, the following error and
+/// motion.motion-type, as examples/linuxcnc/machine records them. `period_s`: the period of the servo thread;
+/// the column of the sample's number, which may have gaps (overruns), times the period is the time.
 [[nodiscard]] Result<LogEnd> read_linuxcnc(std::istream& in, const std::string& file, const LogUnits& units,
                                            std::span<const std::string> columns, double period_s,
                                            const Sink& sink, Job& job);

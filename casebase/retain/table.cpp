@@ -178,11 +178,11 @@ Result<LogEnd> read_table(std::istream& in, const std::string& file, const LogUn
 Result<LogEnd> read_linuxcnc(std::istream& in, const std::string& file, const LogUnits& units,
                              std::span<const std::string> columns, double period_s, const Sink& sink,
                              Job& job) {
-  constexpr const char* kMark = "";  // says nothing of a cut, and no name is there to be mended
+  constexpr const char *kMark = "", *kKind = "";  // say nothing of a cut, and no name is there to be mended
   std::vector<std::string> names = {"time"};
   if (columns.empty()) {
-    names.insert(names.end(),
-                 {"x", "y", "z", "motion.current-vel", "motion.program-line", "spindle_rpm", "tool", kMark});
+    names.insert(names.end(), {"x", "y", "z", "motion.current-vel", "motion.program-line", "spindle_rpm",
+                               "tool", kMark, "lag", kKind});
   } else {
     names.insert(names.end(), columns.begin(), columns.end());
   }
