@@ -8,11 +8,14 @@ state are still those. Any doubt is a refusal with its reason on the screen: the
 stood while it waited, retracted and with its spindle stopped.
 
 Watchdog: a planner that does not answer within its deadline and `--grace` is killed. ask.py watches this process.
+Measured values: what M105 tells by number the plan's if and while statements read by name (`--values`), until the next
+workingstep is cut: then what was measured is of a piece that is no more.
 Restart: `journal.jsonl` has what was cut, line by line, and `so_far.json` the plan as far as it was cut; M101 P0 says which
 workingstep is the next one.
 """
 import argparse
 import datetime
+import errno
 import hashlib
 import json
 import os
@@ -28,6 +31,7 @@ import time
 
 import linuxcnc
 
+import broadcast
 import program as programs
 from program import Refused
 
@@ -36,19 +40,26 @@ LOADED = 'loaded.tbl'
 TOLD = 'told.state'  # the states of tools that the planner is given
 SO_FAR = 'so_far.json'  # the plan with the paths that were cut
 SHOWN_S = 5.0  # within which the control shows an input: its periods are milliseconds, a busy machine holds them up. Default, unsourced
+ENDS_S = 2.0  # that a process whose pipe is closed may take to be gone. Default, unsourced
+MEASURED_DECIMALS = 4  # of a diameter in mm: finer than a setter measures, and as a program in mm has it (decimals of the machine's control)
 SCREEN = 220  # characters of a message that LinuxCNC's screen takes (256 with its own words)
 
 
 class Planner:
     """The planner's process: begun when it is needed, killed when it is late, never waited for."""
 
-    def __init__(self, command):
-        self.command, self.process = command, None
+    def __init__(self, command, memory_mb=None):
+        self.command, self.memory_mb, self.process = command, memory_mb, None
 
     def end(self):
         if self.process:
             self.process.kill()
             self.process.wait()
+            for pipe in (self.process.stdin, self.process.stdout):
+                try:
+                    pipe.close()
+                except BrokenPipeError:
+                    pass  # it was asked more than it read
             self.process = None
 
     def ask(self, request, seconds):
@@ -59,8 +70,23 @@ class Planner:
             self.process.stdin.flush()
             return json.loads(self.answer(seconds))
         except (OSError, ValueError) as error:
-            self.end()
-            raise Refused('the planner ended before it answered') from error
+            raise Refused(self.how_it_ended()) from error
+
+    def how_it_ended(self):
+        """Why there is no answer of a planner that ended; it is ended in any case."""
+        try:
+            status = self.process.wait(ENDS_S)
+        except subprocess.TimeoutExpired:
+            status = None  # it closed its end of the pipe and stayed
+        self.end()
+        limit = f', with a limit of {self.memory_mb} MB of memory (--memory)' if self.memory_mb else ''
+        if status == errno.ENOMEM:
+            return f'the planner ran out of memory before it answered{limit}; allow it more'
+        if status == -signal.SIGKILL:
+            return 'the planner was killed from outside (SIGKILL) before it answered'
+        if status is not None and status < 0:
+            return f'the planner broke down ({signal.Signals(-status).name}) before it answered{limit}'
+        return f'the planner ended before it answered (exit status {status})'
 
     def answer(self, seconds):
         end, text = time.monotonic() + seconds, b''
@@ -150,7 +176,7 @@ def written(path, text):
             file.flush()
             os.fsync(file.fileno())
         os.rename(temporary, path)
-        folder = os.open('.', os.O_RDONLY)
+        folder = os.open(os.path.dirname(path) or '.', os.O_RDONLY)
         os.fsync(folder)
         os.close(folder)
     except OSError as error:
@@ -204,9 +230,11 @@ class Adapter:
     def __init__(self, options):
         self.options = options
         self.machine = Machine(options.ini)
-        self.planner = Planner(options.planner)
+        self.planner = Planner(options.planner, options.memory)
         self.journal = Journal(options.journal)
-        self.measured, self.material = {}, options.material
+        self.measured, self.values, self.material = {}, {}, options.material
+        self.names = options.values.split(',') if options.values else []
+        self.broadcast = broadcast.Broadcast(options) if options.broadcast else None
         self.tool_states = ToolStates(options.tool_state)
         self.bound = {}  # n -> (program, state, hash, plan)
 
@@ -230,9 +258,13 @@ class Adapter:
         if self.options.tool_state:
             written(TOLD, state['told'])
             options['tool-state'] = TOLD
+        if self.values:
+            options['measured'] = ','.join(f'{name}={value!r}' for name, value in sorted(self.values.items()))
         request = {'plan': SO_FAR if self.journal.cut else self.options.plan, 'from': n, 'options': options,
                    'deadline_ms': int(1000 * self.options.deadline)}
         answer = self.planner.ask(request, self.options.deadline + self.options.grace)
+        for way in programs.ways_taken(answer):
+            self.journal.add('decided', question=n, way=way)
         return programs.of_answer(answer, n or self.next()), answer['steps'], answer['plan']
 
     def bind(self, n):
@@ -245,21 +277,24 @@ class Adapter:
         programs.check_tools(step, state['tools'], programs.wear_of(state['told']))
         programs.check_travel(step, state['offset'], state['tools'][step.tool]['z'], state['limits'])
         text = step.subroutine(self.binding(state))
-        written(f'{programs.FIRST + n}.ngc', text)
+        written(self.subroutine(n), text)
         self.bound[n] = (step, state, programs.END.search(text)[1], plan)
         self.journal.add('bound', step=n, id=step.id, tool=step.tool, file_sha256=self.bound[n][2],
                          material=self.material, **state)
 
+    def subroutine(self, n):
+        return os.path.join(self.options.subroutines, f'{programs.FIRST + n}.ngc')
+
     def binding(self, state):
         """Names the machine's state and the moment: two bindings have different subroutines."""
-        seen = hashlib.sha256(json.dumps([state, self.material, self.measured]).encode()).hexdigest()
+        seen = hashlib.sha256(json.dumps([state, self.material, self.measured, self.values]).encode()).hexdigest()
         return f'state={seen[:16]} at={time.time_ns()}'
 
     def check(self, n):
         if n not in self.bound:
             raise Refused(f'workingstep {n} was not bound')
-        _, state, expected, _ = self.bound[n]
-        name = f'{programs.FIRST + n}.ngc'
+        step, state, expected, plan = self.bound[n]
+        name = self.subroutine(n)
         try:
             programs.check_text(pathlib.Path(name).read_text(), expected)
         except Refused as error:
@@ -269,17 +304,30 @@ class Adapter:
             raise Refused(f'{name}: what is told of the tools changed since it was bound')
         if now != state:
             raise Refused(f'{name}: tool table or work offset changed since it was bound')
+        if self.broadcast:
+            self.broadcast.begins(step, plan, self.machine)
 
     def done(self, n):
         if n not in self.bound:
             raise Refused(f'workingstep {n} was not bound')
         step, _, _, plan = self.bound.pop(n)
         written(SO_FAR, plan)
+        self.values = {}
         s = self.machine.stat
         s.poll()
         self.journal.add('cut', step=n, id=step.id, lines_sha256=step.sha256, tool_in_spindle=s.tool_in_spindle,
                          position_mm=[round(v, 6) for v in s.actual_position[:3]],
                          following_error_max_mm=[s.joint[i]['ferror_highmark'] for i in range(s.joints)])
+        # The step is cut and in the journal, whoever hears of it.
+        if self.broadcast:
+            self.broadcast.ends(step, self.machine)
+
+    def take_value(self, number, value):
+        """Measured value `number` of the plan's statements, as --values names them from 1."""
+        if not 1 <= number <= len(self.names):
+            raise Refused(f'measured value {number} has no name; --values names {len(self.names)}, from 1')
+        self.values[self.names[number - 1]] = value
+        self.journal.add('value', name=self.names[number - 1], value=value)
 
     def answer(self, words):
         verb, numbers = words[0], words[1:]
@@ -287,8 +335,11 @@ class Adapter:
             self.material = numbers[0]
             self.journal.add('material', name=self.material)
         elif verb == 'measured':
-            self.measured[int(float(numbers[0]))] = float(numbers[1])
-            self.journal.add('measured', tool=int(float(numbers[0])), diameter_mm=float(numbers[1]))
+            tool, diameter = int(float(numbers[0])), round(float(numbers[1]), MEASURED_DECIMALS)
+            self.measured[tool] = diameter
+            self.journal.add('measured', tool=tool, diameter_mm=diameter)
+        elif verb == 'value':
+            self.take_value(int(float(numbers[0])), float(numbers[1]))
         elif verb in ('bind', 'check', 'done'):
             getattr(self, verb)(int(float(numbers[0])))
         else:
@@ -341,9 +392,13 @@ def main():
     parser.add_argument('--library', default='libcapstan_late.so.0')
     parser.add_argument('--material', help="instead of the plan's")
     parser.add_argument('--tool-state', help='file in which the shop tells which tools broke, wore, or have how much life')
+    parser.add_argument('--values', help='names of the values that M105 P1, P2, ... measure, for the plan\'s if and while: wall,floor')
+    parser.add_argument('--broadcast', help='file or FIFO that gets a line of JSON at the start and end of each workingstep')
+    parser.add_argument('--capstan', default='capstan', help='the command that makes the broadcasts (capstan serve)')
     parser.add_argument('--deadline', type=float, default=10.0, help='seconds for one binding')
     parser.add_argument('--grace', type=float, default=2.0, help='seconds after it until the planner is killed')
     parser.add_argument('--memory', help='MB that planning may take')
+    parser.add_argument('--subroutines', default='', help='folder for them, of those in SUBROUTINE_PATH; by default this one')
     parser.add_argument('--journal', default='journal.jsonl')
     parser.add_argument('--planner', nargs=argparse.REMAINDER, help='last: another planner, asked as binder.py is')
     options = parser.parse_args()
@@ -356,6 +411,8 @@ def main():
         adapter.serve()
     finally:
         adapter.planner.end()
+        if adapter.broadcast:
+            adapter.broadcast.end()
 
 
 if __name__ == '__main__':

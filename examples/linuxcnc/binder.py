@@ -6,17 +6,23 @@
 A line of JSON in: {"plan": FILE, "from": N, "options": {NAME: VALUE}, "deadline_ms": N}; workingstep N is bound, nothing
 else. A line out: {"code": N, "message": TEXT, "program": G-CODE or null, "steps": N, "plan": JSON}: the program of that
 workingstep, how many there are, and the plan as far as it is bound, which is the FILE of the next one. Codes and options
-are as include/capstan/capstan_late.h has them. MEMORY_MB is what planning
-may take beyond what the library takes when it is loaded. The process ends with the one that started it.
+are as include/capstan/capstan_late.h has them; at the deadline what is not checked is given up (stop-at-deadline).
+
+MEMORY_MB is what planning may take beyond what the library takes when it is loaded. Where it is not enough, the answer says so; where
+not even an answer can be made, the exit status is 12 (ENOMEM). Either way the process ends: what a session is worth of which a call ran
+out of memory, nobody knows. It ends, too, with the process that started it.
 """
 import ctypes
+import errno
 import json
+import os
 import pathlib
 import resource
 import signal
 import sys
 
 JSON, LINUXCNC = 1, 2  # CAPSTAN_LATE_JSON, CAPSTAN_LATE_LINUXCNC
+FAULT = 70  # CAPSTAN_LATE_FAULT
 INTERFACE = 4  # CAPSTAN_LATE_INTERFACE, at least
 
 
@@ -24,7 +30,7 @@ def load(path):
     library = ctypes.CDLL(path)
     session, text = ctypes.c_void_p, ctypes.c_char_p
     for name, result, arguments in (
-            ('interface', ctypes.c_uint, []), ('create', session, []), ('set', ctypes.c_int, [session, text, text]),
+            ('interface', ctypes.c_uint, []), ('create', session, []), ('close', None, [session]), ('set', ctypes.c_int, [session, text, text]),
             ('bind_next', ctypes.c_int, [session, text, ctypes.c_size_t, ctypes.c_uint, ctypes.c_uint, ctypes.c_uint]),
             ('steps', ctypes.c_uint, [session]),
             ('message', text, [session]), ('output', text, [session, ctypes.c_int, ctypes.c_void_p])):
@@ -36,8 +42,8 @@ def load(path):
 
 
 class Held:
-    """What the session has: options as they were set, and the plan that it bound last."""
-    options, plan = {}, None
+    """The session, and what it has: options as they were set, and the plan that it bound last."""
+    session, options, plan = None, {}, None
 
 
 def as_it_is(value):
@@ -46,8 +52,23 @@ def as_it_is(value):
     return value, file.read_bytes() if file.is_file() else None
 
 
-def bind(library, session, request):
-    for name, value in request['options'].items():
+def session_for(library, options):
+    """The session; another one where an option was set that is not asked for any more: nothing takes one back."""
+    if Held.session and not Held.options.keys() <= options.keys():
+        library.capstan_late_close(Held.session)
+        Held.session = None
+    if not Held.session:
+        Held.session, Held.options, Held.plan = library.capstan_late_create(), {}, None
+        if not Held.session:
+            raise MemoryError
+    return Held.session
+
+
+def bind(library, request):
+    # A control that has its deadline wants a checked step by then, or none.
+    wanted = {**request['options'], 'stop-at-deadline': 'yes'}
+    session = session_for(library, wanted)
+    for name, value in wanted.items():
         now = as_it_is(value)
         if Held.options.get(name) == now:
             continue
@@ -68,16 +89,32 @@ def bind(library, session, request):
     return answer
 
 
+def of_memory(answer, memory_mb):
+    """Whether a call ran out of memory; its answer says so then, with the limit."""
+    if answer['code'] != FAULT or 'std::bad_alloc' not in answer['message']:
+        return False
+    limit = f'the {memory_mb} MB of memory that it may (--memory)' if memory_mb else 'the memory that this computer has'
+    answer['message'] = f'error: planning takes more than {limit}; allow it more, or plan with fewer decisions open\n'
+    return True
+
+
 def main():
     ctypes.CDLL(None).prctl(1, signal.SIGKILL, 0, 0, 0)  # PR_SET_PDEATHSIG
-    library = load(sys.argv[1])
-    session = library.capstan_late_create()
+    library, memory_mb = load(sys.argv[1]), None
     if len(sys.argv) > 2:
+        memory_mb = sys.argv[2]
         pages = int(pathlib.Path('/proc/self/statm').read_text().split()[0])
-        most = pages * resource.getpagesize() + int(float(sys.argv[2]) * 2 ** 20)
+        most = pages * resource.getpagesize() + int(float(memory_mb) * 2 ** 20)
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
-    for line in sys.stdin:
-        print(json.dumps(bind(library, session, json.loads(line))), flush=True)
+    try:
+        for line in sys.stdin:
+            answer = bind(library, json.loads(line))
+            ends = of_memory(answer, memory_mb)
+            print(json.dumps(answer), flush=True)
+            if ends:
+                break
+    except MemoryError:
+        os._exit(errno.ENOMEM)
 
 
 if __name__ == '__main__':

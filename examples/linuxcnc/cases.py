@@ -5,7 +5,7 @@
     capstan cases import shop.db csv log.csv --plan so_far.json
 
 SAMPLES is what `halsampler -t` wrote (machine/machine.hal says which pins; a sample per servo period), JOURNAL the adapter's
-journal.jsonl. The samples have no clock and no workingstep; but between two workingsteps the tool is retracted and the
+journal.jsonl. The following error is that of the axes together: how far the tool was from where it was told to be. The samples have no clock and no workingstep; but between two workingsteps the tool is retracted and the
 spindle stands (part.ngc), and within one neither is: the n-th time that the spindle turned is the n-th workingstep that the
 journal has as cut. A last one that the journal has not was broken off, and is left out.
 """
@@ -17,7 +17,7 @@ import urllib.parse
 
 PERIOD_S = 0.001  # of the servo thread; machine/machine.ini, SERVO_PERIOD
 RETRACTED_MM = 101.6  # machine/machine.ini, AXIS_Z
-COLUMNS = 'time_s,workingstep,tool,x_mm,y_mm,z_mm,feed_mm_min,spindle_rpm'
+COLUMNS = 'time_s,workingstep,tool,x_mm,y_mm,z_mm,feed_mm_min,spindle_rpm,lag_mm'
 
 
 def cut(journal):
@@ -32,14 +32,15 @@ def times(samples):
     for row in samples:
         word = row.split()
         number, x, y, z, velocity = int(word[0]), *map(float, word[1:5])
-        rpm, tool = float(word[6]), int(float(word[7]))
+        # The ninth is the scenario's mark, which says nothing of a cut; the tenth how far the axes were behind.
+        rpm, tool, lag = float(word[6]), int(float(word[7])), float(word[9])
         if rpm == 0.0 and z >= RETRACTED_MM - 1e-6:
             if turned:  # the machine stands: the workingstep is over
-                yield now + [(number * PERIOD_S, tool, x, y, z, 0.0, rpm)]
+                yield now + [(number * PERIOD_S, tool, x, y, z, 0.0, rpm, lag)]
             now, turned = [], False
             continue
         turned = turned or rpm != 0.0
-        now.append((number * PERIOD_S, tool, x, y, z, velocity * 60.0, rpm))
+        now.append((number * PERIOD_S, tool, x, y, z, velocity * 60.0, rpm, lag))
     if turned:
         yield now
 

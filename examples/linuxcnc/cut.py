@@ -21,7 +21,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import simulated  # noqa: E402
 
-ADAPTER = ('adapter.py', 'ask.py', 'binder.py', 'program.py', 'part.ngc', 'M101', 'M102', 'M103', 'M104')
+ADAPTER = ('adapter.py', 'ask.py', 'binder.py', 'program.py', 'part.ngc', 'M101', 'M102', 'M103', 'M104',
+           'M105', 'broadcast.py')
 
 
 def files(tools, clock):
@@ -33,11 +34,11 @@ def files(tools, clock):
     return out
 
 
-def start_adapter(arguments, **more):
-    """The adapter as a process, when it answers."""
+def start_adapter(arguments, before=(), **more):
+    """The adapter as a process, when it answers. `before`: a command that starts it, as `nice -n 5`."""
     pathlib.Path('capstan.socket').unlink(missing_ok=True)
     with open('adapter.log', 'ab') as log:
-        process = subprocess.Popen([sys.executable, '-B', 'adapter.py', '--ini', 'machine.ini', *arguments],
+        process = subprocess.Popen([*before, sys.executable, '-B', 'adapter.py', '--ini', 'machine.ini', *arguments],
                                    stdin=subprocess.DEVNULL, stdout=log, stderr=log, **more)
     end = time.monotonic() + 20.0
     while not os.path.exists('capstan.socket'):

@@ -62,6 +62,12 @@ def of_answer(answer, n):
     return Program(answer['program'], n)
 
 
+def ways_taken(answer):
+    """What the plan's if and while statements were decided to by measured values, in the planner's words."""
+    ways = re.findall(r"^note: ((?:if|while) '.*) \[LATE-REOPENED\]$", answer['message'], re.M)
+    return ways if answer['code'] == 0 else []
+
+
 def check_text(text, expected):
     """Fails unless a subroutine is whole, unaltered, and the one that was bound."""
     mark = END.search(text)

@@ -24,7 +24,8 @@ KEYS = [HAL_KEY, 0x90280A48, 0x48484C34, 100, 0x48534130, 43701, 43702, 43703, 4
 MODULES = ['tpmod', 'homemod', 'trivkins coordinates=XYZ',
            'motmod base_period_nsec=0 servo_period_nsec=1000000 num_joints=3',
            'limit2 names=limit-speed', 'sim_spindle names=spindle', 'scale names=rpm-to-rps',
-           'comp names=probe-at', 'and2 names=probe', 'sampler depth=200000 cfg=ffffsfss']
+           'lowpass names=lag-x,lag-y,lag-z', 'hypot names=lag', 'comp names=probe-at,side-at,side-below',
+           'and2 names=probe,side,side-on', 'or2 names=touches', 'sampler depth=200000 cfg=ffffsfssfs']
 FIRST_PARAMETER = {'G54': 5221, 'G55': 5241, 'G56': 5261, 'G57': 5281, 'G58': 5301, 'G59': 5321}
 libc = ctypes.CDLL(None, use_errno=True)
 
@@ -67,6 +68,22 @@ def children(of):
     return out
 
 
+def kill(pid, sign):
+    try:
+        os.kill(pid, sign)
+    except ProcessLookupError:
+        pass
+
+
+def reap(pids):
+    """Waits for children that are being killed."""
+    for pid in pids:
+        try:
+            os.waitpid(pid, 0)
+        except ChildProcessError:
+            pass
+
+
 def end_children():
     """Orphans become children of this process (a subreaper), so that none is missed."""
     for sign, patience in ((signal.SIGTERM, 3.0), (signal.SIGKILL, 5.0)):
@@ -79,10 +96,7 @@ def end_children():
             for pid in left:
                 if pid not in told:
                     told.add(pid)
-                    try:
-                        os.kill(pid, sign)
-                    except ProcessLookupError:
-                        pass
+                    kill(pid, sign)
             try:
                 os.waitpid(-1, os.WNOHANG)
             except ChildProcessError:
@@ -125,10 +139,35 @@ class Machine:
         self.run('halcmd', 'loadusr', '-Wn', 'iocontrol', 'io', '-ini', 'machine.ini')
         self.run('halcmd', '-i', 'machine.ini', '-f', 'machine.hal')
         self.begin('milltask', '-ini', 'machine.ini')
-        with open('samples.txt', 'wb') as samples:
+        # Of a machine that was started before, the samples go on: numbered from 0 again.
+        with open('samples.txt', 'ab') as samples:
             self.sampler = subprocess.Popen(['halsampler', '-c', '0', '-t'], stdin=subprocess.DEVNULL, stdout=samples,
                                             stderr=self.log)
         self.run('halcmd', 'start')
+
+    def lose_power(self):
+        """Kills all of LinuxCNC, and whatever else this process began, in the middle of what it does.
+
+        The sampler is no part of the machine: it writes what it has, and ends. What the kernel keeps of LinuxCNC goes too, as when
+        the computer is switched off; files stay. `start` starts it again.
+        """
+        while left := [pid for pid in children(os.getpid()) if pid != self.sampler.pid]:
+            for pid in left:
+                kill(pid, signal.SIGKILL)
+            reap(left)
+        self.sampler.terminate()
+        try:
+            self.sampler.wait(5.0)
+        except subprocess.TimeoutExpired as error:
+            raise Failed('halsampler does not end: its last samples are lost') from error
+        for key, (segment, _) in shared_memory().items():
+            if key in KEYS:
+                libc.shmctl(segment, 0, None)  # 0: IPC_RMID
+        # A semaphore that a killed process held would never be free.
+        for row in pathlib.Path('/proc/sysvipc/sem').read_text().splitlines()[1:]:
+            if int(row.split()[0]) & 0xFFFFFFFF in KEYS:
+                libc.semctl(int(row.split()[1]), 0, 0)
+        pathlib.Path('rtapi.fifo').unlink(missing_ok=True)
 
     def stop(self):
         for command in (('halcmd', 'stop'), ('halcmd', 'unload', 'all'), ('./rtapi_app', 'exit')):
@@ -141,14 +180,15 @@ class Machine:
 class Operator:
     """Switches the machine on and starts the program."""
 
-    def __init__(self):
+    def __init__(self, machine):
+        self.machine = machine
         try:
             import linuxcnc
         except ImportError as error:
             raise Absent(f"LinuxCNC's Python module: {error}") from error
         self.lib = linuxcnc
         linuxcnc.nmlfile = os.path.abspath('channels.nml')
-        self.status, self.command, self.errors = self.connect()
+        self.connect()
 
     def connect(self):
         end = time.monotonic() + 20.0
@@ -156,7 +196,8 @@ class Operator:
             try:
                 status = self.lib.stat()
                 status.poll()
-                return status, self.lib.command(), self.lib.error_channel()
+                self.status, self.command, self.errors = status, self.lib.command(), self.lib.error_channel()
+                return
             except self.lib.error as error:
                 if time.monotonic() > end:
                     raise Absent(f'its task does not answer: {error}') from error
@@ -236,7 +277,7 @@ def run_inside(work, clock_rate):
     machine = Machine(clock_rate)
     try:
         machine.start()
-        operator = Operator()
+        operator = Operator(machine)
         operator.switch_on()
         work(operator)
         time.sleep(0.1)

@@ -34,7 +34,7 @@ std::string read_samples(std::string_view text, Record& out) {
     const auto end = std::min(text.find('\n'), text.size());
     std::string_view row = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    double values[9] = {};
+    double values[11] = {};
     for (double& v : values) {
       const auto number = parse_double(word(row));
       if (!number) return "samples were lost";
@@ -50,6 +50,8 @@ std::string read_samples(std::string_view text, Record& out) {
     out.rpm.push_back(values[6]);
     out.tool.push_back(static_cast<int>(values[7]));
     out.mark.push_back(static_cast<int>(values[8]));
+    out.lag_mm.push_back(values[9]);
+    out.kind.push_back(static_cast<int>(values[10]));
   }
   return out.size() == 0 ? "there are no samples" : "";
 }

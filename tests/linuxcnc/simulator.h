@@ -23,6 +23,8 @@ struct Record {
   std::vector<double> rpm;               ///< of the spindle as it turns
   std::vector<int> tool;                 ///< in the spindle; 0: none
   std::vector<int> mark;                 ///< set by who runs the machine, to tell runs from each other
+  std::vector<double> lag_mm;            ///< of the axes together, from where they were told to be
+  std::vector<int> kind;                 ///< of move, as motion.motion-type: 1 rapid, 2 feed, 3 arc; 0 none
   std::string samples;                   ///< the same as the sampler wrote it, where it was to be kept
   std::string absent;                    ///< why there is no LinuxCNC to ask; empty: there is
   std::string failed;                    ///< why the program did not run to its end; empty: it did

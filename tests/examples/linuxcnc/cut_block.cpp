@@ -7,6 +7,7 @@ namespace capstan::linuxcnc {
 namespace {
 
 constexpr double kTurning = 1.0;  // 1/min: less is standing
+constexpr int kRapid = 1;         // motion.motion-type of G0
 // Of examples/reference_pocket.p21, mm.
 constexpr double kPocketX = 50.0, kPocketY = 40.0, kHalfWidth = 30.0, kHalfDepth = 20.0, kCorner = 6.0,
                  kFloor = -10.0;
@@ -44,6 +45,7 @@ void CutBlock::cut(const Record& record, int mark, const std::map<int, Mill>& to
       for (int i = i0; i <= i1; ++i) {
         double& top = top_[static_cast<std::size_t>(j * nx_ + i)];
         if (!(tip < top) || std::hypot(i * kCell + kPoint - x, j * kCell + kPoint - y) > r) continue;
+        if (record.kind[s] == kRapid) rapid_mm_ = std::max(rapid_mm_, top - tip);
         top = tip;
         const double rpm = std::abs(record.rpm[s]);
         struck_ |= rpm < kTurning;

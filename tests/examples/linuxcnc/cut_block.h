@@ -36,6 +36,8 @@ class CutBlock {
   [[nodiscard]] bool whole() const;
   /// True when a tool went into the block with its spindle not turning.
   [[nodiscard]] bool struck() const { return struck_; }
+  /// How deep a rapid move went into the block at the most, mm.
+  [[nodiscard]] double rapid_mm() const { return rapid_mm_; }
   /// The spindle's greatest speed while it cut, 1/min.
   [[nodiscard]] double fastest_rpm() const { return fastest_rpm_; }
 
@@ -45,6 +47,7 @@ class CutBlock {
   std::vector<double> top_;
   std::array<double, 4> reached_;
   bool struck_ = false;
+  double rapid_mm_ = 0.0;
   double fastest_rpm_ = 0.0;
 };
 

@@ -22,15 +22,15 @@ def main():
     fault, last = sys.argv[2], int(sys.argv[3])
     whole, count = binder.bind, 0
 
-    def bind(library, session, request):
+    def bind(library, request):
         nonlocal count
         count += 1
         if count != last:
-            return whole(library, session, request)
+            return whole(library, request)
         sign = {'killed': signal.SIGKILL, 'hung': signal.SIGSTOP}[fault]
         later = threading.Thread(target=signal_self, args=(sign,))
         later.start()
-        answer = whole(library, session, request)
+        answer = whole(library, request)
         later.join()  # on a busy computer planning may be the faster one: no answer leaves before the fault
         return answer
 

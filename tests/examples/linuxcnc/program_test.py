@@ -1,4 +1,5 @@
 """What examples/linuxcnc/program.py makes of a program, and what it refuses; when the adapter says yes."""
+import json
 import pathlib
 import sys
 import types
@@ -148,8 +149,7 @@ class NumberOfTheWorkingstep(unittest.TestCase):
     """The program reads it as soon as the adapter has answered (part.ngc, M66)."""
 
     def told(self, status):
-        with unittest.mock.patch.dict(sys.modules, {'linuxcnc': types.ModuleType('linuxcnc')}):
-            import adapter
+        adapter = adapter_module()
         machine = adapter.Machine.__new__(adapter.Machine)
         machine.stat = status
         with unittest.mock.patch.object(adapter.subprocess, 'run'), unittest.mock.patch.object(adapter, 'SHOWN_S', 0.05):
@@ -163,6 +163,127 @@ class NumberOfTheWorkingstep(unittest.TestCase):
     def test_that_the_control_never_shows_is_refused(self):
         with self.assertRaisesRegex(program.Refused, 'does not show its inputs'):
             self.told(Status())
+
+
+def adapter_module():
+    with unittest.mock.patch.dict(sys.modules, {'linuxcnc': types.ModuleType('linuxcnc')}):
+        import adapter
+    return adapter
+
+
+class EndOfThePlanner(unittest.TestCase):
+    """A planner that ended for want of memory is told from one that was killed, and from one that broke down."""
+
+    def refused(self, script, memory=None):
+        planner = adapter_module().Planner([sys.executable, '-c', 'import os, signal, sys\nsys.stdin.readline()\n' + script],
+                                           memory)
+        try:
+            with self.assertRaises(program.Refused) as why:
+                planner.ask({}, 10.0)
+        finally:
+            planner.end()
+        return str(why.exception)
+
+    def test_names_memory_and_the_limit_where_it_ran_out_of_it(self):
+        self.assertRegex(self.refused('os._exit(12)', '64'), 'ran out of memory .* limit of 64 MB')
+
+    def test_names_the_signal_that_killed_it(self):
+        self.assertEqual(self.refused('os.kill(os.getpid(), signal.SIGKILL)', '64'),
+                         'the planner was killed from outside (SIGKILL) before it answered')
+
+    def test_names_the_signal_by_which_it_broke_down_and_the_limit_that_it_had(self):
+        self.assertRegex(self.refused('os.abort()', '64'), r'broke down \(SIGABRT\) .* limit of 64 MB')
+        self.assertNotIn('memory', self.refused('os.abort()'))
+
+    def test_names_the_exit_status_else(self):
+        self.assertRegex(self.refused('sys.exit(3)', '64'), 'exit status 3')
+
+
+class MemoryOfTheBinder(unittest.TestCase):
+    def test_is_named_with_its_limit_in_the_answer_of_a_call_that_ran_out_of_it(self):
+        import binder
+        full = {'code': 70, 'message': 'note: a\nerror: a fault of the library itself: std::bad_alloc\n', 'program': None}
+        self.assertTrue(binder.of_memory(full, '8'))
+        with self.assertRaisesRegex(program.Refused, '^planning takes more than the 8 MB of memory'):
+            program.of_answer(full, 1)
+        other = {'code': 70, 'message': 'error: a fault of the library itself: bad cast\n', 'program': None}
+        self.assertFalse(binder.of_memory(other, '8'))
+        self.assertIn('bad cast', other['message'])
+
+
+class Library:
+    """What of libcapstan_late.so a session needs."""
+
+    def __init__(self):
+        self.open, self.made = set(), 0
+
+    def capstan_late_create(self):
+        self.made += 1
+        self.open.add(self.made)
+        return self.made
+
+    def capstan_late_close(self, session):
+        self.open.remove(session)
+
+
+class SessionOfTheBinder(unittest.TestCase):
+    def test_stays_until_an_option_is_not_asked_for_any_more(self):
+        import binder
+        library = Library()
+        with unittest.mock.patch.multiple(binder.Held, session=None, options={}, plan=None):
+            self.assertEqual(binder.session_for(library, {'machine': 'm'}), 1)
+            binder.Held.options = {'machine': ('m', None)}
+            self.assertEqual(binder.session_for(library, {'machine': 'm', 'measured': 'wall=1'}), 1)
+            binder.Held.options['measured'] = ('wall=1', None)
+            # What was measured is over: a session that has it would go on with it.
+            self.assertEqual(binder.session_for(library, {'machine': 'm'}), 2)
+        self.assertEqual(library.open, {2})
+
+
+class MeasuredValues(unittest.TestCase):
+    """By number from the control, by name to the plan."""
+
+    def adapter(self):
+        out = adapter_module().Adapter.__new__(adapter_module().Adapter)
+        out.names, out.values, out.measured, out.journal = ['wall', 'floor'], {}, {}, unittest.mock.Mock()
+        return out
+
+    def test_get_the_name_of_their_number(self):
+        adapter = self.adapter()
+        adapter.answer(['value', '2.000000', '-0.030000'])
+        self.assertEqual(adapter.values, {'floor': -0.03})
+
+    def test_without_a_name_are_refused(self):
+        for number in ('0', '3'):
+            with self.assertRaisesRegex(program.Refused, 'has no name; --values names 2'):
+                self.adapter().answer(['value', number, '1'])
+
+    def test_a_diameter_is_as_exact_as_a_program_states_it(self):
+        adapter = self.adapter()
+        adapter.answer(['measured', '1.000000', '7.899472'])
+        self.assertEqual(adapter.measured, {1: 7.8995})
+
+    def test_what_a_statement_was_decided_to_is_found_in_the_answer(self):
+        words = "while 'STANDS': 'PASS' is taken, for wall (0.05) > 0.02 holds, once more"
+        said = answer(message=f'p: warning: kept [PIP-CONDITION]\nnote: {words} [LATE-REOPENED]\nnote: x [LATE-REOPENED]\n')
+        self.assertEqual(program.ways_taken(said), [words])
+        self.assertEqual(program.ways_taken({**said, 'code': 4}), [])
+
+
+class BroadcastToNobody(unittest.TestCase):
+    def test_that_waits_for_a_reply_which_does_not_come_ends_the_program(self):
+        import broadcast
+        late = {'code': 5, 'message': 'error: nobody replied to the broadcast in time [BROADCAST-REPLY]\n'}
+        with unittest.mock.patch.object(broadcast, 'Server') as server:
+            server.return_value.getresponse.return_value.read.return_value = json.dumps(late)
+            with self.assertRaisesRegex(program.Refused, 'nobody replied to the broadcast in time'):
+                broadcast.Broadcast.__new__(broadcast.Broadcast).ask('POST', '/v1/sessions/1/measured', {})
+
+    def test_of_which_the_server_does_not_answer_is_refused(self):
+        import broadcast
+        with unittest.mock.patch.object(broadcast, 'SOCKET', '/nowhere/broadcast.socket'):
+            with self.assertRaisesRegex(program.Refused, 'the server does not answer'):
+                broadcast.Broadcast.__new__(broadcast.Broadcast).ask('GET', '/health', {})
 
 
 if __name__ == '__main__':

@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include "planner/ground/base/number.h"
 #include "tests/support/corpus.h"
@@ -30,6 +32,11 @@ std::map<std::string, Outcome> read_outcomes(const std::string& text) {
     if (what == "said") o.said.push_back(value);
     if (what == "bound") o.bound.push_back(static_cast<int>(number));
     if (what == "cut") o.cut.push_back(static_cast<int>(number));
+    if (what == "bound_id") o.bound_ids.push_back(value);
+    if (what == "bound_tool") o.bound_tools.push_back(static_cast<int>(number));
+    if (what == "diameter") o.diameter_mm = number;
+    if (what == "decided") o.decided.push_back(value);
+    if (what == "cannot") o.cannot = value;
     if (what == "mark") o.mark = static_cast<int>(number);
     if (what == "tool") o.tool = static_cast<int>(number);
     if (what == "rpm") o.rpm = number;
@@ -46,18 +53,26 @@ Scenarios run_all() {
   const std::string machine = "'" + root + "/examples/reference_pocket_machine.yaml'";
   Scenarios out;
   // Tools and paths' strategy are chosen at the desk, speeds and feeds at the machine.
-  if (exit_of("'" CAPSTAN_COMMAND "' plan '" + root +
-                  "/examples/reference_pocket.p21' --bind tools --machine " + machine + " --tools '" + root +
-                  "/examples/reference_pocket_tools.yaml' -o '" + folder.file("plan.json") + "'",
-              said) != 0) {
-    out.failed = testing::slurp(said);
-    return out;
+  const std::string mill = root + "/examples/reference_pocket_tools.yaml",
+                    magazine = root + "/examples/bracket_magazine.tbl";
+  for (const auto& [part, tools, plan] :
+       {std::tuple(std::string("reference_pocket.p21"), mill, "plan.json"),
+        std::tuple(std::string("linuxcnc/spring_pass.p21"), mill, "while_plan.json"),
+        std::tuple(std::string("bracket.p21"), magazine, "bracket_plan.json")}) {
+    if (exit_of("'" CAPSTAN_COMMAND "' plan '" + root + "/examples/" + part + "' --bind tools --machine " +
+                    machine + " --tools '" + tools + "' -o '" + folder.file(plan) + "'",
+                said) != 0) {
+      out.failed = testing::slurp(said);
+      return out;
+    }
   }
   const int code =
       exit_of("/usr/bin/python3 '" + root +
                   "/tests/examples/linuxcnc/scenarios.py' --library '" CAPSTAN_LATE_LIBRARY
-                  "' --clock '" CAPSTAN_FAST_CLOCK "' --machine " +
-                  machine + " --plan '" + folder.file("plan.json") + "' --out '" + folder.path() + "'",
+                  "' --clock '" CAPSTAN_FAST_CLOCK "' --capstan '" CAPSTAN_COMMAND "' --machine " +
+                  machine + " --plan '" + folder.file("plan.json") + "' --while-plan '" +
+                  folder.file("while_plan.json") + "' --bracket-plan '" + folder.file("bracket_plan.json") +
+                  "' --bracket-tools '" + magazine + "' --out '" + folder.path() + "'",
               said);
   if (code != 0) {
     (code == kAbsent || code == 127 ? out.absent : out.failed) = testing::slurp(said);
@@ -74,11 +89,42 @@ Scenarios run_all() {
                   " && '" CAPSTAN_COMMAND "' cases trace " + base + " " + plan + "; }",
               said) != 0;
   out.cases = testing::slurp(said);
+  out.broadcast = testing::slurp(folder.file("broadcast.jsonl"));
   out.failed = read_samples(testing::slurp(folder.file("samples.txt")), out.record);
+  if (out.failed.empty()) out.failed = read_samples(testing::slurp(folder.file("all_there.txt")), out.first);
   return out;
 }
 
 }  // namespace
+
+void add_sample(const Record& from, std::size_t sample, Record& to) {
+  to.x_mm.push_back(from.x_mm[sample]);
+  to.y_mm.push_back(from.y_mm[sample]);
+  to.z_mm.push_back(from.z_mm[sample]);
+  to.speed_mm_s.push_back(from.speed_mm_s[sample]);
+  to.line.push_back(from.line[sample]);
+  to.rpm.push_back(from.rpm[sample]);
+  to.tool.push_back(from.tool[sample]);
+  to.mark.push_back(from.mark[sample]);
+  to.lag_mm.push_back(from.lag_mm[sample]);
+  to.kind.push_back(from.kind[sample]);
+}
+
+std::vector<Record> workingsteps(const Record& record, int mark) {
+  std::vector<Record> out;
+  Record now;
+  bool turned = false;
+  for (std::size_t s = 0; s < record.size(); ++s) {
+    if (record.mark[s] != mark) continue;
+    add_sample(record, s, now);
+    turned |= record.rpm[s] != 0.0;
+    if (record.rpm[s] != 0.0 || record.z_mm[s] < kRetracted - 1e-6) continue;
+    if (turned) out.push_back(std::move(now));
+    now = {};
+    turned = false;
+  }
+  return out;
+}
 
 const Scenarios& scenarios() {
   static const Scenarios kAll = run_all();

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Runs every scenario of late binding on one simulated machine, one after the other.
 
-    scenarios.py --library libcapstan_late.so --plan PLAN --machine FILE --clock libfast_clock.so --out FOLDER
+    scenarios.py --library libcapstan_late.so --capstan capstan --plan PLAN --while-plan PLAN --bracket-plan PLAN --bracket-tools TABLE
+                 --machine FILE --clock libfast_clock.so --out FOLDER [--only NAME ...]
 
-Writes OUT/samples.txt (simulated.py; its last column is the scenario's number) and OUT/outcomes.txt: lines of scenario,
+Writes OUT/samples.txt (simulated.py; its ninth column is the scenario's number) and OUT/outcomes.txt: lines of scenario,
 what and value, with a tab between. Ends as tests/linuxcnc/run.py does.
 """
 import argparse
-import json
 import os
 import pathlib
 import resource
@@ -15,174 +15,33 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 sys.dont_write_bytecode = True  # the checkout stays as it is
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[2] / 'examples' / 'linuxcnc'))
-import cut  # noqa: E402
-import simulated  # noqa: E402
+import shop as shops  # noqa: E402
+from gcode import (BIND, END, FACE, FIRST, FLOOR_Z, SETTER, SETTER_TOP_NOSE, SPRING, STANDS, STANDS_ROUGHED, TOUCH,  # noqa: E402
+                   WALL_TOP_NOSE, WALL_X, WHILE_WALL_STANDS)
+from shop import HERE, MILL_8, MILL_10, cut, simulated  # noqa: E402
 
-MILL_8 = 'T1 P1 Z+80 D+8 ;8 mm carbide end mill, 3 flutes\n'
-MILL_10 = 'T3 P3 Z+90 D+10 ;10 mm carbide end mill, 3 flutes\n'
 WORN = 'T1 P1 Z+78.5 D+7.9 ;8 mm carbide end mill, 3 flutes\n'
 MILL_16 = 'T4 P4 Z+95 D+16 ;16 mm carbide end mill, 3 flutes\n'
 STATES = 'tool.state'  # what is told of the tools beside the table
 PROBE = 'T9 P9 Z+100 D+6 ;touch probe\n'
-OFFSET_Z = -50.0
+MILL_ON_FLOOR_Z = shops.OFFSET_Z - 10.0 + 80.0  # the nose's height with T1 on the pocket's floor
+MID_CUT_X = 65.0  # where the finishing, from the middle outwards, has cut the floor half
+REAL_MM = 7.9  # the diameter of T1 in the scenario `measured`, of which the table says 8
 SURFACE_Z = -49.3  # of the piece in the scenario `probed_surface`, machine coordinates, mm
 DISK_BYTES = 1500  # less than a subroutine has, more than the journal
-HANG_GRACE_S = 1.0
 FAR_X = 200.0  # the pocket is 20 to 80 mm from there, X ends at 254
+# Of G54 for the bracket, whose longest tool has 125 mm. Not any: from -60 and a tool of 97 mm LinuxCNC computes its own top, to which
+# programs retract, as 1e-14 mm over the axis' limit, and refuses the next move.
+BRACKET_Z = -64.0
 MEMORY_MB = '8'  # less than planning the pocket takes
-BIND = '  M101 P#<step>\n'
-FIRST = 'M101 P0\n'
-# Touches the piece's top where the raw piece is whole, and moves G54 there.
-TOUCH = '''T9 M6
-G43 H9
-G0 X5 Y5
-G0 Z10
-M64 P0
-G38.2 Z-5 F300
-M65 P0
-G10 L2 P1 Z[#5223 + #5063]
-G0 Z10
-G49
-G53 G0 Z101.6
-'''
-
-
-# Touches the pocket's floor, and cuts the last workingstep again while more than 0.02 mm stands: a spring pass.
-FLOOR_Z = OFFSET_Z - 10.0 + 100.0  # the nose's height with the probe, 100 mm long, on the floor
-STANDS = 0.05
-END = 'M2\n'
-SPRING = f'''#<left> = 1
-#<passes> = 0
-o2 while [[#<left> GT 0.02] AND [#<passes> LT 3]]
-  T9 M6
-  G43 H9
-  G0 X50 Y40
-  G0 Z10
-  M64 P0
-  G38.2 Z-12 F300
-  M65 P0
-  #<left> = [#5063 + 10]
-  G0 Z10
-  G49
-  G53 G0 Z101.6
-  o3 if [#<left> GT 0.02]
-    M101 P2
-    M66 P0 L0
-    M102 P2
-    M66 P0 L0
-    o1002 call
-    M103 P2
-    M111 P{FLOOR_Z}
-    #<passes> = [#<passes> + 1]
-  o3 endif
-o2 endwhile
-'''
-
-
-def forget():
-    """What an adapter before knew of a part."""
-    for file in ('journal.jsonl', 'so_far.json'):
-        pathlib.Path(file).unlink(missing_ok=True)
-
-
-def journal():
-    file = pathlib.Path('journal.jsonl')
-    return file.read_text() if file.exists() else ''
-
-
-class Shop:
-    """The machine between and during scenarios."""
-
-    def __init__(self, operator, options, out):
-        self.operator, self.options, self.out, self.mark = operator, options, out, 0
-        self.lib, self.c, self.s = operator.lib, operator.command, operator.status
-
-    def listen(self):
-        said = []
-        while (message := self.operator.errors.poll()) is not None:
-            said.append(' '.join(str(message[1]).split()))
-        return said
-
-    def ready(self, table):
-        """Retracted, no tool, the table loaded, G54 where the piece is."""
-        c, lib = self.c, self.lib
-        c.abort()
-        c.wait_complete(5.0)
-        pathlib.Path('tools.tbl').write_text(table)
-        c.load_tool_table()
-        c.mode(lib.MODE_MDI)
-        c.wait_complete(5.0)
-        for words in ('G21 G90 G49', 'G53 G0 Z101.6', 'M5', 'T0 M6', f'G10 L2 P1 X0 Y0 Z{OFFSET_Z}', 'G53 G0 X0 Y0'):
-            c.mdi(words)
-            if c.wait_complete(20.0) != lib.RCS_DONE:
-                raise simulated.Failed(f'{words}: {self.listen()}')
-        for file in pathlib.Path('.').glob('100?.ngc'):
-            file.unlink()
-        self.listen()
-
-    def adapter(self, *more, planner=None, **limits):
-        arguments = ['--plan', 'plan', '--machine', 'machine.yaml', '--library', './libcapstan_late.so',
-                     '--grace', str(HANG_GRACE_S), '--deadline', '4', *more]
-        if planner:
-            arguments += ['--planner', sys.executable, '-B', 'faulty_planner.py', './libcapstan_late.so', *planner]
-        return cut.start_adapter(arguments, **limits)
-
-    def execute(self, program, until=None):
-        """Runs a program until the control is idle, or a condition holds; what the screen said."""
-        c, s, lib = self.c, self.s, self.lib
-        c.mode(lib.MODE_AUTO)
-        c.wait_complete(5.0)
-        pathlib.Path('run.ngc').write_text(program)
-        c.program_open(os.path.abspath('run.ngc'))
-        c.wait_complete(5.0)
-        c.auto(lib.AUTO_RUN, 0)
-        said, idle, begun, since = [], 0, False, time.monotonic()
-        while idle < 20:
-            time.sleep(0.01)
-            s.poll()
-            said += self.listen()
-            if until and until():
-                break
-            running = s.interp_state != lib.INTERP_IDLE or s.queue != 0 or not s.inpos
-            begun = begun or running or time.monotonic() > since + 2.0
-            idle = 0 if running or not begun else idle + 1
-            if time.monotonic() > since + 120.0:
-                raise simulated.Failed(f'the program does not end: {said}')
-        return said + self.listen()
-
-    def tell(self, name, said):
-        self.s.poll()
-        lines = [('mark', self.mark), ('rpm', self.s.spindle[0]['speed']), ('tool', self.s.tool_in_spindle)]
-        lines += [(axis, self.s.actual_position[i]) for i, axis in enumerate('xyz')]
-        lines += [('said', text) for text in said]
-        for entry in map(json.loads, journal().splitlines()):
-            if 'step' in entry:
-                lines.append((entry['event'], f'{entry["step"]}'))
-        self.out.writelines(f'{name}\t{key}\t{value}\n' for key, value in lines)
-
-    def new_mark(self):
-        self.mark += 1
-        subprocess.run(['halcmd', 'sets', 'mark', str(self.mark)], check=True, stdin=subprocess.DEVNULL)
-
-    def scenario(self, name, table=MILL_8 + MILL_10, program=None, ask=None, during=None, until=None, adapter=(), **more):
-        forget()
-        self.ready(table)
-        self.new_mark()
-        process = self.adapter(*adapter, **more)
-        try:
-            if ask:
-                subprocess.run([sys.executable, '-B', 'ask.py', *ask], check=True)
-            if during:
-                during(process)
-            self.tell(name, self.execute(program or self.options.program, until))
-        finally:
-            process.kill()
-            process.wait()
+NO_TIME_S = '0.001'  # binding takes longer
+LAG_GAIN = '0.9'  # of the drives in the scenario `all_there`: 30 mm/s are followed by 3.3 um
+# The adapter with a file system of its own, of one page, at FULL; nobody else sees it.
+FULL = 'full'
+MOUNTED = ('unshare', '--user', '--map-current-user', '--keep-caps', '--mount', 'sh', '-c',
+           f'mount -t tmpfs -o size=4k none {FULL} && head -c 4096 /dev/zero > {FULL}/filled && exec "$@"', 'sh')
 
 
 def kill_who_asks():
@@ -197,29 +56,53 @@ def kill_who_asks():
     return False
 
 
-def restart(shop):
-    """The power goes while the second workingstep is cut; another adapter goes on from the journal."""
-    forget()
+def set_pins(**pins):
+    """Pins of the simulated machine; `_` for `-`, `__` for `.`."""
+    for pin, value in pins.items():
+        name = pin.replace('__', '.').replace('_', '-')
+        subprocess.run(['halcmd', 'setp', name, str(value)], check=True, stdin=subprocess.DEVNULL)
+
+
+def stands_where_the_power_went():
+    """Where the machine stood when its last sample was taken, mm."""
+    with open('samples.txt', 'rb') as samples:
+        samples.seek(-4096, os.SEEK_END)
+        return [float(word) for word in samples.read().split(b'\n')[-2].split()[1:4]]
+
+
+def starts_there(place):
+    """The axes have absolute encoders: LinuxCNC, which counts from 0 where it starts, finds them where they stand."""
+    sections = pathlib.Path('machine.ini').read_text().split('HOME_SEQUENCE = 0')
+    homes = [f'HOME_SEQUENCE = 0\nHOME_OFFSET = {mm}\nHOME = {mm}' for mm in place]
+    pathlib.Path('machine.ini').write_text(''.join(a + b for a, b in zip(sections, [*homes, ''])))
+
+
+def power_goes(shop):
+    """LinuxCNC and the adapter are killed as the second workingstep is cut; both are started anew, and go on."""
+    shops.forget()
     shop.ready(MILL_8 + MILL_10)
     shop.new_mark()
     process = shop.adapter()
 
     def cutting_the_second():
-        return ('"event": "bound", "step": 2' in journal()
-                and shop.s.spindle[0]['speed'] != 0 and shop.s.actual_position[2] < 30.0 - 0.1)
+        x, _, z = shop.s.actual_position[:3]
+        return ('"event": "bound", "step": 2' in shops.journal()
+                and shop.s.spindle[0]['speed'] != 0 and z < MILL_ON_FLOOR_Z + 0.05 and x > MID_CUT_X)
 
     shop.execute(shop.options.program, cutting_the_second)
-    process.kill()
+    shop.operator.machine.lose_power()
     process.wait()
-    shop.c.state(shop.lib.STATE_ESTOP)
-    shop.c.wait_complete(5.0)
-    time.sleep(0.1)
-    shop.tell('power_lost', shop.listen())
-    shop.c.state(shop.lib.STATE_ESTOP_RESET)
-    shop.c.wait_complete(5.0)
-    shop.c.state(shop.lib.STATE_ON)
-    shop.c.wait_complete(5.0)
+    shop.tell('power_lost', [], alive=False)
+    place = stands_where_the_power_went()
+    pathlib.Path('stood.txt').write_text(' '.join(map(str, place)))
+    starts_there(place)
+    shop.operator.machine.start()
+    shop.operator.connect()
+    shop.operator.switch_on()
+    shop.take_operator()
+    shop.new_mark()
     shop.ready(MILL_8 + MILL_10)
+    shop.tell('lifted', shop.listen())
     shop.new_mark()
     process = shop.adapter()
     shop.tell('restarted', shop.execute(shop.options.program))
@@ -227,34 +110,57 @@ def restart(shop):
     process.wait()
 
 
+def full_disk(shop):
+    """A file system without a free page where subroutines are written; where none can be mounted, why."""
+    pathlib.Path(FULL).mkdir(exist_ok=True)
+    tried = subprocess.run([*MOUNTED, 'true'], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if tried.returncode != 0:
+        shop.out.write('disk_full\tcannot\t' + ' '.join(tried.stderr.split()) + '\n')
+        return
+    shop.scenario('disk_full', adapter=('--subroutines', FULL), before=MOUNTED)
+
+
 def work(operator, options):
     plan = options.program = pathlib.Path('part.ngc').read_text()
     assert all(text in plan for text in (BIND, FIRST, END))
+    os.chmod('capstan', 0o755)
     with open('outcomes.txt', 'w') as out:
-        shop = Shop(operator, options, out)
-        shop.scenario('all_there')
-        shutil.copyfile('1001.ngc', 'earlier.ngc')
-        shutil.copyfile('journal.jsonl', 'all_there.jsonl')
-        shutil.copyfile('so_far.json', 'all_there.json')
+        shop = shops.Shop(operator, options, out)
+        set_pins(lag_x__gain=LAG_GAIN, lag_y__gain=LAG_GAIN, lag_z__gain=LAG_GAIN)
+        shop.scenario('all_there', adapter=('--broadcast', 'broadcast.jsonl', '--capstan', './capstan'))
+        set_pins(lag_x__gain=1, lag_y__gain=1, lag_z__gain=1)
+        if not options.only or 'all_there' in options.only:
+            shutil.copyfile('1001.ngc', 'earlier.ngc')
+            shutil.copyfile('journal.jsonl', 'all_there.jsonl')
+            shutil.copyfile('so_far.json', 'all_there.json')
         shop.scenario('missing', table=MILL_10)
         shop.scenario('worn', table=WORN)
-        shop.scenario('measured', program=plan.replace(FIRST, 'M104 P1 Q7.9\n' + FIRST))
+        # The real cutter trips the setter.
+        set_pins(side_at__in0=FACE - 0.5 * REAL_MM, side_below__in1=SETTER_TOP_NOSE)
+        shop.scenario('measured', program=plan.replace(FIRST, SETTER + FIRST))
         for name, told in (('worn_told', 'T1 wear 0.05\n'), ('broken_told', 'T1 broken\n')):
             pathlib.Path(STATES).write_text(told)
             shop.scenario(name, adapter=('--tool-state', STATES))
         shop.scenario('told_since', adapter=('--tool-state', STATES), program=plan.replace(BIND, BIND + '  M112\n'),
                       table=MILL_10)
         shop.scenario('harder', ask=('material', 'mild_steel'))
-        subprocess.run(['halcmd', 'setp', 'probe-at.in1', str(SURFACE_Z + 100.0)], check=True)
+        set_pins(probe_at__in1=SURFACE_Z + 100.0)
         shop.scenario('probed_surface', table=MILL_8 + PROBE, program=plan.replace(FIRST, TOUCH + FIRST))
-        subprocess.run(['halcmd', 'setp', 'probe-at.in1', str(FLOOR_Z + STANDS)], check=True)
+        set_pins(probe_at__in1=FLOOR_Z + STANDS)
         shop.scenario('spring_pass', table=MILL_8 + PROBE, program=plan.replace(END, SPRING + END))
+        set_pins(side_at__in0=WALL_X - STANDS_ROUGHED, side_below__in1=WALL_TOP_NOSE)
+        shop.scenario('while_of_the_plan', table=MILL_8 + PROBE, program=plan.replace(END, WHILE_WALL_STANDS + END),
+                      plan='while_plan', adapter=('--values', 'wall'))
+        shop.scenario('bracket', table=pathlib.Path('bracket.tbl').read_text(), plan='bracket_plan',
+                      program=plan.replace(FIRST, f'G10 L2 P1 Z{BRACKET_Z}\n' + FIRST))
         shop.scenario('no_tool', table=MILL_16)
+        shop.scenario('no_time', adapter=('--deadline', NO_TIME_S))
         for fault in ('killed', 'hung'):
             shop.scenario(fault, planner=(fault, '3'))
         shop.scenario('memory', adapter=('--memory', MEMORY_MB))
         limit = (DISK_BYTES, DISK_BYTES)
         shop.scenario('disk', preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, limit))
+        full_disk(shop)
         for number, name in ((1, 'altered'), (2, 'cut_short'), (3, 'stale')):
             shop.scenario(name, program=plan.replace(BIND, BIND + f'  M110 P{number}\n'))
         shop.scenario('offset_moved', program=plan.replace(BIND, BIND + '  G10 L2 P1 Z-49\n'))
@@ -262,24 +168,31 @@ def work(operator, options):
         shop.scenario('adapter_hung', during=lambda process: process.send_signal(signal.SIGSTOP))
         shop.scenario('adapter_killed', during=lambda process: process.kill())
         shop.scenario('asker_killed', during=lambda process: process.send_signal(signal.SIGSTOP), until=kill_who_asks)
-        restart(shop)
+        if not options.only or 'power_lost' in options.only:
+            power_goes(shop)  # the last one: behind it the simulation counts its axes from elsewhere
 
 
 def of_mark(samples, mark, out):
     """The samples of one scenario, as they are."""
     with open(samples) as rows, open(out, 'w') as file:
-        file.writelines(row for row in rows if row.split()[-1] == str(mark))
+        file.writelines(row for row in rows if row.split()[8] == str(mark))
 
 
-def changes(samples, out):
-    """The samples at which the machine did anything, numbered anew."""
-    last, expected, count = '', None, 0
+def changes(samples, out, stood):
+    """The samples at which the machine did anything, numbered anew. `stood`: where it stood when LinuxCNC was started again, mm."""
+    last, expected, count, again = '', None, 0, False
     with open(samples) as rows, open(out, 'w') as file:
         for row in rows:
             number, _, rest = row.partition(' ')
             if expected is not None and int(number) != expected:
-                raise simulated.Failed('samples were lost')
+                if int(number) != 0 or again or not stood:
+                    raise simulated.Failed('samples were lost')
+                again = True
             expected = int(number) + 1
+            if again:
+                words = rest.split()
+                place = [f'{float(word) + mm:.6f}' for word, mm in zip(words, stood)]
+                rest = ' '.join([*place, *words[3:]]) + '\n'
             if rest != last:
                 file.write(f'{count} {rest}')
                 last, count = rest, count + 1
@@ -287,21 +200,27 @@ def changes(samples, out):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in ('library', 'plan', 'machine', 'clock', 'out'):
+    for name in ('library', 'capstan', 'plan', 'while-plan', 'bracket-plan', 'bracket-tools', 'machine', 'clock', 'out'):
         parser.add_argument(f'--{name}', required=True)
     parser.add_argument('--rate', type=float, default=24.0)
     parser.add_argument('--keep')
+    parser.add_argument('--only', nargs='+', help='names of scenarios; power_lost has the restart with it')
     options = parser.parse_args()
     # Read by ask.py below the control: the watchdog over the adapter.
     os.environ['CAPSTAN_PATIENCE'] = '8'
     files = {**cut.files(cut.HERE / 'tools.tbl', options.clock), 'plan': options.plan, 'machine.yaml': options.machine,
-             'libcapstan_late.so': options.library, **{name: HERE / name for name in ('M110', 'M111', 'M112', 'faulty_planner.py')}}
+             'while_plan': options.while_plan, 'bracket_plan': options.bracket_plan, 'bracket.tbl': options.bracket_tools,
+             'libcapstan_late.so': options.library, 'capstan': options.capstan,
+             **{name: HERE / name for name in ('M110', 'M111', 'M112', 'M113', 'faulty_planner.py')}}
 
     def collect(folder):
-        for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json'):
-            shutil.copyfile(folder / name, pathlib.Path(options.out) / name)
+        for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json', 'broadcast.jsonl'):
+            if (folder / name).exists():
+                shutil.copyfile(folder / name, pathlib.Path(options.out) / name)
         of_mark(folder / 'samples.txt', 1, pathlib.Path(options.out) / 'all_there.txt')
-        changes(folder / 'samples.txt', pathlib.Path(options.out) / 'samples.txt')
+        stood = folder / 'stood.txt'
+        changes(folder / 'samples.txt', pathlib.Path(options.out) / 'samples.txt',
+                [float(word) for word in stood.read_text().split()] if stood.exists() else [])
 
     return simulated.session(lambda operator: work(operator, options), files, clock_rate=options.rate, collect=collect,
                              keep=options.keep)
