@@ -1,6 +1,6 @@
 # Late binding on a machine that LinuxCNC simulates (examples/linuxcnc): one start of LinuxCNC for all scenarios, so one test.
 set(at_control ${CMAKE_CURRENT_LIST_DIR})
-add_executable(control_test ${at_control}/late_binding_test.cpp ${at_control}/scenarios.cpp ${at_control}/cut_block.cpp)
+add_executable(control_test ${at_control}/late_binding_test.cpp ${at_control}/bracket_test.cpp ${at_control}/scenarios.cpp ${at_control}/cut_block.cpp)
 target_link_libraries(control_test PRIVATE capstan_simulated GTest::gmock GTest::gtest_main)
 capstan_compile_as_test(control_test)
 # The example takes what is built, as it is used: the command, the library for C, the clock.
