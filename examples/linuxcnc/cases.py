@@ -5,9 +5,10 @@
     capstan cases import shop.db csv log.csv --plan so_far.json
 
 SAMPLES is what `halsampler -t` wrote (machine/machine.hal says which pins; a sample per servo period), JOURNAL the adapter's
-journal.jsonl. The following error is that of the axes together: how far the tool was from where it was told to be. The samples have no clock and no workingstep; but between two workingsteps the tool is retracted and the
-spindle stands (part.ngc), and within one neither is: the n-th time that the spindle turned is the n-th workingstep that the
-journal has as cut. A last one that the journal has not was broken off, and is left out.
+journal.jsonl. The following error is that of the axes together: how far the tool was from where it was told to be. The samples
+have no clock and no workingstep; but between two workingsteps the tool is retracted and the spindle stands (part.ngc), and
+within one neither is: the n-th time that the spindle turned is the n-th workingstep that the journal has as cut. A last one
+that the journal has not was broken off, and is left out.
 """
 import argparse
 import json
