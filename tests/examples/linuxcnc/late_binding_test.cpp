@@ -307,7 +307,8 @@ TEST_F(LateBindingAtTheControl, StopsWhenThePlannerFailsInMidPlan) {
 }
 
 TEST_F(LateBindingAtTheControl, StopsWhenPlanningTakesMoreMemoryThanItMay) {
-  expect_refused("memory", "planning takes more than the 8 MB of memory that it may");
+  // By the library's answer, or by how the process ended, where it found no memory for one (program_test.py).
+  expect_refused("memory", "8 MB of memory");
 }
 
 TEST_F(LateBindingAtTheControl, StopsWhenTheDiskTakesNoWholeSubroutine) {
