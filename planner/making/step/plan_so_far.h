@@ -36,6 +36,7 @@ struct PlanSoFar {
   const piece::Demands& demands;
   const draft::Recorded& recorded;
   const Wishes& wishes;
+  std::size_t cut = 0;  ///< so many of the recorded steps are cut: they are not among the plan's
 };
 
 }  // namespace capstan::step

@@ -13,6 +13,7 @@
 #include "planner/door/service/session.h"
 #include "planner/files/json/json.h"
 #include "planner/making/given/listed_steps.h"
+#include "planner/model/nouns/all.h"
 #include "planner/proof/verify/verify.h"
 #include "tests/door/late/brought.h"
 #include "tests/support/corpus.h"
@@ -94,6 +95,36 @@ TEST(LateNext, StepByStepComesAWholePlanThatTheCheckPasses) {
   ASSERT_TRUE(again) << to_text(again.error());
   EXPECT_EQ(again->first, 1U);  // nothing is open: from the beginning
   EXPECT_TRUE(again->kept);
+}
+
+// What roughing leaves by bending is wider for a finish, also where roughing is cut and not planned any more:
+// once a finish in hardened steel was fed two thirds faster when it was bound alone.
+TEST(LateNext, AFinishIsAsWideStepByStepAsInTheWhole) {
+  for (const char* material : {"", "42CrMo4+QT"}) {
+    const Open part = open(kBracket);
+    pipeline::Inputs in = remembering(shop_of(part.table));
+    if (*material != '\0') in.material_name = material;
+    LatePolicy all = next();
+    all.next.reset();
+    Job job;
+    const auto whole = bind(part.plan, in, all, job);
+    ASSERT_TRUE(whole) << to_text(whole.error());
+    model::Plan so_far = part.plan;
+    double wider = 0.0;
+    for (std::size_t k = 0; k < whole->plan.steps.size(); ++k) {
+      auto bound = bind(so_far, in, next(), job);
+      ASSERT_TRUE(bound) << k << ": " << to_text(bound.error());
+      const model::StepResult &one = bound->part->steps.front(), &of_whole = whole->plan.steps[k];
+      EXPECT_NEAR(one.radial_depth_mm, of_whole.radial_depth_mm, 1e-3) << material << k << one.cutter_id;
+      EXPECT_NEAR(one.feed_mm_min, of_whole.feed_mm_min, 0.01 * of_whole.feed_mm_min) << material << k;
+      const auto* finish = bound->plan.model.get<model::MachiningWorkingstep>(one.step);
+      if (finish != nullptr &&
+          bound->plan.model.holds<model::BottomAndSideFinishMilling>(finish->its_operation))
+        wider = std::max(wider, one.radial_depth_mm);
+      so_far = std::move(bound->plan);
+    }
+    EXPECT_GT(wider, 0.0) << "the part has no finish of walls";
+  }
 }
 
 TEST(LateNext, AWorkingstepIsCheckedAgainstWhatIsCutAndItsFaultsAreFound) {

@@ -50,8 +50,8 @@ class PathMaker {
         known_(std::move(known)),
         piece_{plan_, required.shapes, grown_mm(asked.inputs)},
         wishes_(wishes_of(asked)),
-        p_{plan_, drafts_.setups, drafts_.steps, piece_, required.demands, asked.recorded, wishes_},
         cut_(cut_before(asked, drafts_)),
+        p_{plan_, drafts_.setups, drafts_.steps, piece_, required.demands, asked.recorded, wishes_, cut_},
         bans_(asked.bans),
         job_(job),
         stocks_(plan_.stock, drafts_.setups, drafts_.steps, left_out_, asked.smallest, asked.memo),
@@ -456,8 +456,8 @@ class PathMaker {
   step::KnownCuts known_;
   const piece::Piece piece_;
   const step::Wishes wishes_;
-  const step::PlanSoFar p_;
   const std::size_t cut_;  ///< of the steps, the first that are cut
+  const step::PlanSoFar p_;
   const draft::Bans& bans_;
   Job& job_;
   std::set<AnyRef> left_out_;  ///< steps that are taken out, for they cut nothing or no mill is worth it

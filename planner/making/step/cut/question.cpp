@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/operation.h"
@@ -102,15 +105,21 @@ double rough_bending_mm(const PlanSoFar& p, const StepDraft& step, const toolpat
 /// tip was bent, for a cutter that climbs is pushed off the wall. 0: no such step, or its bending is unknown.
 double left_by_bending_mm(const PlanSoFar& p, const StepDraft& step) {
   const Model& m = p.plan.model;
-  for (auto r = p.plan.steps.rbegin(); r != p.plan.steps.rend(); ++r) {
-    const auto* ws = m.get<model::MachiningWorkingstep>(r->step);
-    if (ws == nullptr || AnyRef(ws->its_feature) != step.feature) continue;
+  const auto left_by = [&](const model::StepResult& r) -> std::optional<double> {
+    const auto* ws = m.get<model::MachiningWorkingstep>(r.step);
+    if (ws == nullptr || AnyRef(ws->its_feature) != step.feature) return std::nullopt;
     const auto* side = m.get<model::SideMilling>(ws->its_operation);
     const auto* both = m.get<model::BottomAndSideMilling>(ws->its_operation);
     const double left = side != nullptr   ? side->allowance_side.value_or(0.0)
                         : both != nullptr ? both->allowance_side.value_or(0.0)
                                           : 0.0;
-    if (left > 0.0) return std::min(left, r->loads.deflection_mm);
+    return left > 0.0 ? std::optional(std::min(left, r.loads.deflection_mm)) : std::nullopt;
+  };
+  const std::span<const model::StepResult> cut(p.recorded.steps.data(),
+                                               std::min(p.cut, p.recorded.steps.size()));
+  for (const std::span<const model::StepResult> steps : {std::span(std::as_const(p.plan.steps)), cut}) {
+    for (auto r = steps.rbegin(); r != steps.rend(); ++r)
+      if (const auto mm = left_by(*r)) return *mm;
   }
   return 0.0;
 }
