@@ -48,7 +48,7 @@ struct PlanOptions {
   std::string bind = {};      ///< how far `plan_...` closes decisions: "none", "strategy", "tools", "all"
   std::string deadline = {};  ///< of `bind_...`, since the call: "200ms", "2s"; then PlanOutput::late
   bool strict = false;        ///< no program and no form of a plan that has findings
-  std::string profile = {};   ///< `check_...`: hold plans against this control's profile: an id, or a file
+  std::string profile = {};   ///< `bind_...`, `check_...`: hold plans against this control: an id, or a file
   bool schema = false;        ///< `check_...`: what does not follow the schema is a finding, too
   /// Called with the name of a stage and a fraction from 0 to 1, by the calling thread or one of its workers;
   /// it must not throw.

@@ -114,26 +114,27 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_bind_next(capstan_late* session,
 CAPSTAN_LATE_API const char* capstan_late_left_open(capstan_late* session);
 
 /* What of the plan at hand no longer holds with machine, material and tools as they are set now, a sentence a
- * line: what a bind would open or check anew; empty where nothing does. Nothing is bound. NULL where it cannot be
- * told: capstan_late_status and capstan_late_message say why (USAGE: no plan; IMPOSSIBLE: what no bind gets over,
- * as a tool without a length). It is valid until the next call of it or close. */
+ * line: what a bind would open or check anew; empty where nothing does. Nothing is bound. NULL where it
+ * cannot be told: capstan_late_status and capstan_late_message say why (USAGE: no plan; IMPOSSIBLE: what no
+ * bind gets over, as a tool without a length). It is valid until the next call of it or close. */
 CAPSTAN_LATE_API const char* capstan_late_no_longer_valid(capstan_late* session);
 
 /* What of the plan at hand does not suit the control, before the first chip, a finding a line, errors first:
- * what the control cannot do (arcs, cycles, axes, radii, feeds, tolerances, block rate), and what the plan leaves open,
- * misses, states twice or against itself. The control is that of the option "profile" (an id, or a file of what a control
- * can do), else the machine's own. With "profile" set each bind holds its plan against it, too: an error refuses it
- * (LATE-UNSUITED, IMPOSSIBLE). NULL and validity as above. */
+ * what the control cannot do (arcs, cycles, axes, radii, feeds, tolerances, block rate), and what the plan
+ * leaves open, misses, states twice or against itself. The control is that of the option "profile" (an id, or
+ * a file of what a control can do), else the machine's own. With "profile" set each bind holds its plan
+ * against it, too: an error refuses it (LATE-UNSUITED, IMPOSSIBLE). NULL and validity as above. */
 CAPSTAN_LATE_API const char* capstan_late_unsuited(capstan_late* session);
 
-/* Tells what the control does and measures, and gives the broadcasts that are due by it (AP238 edition 4) as lines
- * of JSON; empty where none is. `event` is "start", "at" or "end" of the workingstep with that id, or "finish" of the run.
- * `time` is the time as the control says it, `elapsed_s` seconds since any moment that is the same for all
- * events; NULL and a negative number: not told. Of the `count` values each has the name of AP238 ("spindle speed",
- * "feedrate", "location": [x, y, z] in mm in the set-up's frame) and its value as JSON. A line with "reply_to" waits: the
- * control goes on when somebody replied. Where the plan has no broadcasts, start and end of each workingstep are
- * sent with all that is told. The run goes on while the plan is bound further, and begins anew with another plan.
- * NULL: capstan_late_status and capstan_late_message say why. It is valid until the next call of it or close. */
+/* Tells what the control does and measures, and gives the broadcasts that are due by it (AP238 edition 4) as
+ * lines of JSON; empty where none is. `event` is "start", "at" or "end" of the workingstep with that id, or
+ * "finish" of the run. `time` is the time as the control says it, `elapsed_s` seconds since any moment that
+ * is the same for all events; NULL and a negative number: not told. Of the `count` values each has the name
+ * of AP238 ("spindle speed", "feedrate", "location": [x, y, z] in mm in the set-up's frame) and its value as
+ * JSON. A line with "reply_to" waits: the control goes on when somebody replied. Where the plan has no
+ * broadcasts, start and end of each workingstep are sent with all that is told. The run goes on while the
+ * plan is bound further, and begins anew with another plan. NULL: capstan_late_status and
+ * capstan_late_message say why. It is valid until the next call of it or close. */
 CAPSTAN_LATE_API const char* capstan_late_measured(capstan_late* session, const char* event,
                                                    const char* workingstep, const char* time,
                                                    double elapsed_s, const char* const* names,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -24,8 +25,8 @@ class Specification {
  public:
   Specification(const model::Plan& plan, const Conformance& control) : plan_(plan), can_(control) {}
 
-  std::vector<Finding> all() {
-    under_specified();
+  std::vector<Finding> all(bool part) {
+    if (!part) under_specified();
     missing();
     contradictory();
     speeds();
@@ -51,13 +52,12 @@ class Specification {
     std::vector<AnyRef> roots = {plan_.project};
     const auto steps = plan_.model.all_below(TypeId::kExecutable);
     roots.insert(roots.end(), steps.begin(), steps.end());
-    const auto reached = model::reachable(plan_.model, roots);
+    const auto all = model::reachable(plan_.model, roots);
+    const std::set<AnyRef> reached(all.begin(), all.end());
     std::size_t open = 0;
     std::string first;
     for (const auto& [key, d] : plan_.ledger.entries()) {
-      if (d.state != model::DecisionState::kOpen ||
-          std::find(reached.begin(), reached.end(), key.object) == reached.end())
-        continue;
+      if (d.state != model::DecisionState::kOpen || !reached.contains(key.object)) continue;
       if (open++ == 0) first = key.attribute + " of " + name(key.object);
     }
     if (open > 0)
@@ -141,10 +141,11 @@ class Specification {
               ", which the control does not send");
     if (!can_.splines) {
       std::size_t splines = 0;
+      const auto curves = plan_.model.all_below(TypeId::kBSplineCurve);
+      const std::set<AnyRef> all(curves.begin(), curves.end());
       for (const AnyRef at : plan_.model.all_below(TypeId::kCutterLocationTrajectory)) {
         const auto curve = plan_.model.at<model::CutterLocationTrajectory>(at).basiccurve;
-        const auto all = plan_.model.all_below(TypeId::kBSplineCurve);
-        if (curve.set() && std::find(all.begin(), all.end(), AnyRef(curve)) != all.end()) ++splines;
+        if (curve.set() && all.contains(curve)) ++splines;
       }
       if (splines > 0)
         add("FIT-OVER", Severity::kNote, {},
@@ -165,8 +166,8 @@ class Specification {
 
 }  // namespace
 
-std::vector<Finding> specification(const model::Plan& plan, const Conformance& control) {
-  return Specification(plan, control).all();
+std::vector<Finding> specification(const model::Plan& plan, const Conformance& control, bool part) {
+  return Specification(plan, control).all(part);
 }
 
 }  // namespace capstan::controls

@@ -19,6 +19,8 @@ inline constexpr int kSaysWhatThePlanDoes = 33;
 ///                  (B-splines, broadcasts). FIT-COMPENSATION, an error: a path of the contact, which the
 ///                  control cannot offset.
 /// One finding for each code and workingstep or technology.
-[[nodiscard]] std::vector<model::Finding> specification(const model::Plan& plan, const Conformance& control);
+/// `part`: of some of its workingsteps only; what others leave open is not asked.
+[[nodiscard]] std::vector<model::Finding> specification(const model::Plan& plan, const Conformance& control,
+                                                        bool part = false);
 
 }  // namespace capstan::controls

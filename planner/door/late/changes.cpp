@@ -86,6 +86,20 @@ struct ChangeSoFar {
 /// Whether a written number shows the difference.
 bool shown(double a, double b, int decimals) { return trimmed(a, decimals) != trimmed(b, decimals); }
 
+/// The least increment that a control takes in millimetres, of which a change is none. Source: Fanuc Series
+/// 0i, operator's manual, increment system IS-B.
+constexpr double kIncrementMm = 1e-3;
+
+/// Whether two paths are the same moves, within kIncrementMm at each point.
+bool agree(const model::CutterPath& a, const model::CutterPath& b) {
+  if (a.size() != b.size() || a.kind != b.kind) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto off = a.point(i) - b.point(i);
+    if (std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)}) > kIncrementMm) return false;
+  }
+  return true;
+}
+
 Change compared(const Plan& before, const Plan& after, const StepResult& a, const StepResult& b,
                 const std::string& name) {
   ChangeSoFar out;
@@ -103,28 +117,29 @@ Change compared(const Plan& before, const Plan& after, const StepResult& a, cons
     const model::Cutter* is = model::find_cutter(after, b.cutter_id);
     return was && is ? std::abs(was->cutting_diameter_mm - is->cutting_diameter_mm) : 0.0;
   };
-  // By less, it is what a cut before leaves and follows from its feed: no control's program has it.
-  constexpr double kResolutionMm = 1e-3;
   const bool depth = !model::same_value(a.axial_depth_mm, b.axial_depth_mm);
   const bool width = !model::same_value(a.radial_depth_mm, b.radial_depth_mm) &&
                      std::abs(a.radial_depth_mm - b.radial_depth_mm) > (measured ? followed_mm() : 0.0);
+  // What a cut before leaves follows from its feed, which bends it: less than a control is told is no
+  // decision.
+  const bool other_cut = (depth && std::abs(a.axial_depth_mm - b.axial_depth_mm) > kIncrementMm) ||
+                         (width && std::abs(a.radial_depth_mm - b.radial_depth_mm) > kIncrementMm);
   if (depth || width) {
     std::string words;
     if (shown(a.axial_depth_mm, b.axial_depth_mm, 3))
       words = numbers("depth", a.axial_depth_mm, b.axial_depth_mm, 3, " mm");
     if (shown(a.radial_depth_mm, b.radial_depth_mm, 3))
       words += (words.empty() ? "" : ", ") + numbers("width", a.radial_depth_mm, b.radial_depth_mm, 3, " mm");
-    const bool decided = std::abs(a.axial_depth_mm - b.axial_depth_mm) > kResolutionMm ||
-                         std::abs(a.radial_depth_mm - b.radial_depth_mm) > kResolutionMm;
-    out.add(decided ? std::optional(Choice::kDepths) : std::nullopt,
-            decided && !words.empty() ? words : "depth or width, by less than a micrometre");
+    out.add(other_cut ? std::optional(Choice::kDepths) : std::nullopt,
+            other_cut && !words.empty() ? words : "depth or width, by less than a micrometre");
   }
   const auto changed = [](const auto& p, const auto& q) {
     return (p == nullptr) != (q == nullptr) || (p != nullptr && !(*p == *q));
   };
   const bool path = changed(a.path, b.path);
   if (path) {
-    const bool decided = same && !measured && !depth && !width;
+    const bool follows = (depth || width) && a.path && b.path && agree(*a.path, *b.path);
+    const bool decided = same && !measured && !other_cut && !follows;
     out.add(decided ? std::optional(Choice::kStrategy) : std::nullopt, "new path");
   }
   const bool speed = shown(a.spindle_rpm, b.spindle_rpm, 0), feed = shown(a.feed_mm_min, b.feed_mm_min, 1);

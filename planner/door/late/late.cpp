@@ -322,7 +322,8 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
   const auto material = material_now(brought, inputs);
   if (material) {
     // Tools that are the plan's have what its card said.
-    if (auto ok = pipeline::take_start_values(*material, inputs.library); !ok) return tl::unexpected(ok.error());
+    if (auto ok = pipeline::take_start_values(*material, inputs.library); !ok)
+      return tl::unexpected(ok.error());
   }
   if (const std::string other = other_material(brought, material); !other.empty()) {
     const auto speeds = planned_speeds(brought, cut);

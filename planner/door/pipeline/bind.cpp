@@ -204,8 +204,7 @@ Result<std::optional<model::Plan>> bind_once(model::Plan plan, const Inputs& inp
   const mechanics::MarginPolicy margin = resolved->margin.policy;
   put_workpiece(plan, *std::move(resolved), inputs);
   // Cutters of the plan have what its card said, and this may be another.
-  if (auto ok = take_start_values(plan.material, recorded.cutters); !ok)
-    return tl::unexpected(ok.error());
+  if (auto ok = take_start_values(plan.material, recorded.cutters); !ok) return tl::unexpected(ok.error());
   take_cases(plan, inputs.cases.get(), recorded.material, tries, job);
   const Asked asked{.inputs = inputs,
                     .policy = policy,

@@ -30,7 +30,8 @@ std::vector<model::Finding> findings_of(const Checked& checked, Job& job, Checke
     return out;
   }
   const verify::ProgramText text{"program", *program, controls::tool_table_of(plan)};
-  auto more = verify::check_program(text, &plan, plan.machine, plan.cutters, job, proofs, before, checked.part.get());
+  auto more =
+      verify::check_program(text, &plan, plan.machine, plan.cutters, job, proofs, before, checked.part.get());
   out.insert(out.end(), more.begin(), more.end());
   if (kept != nullptr) *kept = {text.text, text.tool_table, std::move(more)};
   return out;

@@ -221,13 +221,11 @@ std::vector<Option> table() {
        both("what is made least or most: time, cost, or profit per time (needs --revenue)"),
        [](Request& r, Text t) { return r.objective = value_of(objective_words(), t), std::string(); },
        names(objective_words())},
-      {"margin",
-       Value::kText,
+      {"margin", Value::kText,
        both("how far above the expected loads the loads are that limits are held against: careful "
             "(19 of 20 cuts stay below), usual (5 of 6; the default), bold (7 of 10), or a number of "
             "standard deviations, e.g. 1.28 (9 of 10)"),
-       &set_margin,
-       mechanics::margin_names()},
+       &set_margin, mechanics::margin_names()},
       {"revenue",
        Value::kText,
        both("what a piece brings less its material, in the currency of the machine's cost per hour"),

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "planner/controls/suitability.h"
-#include "planner/door/service/state/at_machine.h"
 #include "planner/door/late/late.h"
 #include "planner/door/late/measured_names.h"
 #include "planner/door/pipeline/cases/corrected_card.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
+#include "planner/door/service/state/at_machine.h"
 #include "planner/door/service/state/axis_limits.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
@@ -274,14 +274,13 @@ Outcome<Planned> bound(const Request& request, const model::Plan& brought, pipel
     return failed(*std::move(left), Code::kImpossible);
   if (request.profile) {
     const model::Plan& made = outcome->part ? *outcome->part : outcome->plan;
-    auto found = unsuited(request, made.machine, made, job);
+    auto found = unsuited(request, made.machine, made, outcome->part.has_value(), job);
     if (!found) return failed(found.error(), code_of(found.error(), Code::kUnreadable));
     for (model::Finding& f : *found) {
-      if (f.code == "FIT-OPEN" && outcome->part) continue;  // of the other workingsteps
       if (f.severity == Severity::kError && !request.allow_findings)
         return failed({.code = "LATE-UNSUITED",
-                       .message = "the plan does not suit the control '" + *request.profile + "': " + f.message +
-                                  " [" + f.code + "]",
+                       .message = "the plan does not suit the control '" + *request.profile +
+                                  "': " + f.message + " [" + f.code + "]",
                        .file = plan.file_name,
                        .path = f.step,
                        .hint = "retract and stop; plan it for this control, or correct its profile"},

@@ -6,13 +6,13 @@
 #include <exception>
 #include <utility>
 
-#include "planner/door/service/state/at_machine.h"
 #include "planner/door/service/explain/explain.h"
 #include "planner/door/service/formats.h"
 #include "planner/door/service/options.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
 #include "planner/door/service/shop_file/shop_file.h"
+#include "planner/door/service/state/at_machine.h"
 #include "planner/door/service/state/axis_limits.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/making/given/listed_steps.h"
@@ -21,11 +21,11 @@ namespace capstan::service {
 namespace {
 
 /// Options of a binding that nothing of a shop depends on.
-constexpr std::array<std::string_view, 8> kOfOneCall = {
-    "deadline", "from", "measured", "may", "next", "stop-at-deadline", "threads", "time"};
+constexpr std::array<std::string_view, 9> kOfOneCall = {
+    "deadline", "from", "measured", "may", "next", "profile", "stop-at-deadline", "threads", "time"};
 
 /// Options that a bound program is held against before it is given.
-constexpr std::array<std::string_view, 2> kOfPlaces = {"axis-limits", "work-offset"};
+constexpr std::array<std::string_view, 3> kHeldAgainst = {"axis-limits", "profile", "work-offset"};
 
 /// The option that tells what became of the loaded tools.
 constexpr std::string_view kTools = "tool-state";
@@ -59,7 +59,7 @@ Code Session::set(std::string_view name, const std::string& text) {
   return guarded([&] {
     message_.clear();
     if (auto ok = service::set(request_, name, text); !ok) return end(Code::kUsage, to_text(ok.error()));
-    if (std::find(kOfPlaces.begin(), kOfPlaces.end(), name) != kOfPlaces.end()) drop_bound();
+    if (std::find(kHeldAgainst.begin(), kHeldAgainst.end(), name) != kHeldAgainst.end()) drop_bound();
     if (name == kTools) {
       take_told();
       return end(Code::kDone);
@@ -200,11 +200,13 @@ Code Session::no_longer_valid(std::vector<std::string>& out) {
 Code Session::unsuited(std::vector<std::string>& out) {
   out.clear();
   return asked([&](const model::Plan& plan, Job& job) {
-    const auto found = service::unsuited(*in_shop_, shop_->machine, plan, job);
+    const auto found = service::unsuited(*in_shop_, shop_->machine, plan, false, job);
     if (!found) return end(code_of(found.error(), Code::kUnreadable), to_text(found.error()));
     for (const model::Finding& f : *found)
-      out.push_back(to_text(Diagnostic{
-          .code = f.code, .severity = f.severity, .message = (f.step.empty() ? "" : "step '" + f.step + "': ") + f.message}));
+      out.push_back(
+          to_text(Diagnostic{.code = f.code,
+                             .severity = f.severity,
+                             .message = (f.step.empty() ? "" : "step '" + f.step + "': ") + f.message}));
     return Code::kDone;
   });
 }
@@ -346,9 +348,8 @@ const std::string* Session::output(std::string_view name) {
 }
 
 std::optional<Broadcasts> Session::broadcasts(const std::optional<DefaultContent>& otherwise) const {
-  if (bound_) return Broadcasts(bound_->plan, otherwise);
-  if (read_) return Broadcasts(read_->plan, otherwise);
-  return std::nullopt;
+  const model::Plan* plan = at_hand();
+  return plan == nullptr ? std::nullopt : std::optional<Broadcasts>(std::in_place, *plan, otherwise);
 }
 
 std::size_t Session::steps() const { return bound_ ? given::steps_in_order(bound_->plan).size() : 0; }

@@ -27,8 +27,8 @@ class Session {
   explicit Session(std::string sign = {}) { request_.sign = std::move(sign); }
 
   /// Sets an option by its name (options.h). One that the shop depends on opens it anew at the next call, and
-  /// reads the shop's settings (the option `shop`) anew. "axis-limits" and "work-offset" drop what is bound,
-  /// for it was not held against them; `bind_next` goes on with it all the same.
+  /// reads the shop's settings (the option `shop`) anew. "axis-limits", "work-offset" and "profile" drop what
+  /// is bound, for it was not held against them; `bind_next` goes on with it all the same.
   Code set(std::string_view name, const std::string& text);
   /// Sets what became of the loaded tools (late::parse_tool_states), in place of what was told before; the
   /// option "tool-state" does the same with a file. An empty text: nothing is told. What is bound is dropped,
@@ -73,7 +73,7 @@ class Session {
   const std::string* output(std::string_view format);
   /// What changed against the plan that was brought (Planned::changes); null without a plan.
   [[nodiscard]] const std::string* changes() const { return bound_ ? &bound_->changes : nullptr; }
-  /// The broadcasts of the bound plan, else of the one that was read last; nothing without either.
+  /// The broadcasts of the plan at hand; nothing without one.
   [[nodiscard]] std::optional<Broadcasts> broadcasts(const std::optional<DefaultContent>& otherwise) const;
   /// Of what was bound; 0 if nothing is.
   [[nodiscard]] double machining_s() const;
@@ -84,6 +84,11 @@ class Session {
   [[nodiscard]] Code code() const { return code_; }
   [[nodiscard]] const std::string& message() const { return message_; }
 
+  /// Ends a call in which the caller itself failed.
+  void fault() noexcept {
+    message_.clear();
+    code_ = Code::kFault;
+  }
   /// Ends a call that was used wrongly.
   Code wrong(std::string line);
 

@@ -46,6 +46,7 @@ const char* lines_of(capstan_late& s, std::string capstan_late::*kept, Ask ask) 
     for (const std::string& one : out) text += one + "\n";
     return (s.*kept = std::move(text)).c_str();
   } catch (...) {
+    s.session.fault();
     return nullptr;
   }
 }
@@ -128,8 +129,9 @@ const char* capstan_late_no_longer_valid(capstan_late* s) {
 }
 
 const char* capstan_late_unsuited(capstan_late* s) {
-  return s == nullptr ? nullptr
-                      : lines_of(*s, &capstan_late::unsuited, [&](auto& out) { return s->session.unsuited(out); });
+  return s == nullptr
+             ? nullptr
+             : lines_of(*s, &capstan_late::unsuited, [&](auto& out) { return s->session.unsuited(out); });
 }
 
 const char* capstan_late_measured(capstan_late* s, const char* event, const char* workingstep,

@@ -82,7 +82,10 @@ void pack(Out& out, const T& v) {
     if constexpr (kPlain<E> && !std::is_same_v<E, bool>) {
       append(out, reinterpret_cast<const char*>(v.data()), v.size() * sizeof(E));
     } else {
-      for (const auto& e : v) pack(out, static_cast<const E&>(e));
+      for (const auto& e : v) {
+        tick();
+        pack(out, static_cast<const E&>(e));
+      }
     }
   } else if constexpr (kIs<T, std::map>) {
     pack(out, static_cast<std::uint64_t>(v.size()));

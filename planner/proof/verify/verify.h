@@ -48,8 +48,8 @@ struct ReadPart;
                                                      std::shared_ptr<const ReadPart>* part = nullptr);
 
 /// What is wrong with a program, alone or against the plan that it was written from. Steps are found by the
-/// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1. `part`: what the check
-/// of this very plan read of its part, with the same `known`; null: it is read.
+/// markers `(CAPSTAN STEP id="..." n=...)`; `Finding::move` is the line, counted from 1. `part`: what the
+/// check of this very plan read of its part, with the same `known`; null: it is read.
 [[nodiscard]] std::vector<model::Finding> check_program(const ProgramText& program, const model::Plan* plan,
                                                         const model::Machine& machine,
                                                         const std::vector<model::Cutter>& cutters, Job& job,

@@ -9,8 +9,8 @@
 #include "planner/files/json/json.h"
 #include "tests/door/late/brought.h"
 
-// What a control asks through the interface for C beside binding: what no longer holds, what does not suit it,
-// and which broadcasts are due.
+// What a control asks through the interface for C beside binding: what no longer holds, what does not suit
+// it, and which broadcasts are due.
 
 namespace capstan::late {
 namespace {
@@ -89,6 +89,26 @@ TEST_F(LateAsked, AWornMillAnotherMaterialAndAnotherMachineAreTold) {
   EXPECT_THAT(no_longer(), HasSubstr(" is another than the plan was made for ("));
 }
 
+TEST_F(LateAsked, AMaterialThatNobodyKnowsIsAFaultAndNoAnswer) {
+  set("material", "steeel");
+  EXPECT_EQ(capstan_late_no_longer_valid(s_), nullptr);
+  EXPECT_NE(capstan_late_status(s_), CAPSTAN_LATE_OK);
+  EXPECT_THAT(capstan_late_message(s_), HasSubstr("steeel"));
+}
+
+TEST_F(LateAsked, OfStepsThatAreCutNothingIsAsked) {
+  const std::string text = testing::slurp(kPlate);
+  tools(testing::slurp(kMagazine));
+  ASSERT_EQ(capstan_late_take(s_, text.data(), text.size()), CAPSTAN_LATE_OK);
+  EXPECT_THAT(no_longer(), HasSubstr("DRILL PLAIN HOLE"));
+  for (int step = 1; step <= 4; ++step) {
+    ASSERT_EQ(capstan_late_bind_next(s_, nullptr, 0, 0, 1, 600000), CAPSTAN_LATE_OK)
+        << capstan_late_message(s_);
+    if (no_longer().empty()) return;
+  }
+  FAIL() << no_longer();
+}
+
 TEST_F(LateAsked, NothingIsBoundByAsking) {
   tools(without(bracket().table, eight_mill(bracket().plan)));
   const std::string open = capstan_late_left_open(s_);
@@ -149,8 +169,16 @@ TEST_F(LateAsked, WhatIsMeasuredGivesTheBroadcastsThatAreDue) {
   EXPECT_THAT(start, HasSubstr("1200.5"));
   // A bind of one step more is the same run: its end is due, and a second start is not a run's first line.
   EXPECT_EQ(lines(told("end", "ROUGH POCKET", 0)), 1);
-  ASSERT_EQ(capstan_late_bind_next(s_, nullptr, 0, 1, 1, 600000), CAPSTAN_LATE_OK) << capstan_late_message(s_);
-  EXPECT_EQ(lines(told("start", "ROUGH POCKET", 1)), 1);
+  ASSERT_EQ(capstan_late_bind_next(s_, nullptr, 0, 1, 1, 600000), CAPSTAN_LATE_OK)
+      << capstan_late_message(s_);
+  const std::string second = told("start", "ROUGH POCKET", 1);
+  EXPECT_EQ(lines(second), 1);
+  EXPECT_THAT(second, HasSubstr("\"sequence\":3"));
+  const std::string json = json::write_json(bracket().plan);
+  ASSERT_EQ(capstan_late_take(s_, json.data(), json.size()), CAPSTAN_LATE_OK);
+  EXPECT_THAT(told("start", "ROUGH POCKET", 0), HasSubstr("[BROADCAST-STEP]"));  // of the plan before
+  ASSERT_EQ(capstan_late_take(s_, text.data(), text.size()), CAPSTAN_LATE_OK);
+  EXPECT_THAT(told("start", "ROUGH POCKET", 0), HasSubstr("\"sequence\":1"));
   EXPECT_THAT(told("start", "NO SUCH STEP", 0), HasSubstr("[BROADCAST-STEP]"));
   EXPECT_THAT(told("pause", "ROUGH POCKET", 0), HasSubstr("expected start, at, end or finish"));
   const char* const wrong[] = {"12,5", "[1, 2]"};

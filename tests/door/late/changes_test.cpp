@@ -61,6 +61,29 @@ TEST(LateChanges, OfAPlanThatStandsThereAreNone) {
   EXPECT_EQ(as_it_is->words, "");
 }
 
+// Once a bind for which feeds alone may be decided was refused for a nanometre of width.
+TEST(LateChanges, LessThanAControlsIncrementIsNoDecisionAndNoExcuseForAnotherPath) {
+  const model::Plan& then = bracket().plan;
+  const std::size_t step = 3;
+  model::Plan now = then;
+  now.steps[step].radial_depth_mm += 5e-4;
+  auto path = std::make_shared<model::CutterPath>(*now.steps[step].path);
+  ASSERT_GT(path->size(), 4U);
+  path->x[2] += 5e-4;
+  now.steps[step].path = path;
+  const auto less = changes(then, now, false);
+  ASSERT_EQ(less.size(), 1U);
+  EXPECT_TRUE(less.front().decided.empty()) << less.front().text;
+  EXPECT_TRUE(within_policy(then, now, may("feeds"), false));
+  path = std::make_shared<model::CutterPath>(*path);
+  path->x[2] += 0.5;
+  now.steps[step].path = path;
+  EXPECT_EQ(changes(then, now, false).front().decided, std::vector{Choice::kStrategy});
+  EXPECT_FALSE(within_policy(then, now, may("feeds"), false));
+  now.steps[step].radial_depth_mm += 0.01;
+  EXPECT_EQ(changes(then, now, false).front().decided, std::vector{Choice::kDepths});
+}
+
 TEST(LateChanges, AWornToolIsToldWithItsSizeAndItsPathIsNoDecision) {
   const int mill = eight_mill(bracket().plan);
   const std::string t = "T" + std::to_string(mill);

@@ -24,8 +24,8 @@ namespace capstan::tooling {
 inline constexpr std::string_view kMaterialsSpeed = "the material's";
 
 /// Adds start values for a material that is not shipped to cutters of a generic series: its speed in the same
-/// proportion as the group's, the group's feed. Those that it added for a card of that id before, in cutters that
-/// a plan has, become those of this card. Of a shipped material it changes nothing.
+/// proportion as the group's, the group's feed. Those that it added for a card of that id before, in cutters
+/// that a plan has, become those of this card. Of a shipped material it changes nothing.
 [[nodiscard]] Status add_start_values(const model::WorkMaterial& own, std::vector<model::Cutter>& library);
 
 /// A file of series: its name and what stands in it.

@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "planner/door/late/kept/other_material.h"
+#include "planner/door/late/next.h"
+#include "planner/door/pipeline/stages.h"
 #include "planner/ground/base/number.h"
+#include "planner/making/given/listed_steps.h"
 #include "planner/making/given/magazine.h"
 #include "planner/model/plan/field_differences.h"
 #include "planner/model/plan/resources/machine_fields.h"
@@ -41,17 +44,30 @@ Result<std::vector<std::string>> no_longer_valid(const model::Plan& plan, pipeli
   if (!plan.steps.empty()) {
     if (plan.machine.id != inputs.machine.id) {
       out.push_back("the machine is " + inputs.machine.id + ", the plan was made for " + plan.machine.id);
-    } else if (const std::string differ = model::told_differences(plan.machine, inputs.machine); !differ.empty()) {
-      out.push_back("the machine " + inputs.machine.id + " is another than the plan was made for (" + differ + ")");
+    } else if (const std::string differ = model::told_differences(plan.machine, inputs.machine);
+               !differ.empty()) {
+      out.push_back("the machine " + inputs.machine.id + " is another than the plan was made for (" + differ +
+                    ")");
     }
-    if (const std::string other = other_material(plan, material_now(plan, inputs)); !other.empty())
-      out.push_back(other);
+  }
+  Job unsaid;  // a bind says it
+  const auto material = pipeline::material_of(plan, inputs, unsaid);
+  if (!material) return tl::unexpected(material.error());
+  if (!plan.steps.empty()) {
+    if (const std::string other = other_material(plan, *material); !other.empty()) out.push_back(other);
   }
   const auto told = take_tool_states(tools, plan, inputs.library, job);
   if (!told) return tl::unexpected(told.error());
-  auto matched = given::match_loaded(plan, inputs.library, job, nullptr, told->out_of_use);
+  // Of a plan that is bound step by step those that are bound are cut: what they were cut with is over.
+  const std::vector<model::AnyRef> steps = given::steps_in_order(plan);
+  const bool part = plan.steps.size() < steps.size();
+  const std::set<model::AnyRef> to_come =
+      part ? operations_of(plan, {plan.steps.size(), steps.size() - plan.steps.size()}, steps)
+           : std::set<model::AnyRef>{};
+  auto matched = given::match_loaded(plan, inputs.library, job, part ? &to_come : nullptr, told->out_of_use);
   if (!matched) return tl::unexpected(matched.error());
   std::move(matched->why.begin(), matched->why.end(), std::back_inserter(out));
+  if (part) return out;
   std::set<std::string> used;
   for (const model::StepResult& s : plan.steps) used.insert(s.cutter_id);
   for (const model::Cutter& then : plan.cutters) {

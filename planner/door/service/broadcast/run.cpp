@@ -11,8 +11,8 @@ void BroadcastRun::plan_changed(bool bound) {
   fresh_ = fresh_ || !bound;
 }
 
-Result<std::vector<BroadcastLine>> BroadcastRun::tell(const ControlEvent& event, bool over,
-                                                      const std::function<std::optional<Broadcasts>()>& make) {
+Result<std::vector<BroadcastLine>> BroadcastRun::tell(
+    const ControlEvent& event, bool over, const std::function<std::optional<Broadcasts>()>& make) {
   if (stale_) {
     if (auto made = make()) {
       if (broadcasts_ && !fresh_) made->take_over(*broadcasts_);
@@ -29,12 +29,19 @@ Result<std::vector<BroadcastLine>> BroadcastRun::tell(const ControlEvent& event,
 }
 
 Status take_measured(const std::string& name, const std::string& json, ControlEvent& event) {
-  const auto value = nlohmann::json::parse(json, nullptr, false);
+  constexpr int kMostLevels = 8;  // as of the server's requests (serve/wire/json_request.h)
+  bool deep = false;
+  const auto shallow = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+    deep = deep || depth > kMostLevels;
+    return depth <= kMostLevels;
+  };
+  const auto value = nlohmann::json::parse(json, shallow, false);
   const auto fault = [&](const char* expected) {
     return fail({.code = "BROADCAST-VALUE",
                  .message = "the measured '" + name + "' is " + json.substr(0, 40),
                  .expected = expected});
   };
+  if (deep) return fault("at most 8 levels");
   if (value.is_discarded()) return fault("a value in JSON: 1200.5, \"text\", [1, 2, 3]");
   if (name == "location") {
     if (!value.is_array() || value.size() != 3 ||

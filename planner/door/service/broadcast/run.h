@@ -17,8 +17,8 @@ class BroadcastRun {
   /// The lines that an event makes due (`over`: the run is). `make` gives the broadcasts of the plan at hand,
   /// or nothing while they cannot be had: then those from before count.
   /// Fails  as Broadcasts; BROADCAST-PLAN: no plan is there.
-  [[nodiscard]] Result<std::vector<BroadcastLine>> tell(const ControlEvent& event, bool over,
-                                                        const std::function<std::optional<Broadcasts>()>& make);
+  [[nodiscard]] Result<std::vector<BroadcastLine>> tell(
+      const ControlEvent& event, bool over, const std::function<std::optional<Broadcasts>()>& make);
 
  private:
   std::optional<Broadcasts> broadcasts_;

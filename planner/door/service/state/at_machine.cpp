@@ -12,11 +12,12 @@
 #include "planner/door/late/kept/no_longer.h"
 #include "planner/door/service/planning.h"
 #include "planner/door/service/shop.h"
+#include "planner/ground/base/nearest_names.h"
 
 namespace capstan::service {
 
 Result<std::vector<model::Finding>> unsuited(const Request& request, const model::Machine& machine,
-                                             const model::Plan& plan, Job& job) {
+                                             const model::Plan& plan, bool part, Job& job) {
   std::optional<controls::Conformance> can;
   if (request.profile) {
     auto read = controls::load_profile(*request.profile, job);
@@ -25,8 +26,15 @@ Result<std::vector<model::Finding>> unsuited(const Request& request, const model
   } else if (const controls::Dialect* own = controls::find_dialect(machine.control.dialect)) {
     can = own->conformance;
   }
-  if (!can) return std::vector<model::Finding>{};
-  auto out = controls::specification(plan, *can);
+  if (!can) {
+    Diagnostic d =
+        unknown_name("control", machine.control.dialect, controls::profile_ids(), "capstan controls list");
+    d.code = "CONTROL-UNKNOWN";
+    d.hint = "correct `dialect` in the machine's file, or name a control's profile with " + request.sign +
+             "profile";
+    return fail(std::move(d));
+  }
+  auto out = controls::specification(plan, *can, part);
   auto cannot = controls::suitability(plan, *can);
   std::move(cannot.begin(), cannot.end(), std::back_inserter(out));
   std::stable_sort(out.begin(), out.end(),

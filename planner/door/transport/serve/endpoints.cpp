@@ -20,8 +20,9 @@ namespace {
 constexpr std::string_view kText = "text/plain; charset=utf-8";
 
 /// Options of a session whose value may be a file.
-constexpr std::array<std::string_view, 10> kFileOptions = {
-    "machine", "tools", "material", "workholding", "rules", "cases", "cache", "shop", "edits", "tool-state"};
+constexpr std::array<std::string_view, 11> kFileOptions = {"machine", "tools",      "material", "workholding",
+                                                           "rules",   "cases",      "cache",    "shop",
+                                                           "edits",   "tool-state", "profile"};
 
 /// Another user's process must not have the server read or write files that are not its own.
 bool names_file(const std::string& option, const std::string& value) {

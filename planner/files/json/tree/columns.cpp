@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <utility>
 
 #include "planner/ground/base/memory/grow.h"
 #include "planner/ground/base/stopping.h"
@@ -68,6 +69,24 @@ bool number(const char*& p, const char* end, double& value, bool& whole) {
   return ec == std::errc() && stop == p;
 }
 
+/// How many numbers there are to the column's closing bracket, the one that ends at `p` counted: its memory
+/// is asked for at once. 0: something else stands before it.
+std::size_t numbers_behind(const char* p, const char* end) {
+  std::size_t n = 1;
+  bool digits = true;
+  for (; p != end && *p != ']'; ++p) {
+    if (*p == ',') {
+      if (!std::exchange(digits, false)) return 0;
+      ++n;
+    } else if (is_digit(*p)) {
+      digits = true;
+    } else if (!is_space(*p) && *p != '.' && *p != '-' && *p != '+' && *p != 'e' && *p != 'E') {
+      return 0;
+    }
+  }
+  return p == end || !digits ? 0 : n;
+}
+
 /// The column whose bracket opens before `p`, which is moved behind its closing one; false when it is none.
 /// `lines`: the line ends in it.
 bool column(const char*& p, const char* end, Column& out, std::size_t& lines) {
@@ -84,10 +103,9 @@ bool column(const char*& p, const char* end, Column& out, std::size_t& lines) {
     if (!number(at, end, value, whole)) return false;
     if (!whole && !out.not_whole) out.not_whole = n;
     if (n == kLeastColumn) {
-      // It is one: as many as have a comma behind them follow, and one more.
-      const auto* const close = static_cast<const char*>(std::memchr(at, ']', static_cast<std::size_t>(end - at)));
-      if (close == nullptr) return false;
-      grow(out.bytes, (n + 1 + static_cast<std::size_t>(std::count(at, close, ','))) * sizeof value);
+      const std::size_t more = numbers_behind(at, end);
+      if (more == 0) return false;
+      grow(out.bytes, (n + more) * sizeof value);
     }
     if (out.bytes.size() < (n + 1) * sizeof value) out.bytes.resize((n + 1) * sizeof value);
     std::memcpy(out.bytes.data() + n * sizeof value, &value, sizeof value);

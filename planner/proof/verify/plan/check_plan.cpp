@@ -15,8 +15,8 @@ namespace capstan::verify {
 namespace {
 
 /// False if a stop ended it and the finding says where.
-bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* known,
-           const CutBefore* before, std::shared_ptr<const ReadPart>* kept) {
+bool judge(const model::Plan& plan, Findings& findings, Job& job, memo::Memo* known, const CutBefore* before,
+           std::shared_ptr<const ReadPart>* kept) {
   const std::vector<StepMoves> steps = moves_of(plan, findings);
   poll();
   check_ranges(plan, findings);

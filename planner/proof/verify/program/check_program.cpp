@@ -109,8 +109,7 @@ std::vector<model::Finding> check_program_text(const ProgramText& text, const mo
 std::vector<model::Finding> check_program(const ProgramText& text, const model::Plan* plan,
                                           const model::Machine& machine,
                                           const std::vector<model::Cutter>& cutters, Job& job,
-                                          memo::Memo* known, const CutBefore* before,
-                                          const ReadPart* part) {
+                                          memo::Memo* known, const CutBefore* before, const ReadPart* part) {
   Findings findings;
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();

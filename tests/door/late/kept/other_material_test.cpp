@@ -127,13 +127,16 @@ TwoCards by_two_cards(const std::string& then, const std::string& now) {
 
 void expect_as_much_slower(const TwoCards& two, double by) {
   ASSERT_EQ(two.bound.steps.size(), two.early.steps.size());
+  int of_carbide = 0;
   for (std::size_t i = 0; i < two.early.steps.size(); ++i) {
     const model::StepResult &now = two.bound.steps[i], &then = two.early.steps[i];
     const model::Cutter* c = model::find_cutter(two.early, then.cutter_id);
     ASSERT_NE(c, nullptr);
     if (c->substrate != model::Substrate::kCarbide) continue;
+    ++of_carbide;
     EXPECT_NEAR(now.vc_m_min, by * then.vc_m_min, 0.05 * by * then.vc_m_min) << now.cutter_id;
   }
+  EXPECT_GT(of_carbide, 5);
 }
 
 TEST(LateOtherMaterial, ACardThatWasChangedUnderItsOwnIdReachesTheSpeeds) {

@@ -1,8 +1,10 @@
 // A day at a control, as fast as it goes: sessions, tables that are measured anew, binds with deadlines, and
-// clients that do not behave. In `./dev soak` each seed is half an hour of it.
+// clients that do not behave. In `./dev soak` each seed is half an hour of it; CAPSTAN_SOAK_HOURS=24 is the
+// whole day of one server.
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -22,6 +24,12 @@ constexpr int kRequestsOfHalfAnHour = 360;  // one in five seconds
 constexpr int kSample = 40;
 constexpr double kMostGrowthMb =
     64.0;  // default, unsourced: a leak of one plan a request would be ten times that
+
+int requests_of_a_run() {
+  const char* const hours = std::getenv("CAPSTAN_SOAK_HOURS");
+  if (hours != nullptr) return static_cast<int>(2.0 * std::atof(hours) * kRequestsOfHalfAnHour);
+  return soaking() ? kRequestsOfHalfAnHour : kSample;
+}
 
 double resident_mb() {
   std::ifstream file("/proc/self/statm");
@@ -70,7 +78,7 @@ void misbehave(const std::string& socket, const std::string& session, std::uint6
 TEST(ServeProperty, OfADayOfRequestsEachIsAnsweredAndNothingIsLeft) {
   if (!http_is_built()) GTEST_SKIP() << "no Boost.Beast";
   std::mt19937_64 random(static_cast<std::uint64_t>(::testing::UnitTest::GetInstance()->random_seed()));
-  const int requests = soaking() ? kRequestsOfHalfAnHour : kSample;
+  const int requests = requests_of_a_run();
   std::map<int, std::string> programs;  // by the length of the tool
   int bound = 0, late = 0;
   double before_mb = 0.0;

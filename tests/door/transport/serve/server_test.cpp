@@ -158,7 +158,8 @@ TEST_F(Serve, TellsWhatIsOpenBeforeItIsBound) {
   EXPECT_THAT(open[0].get<std::string>(), HasSubstr("MILLING_TECHNOLOGY"));
   const auto no_longer = client.ask("GET", path + "/no-longer-valid").json()["no_longer_valid"];
   ASSERT_EQ(no_longer.size(), 1U) << no_longer;
-  EXPECT_THAT(no_longer[0].get<std::string>(), HasSubstr("'DRILL 9' (twist_drill 9 mm) is not in the magazine"));
+  EXPECT_THAT(no_longer[0].get<std::string>(),
+              HasSubstr("'DRILL 9' (twist_drill 9 mm) is not in the magazine"));
   EXPECT_THAT(client.ask("GET", path + "/unsuited").body, HasSubstr("FIT-OPEN"));
   EXPECT_EQ(client.ask("POST", path + "/bind", "{}").status, 400);
   EXPECT_EQ(client.ask("POST", path + "/bind", R"({"deadline_ms": 600000})").status, 200);

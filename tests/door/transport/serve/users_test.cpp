@@ -73,6 +73,7 @@ TEST_F(ServeUsers, AUserWhoIsNamedHasSessionsOfItsOwnAndNamesNoFile) {
   EXPECT_EQ(nobody("DELETE", mine), 404);
   EXPECT_EQ(nobody("POST", "/v1/sessions", R"({"options": {"machine": "generic_vmc"}})"), 201);
   EXPECT_EQ(nobody("POST", "/v1/sessions", R"({"options": {"tools": "/etc/shadow"}})"), 403);
+  EXPECT_EQ(nobody("POST", "/v1/sessions", R"({"options": {"profile": "/etc/shadow"}})"), 403);
   EXPECT_EQ(nobody("POST", "/v1/sessions", R"({"options": {"cache": "anything"}})"), 403);
   EXPECT_EQ(nobody("POST", "/v1/sessions", R"({"broadcast": {"file": "/var/x"}})"), 403);
   EXPECT_EQ(client.ask("GET", mine + "/result").status, 200);

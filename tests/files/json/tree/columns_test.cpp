@@ -54,6 +54,21 @@ TEST(Columns, AreReadToTheNearestDoubleHoweverTheyAreSpelled) {
   EXPECT_EQ(taken.rest, in_a_plan(lines));
 }
 
+// A text that is no column to its bracket asks for no memory of one, and its end is not looked for again and
+// again.
+TEST(Columns, OfALongTextThatIsNoneNothingIsTaken) {
+  const std::string numbers = times("1", kLeastColumn + 1), commas(1 << 20, ',');
+  std::string open = "{\"paths\":[{";  // each lowers the level with what it does not end with
+  for (int i = 0; i < 100'000; ++i) open += "[" + numbers + ",x}";
+  for (const std::string& text :
+       {in_a_plan(numbers + commas), in_a_plan(numbers + ",\"" + commas + "\""), open + "]"}) {
+    const Columns taken = take_columns(text);
+    EXPECT_TRUE(taken.columns.empty());
+    EXPECT_EQ(taken.rest, text);
+  }
+  EXPECT_EQ(take_columns(in_a_plan(numbers)).columns.at(0).bytes.size(), (kLeastColumn + 1) * sizeof(double));
+}
+
 TEST(Columns, KnowTheFirstNumberThatIsNotSpelledAsAWholeOne) {
   EXPECT_EQ(take_columns(in_a_plan(times("7", 20))).columns.at(0).not_whole, std::nullopt);
   EXPECT_EQ(take_columns(in_a_plan(times("7", 20) + ",2.0," + times("7", 20))).columns.at(0).not_whole, 20U);

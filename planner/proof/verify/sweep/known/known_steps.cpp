@@ -89,7 +89,8 @@ Window window_of(const StepMoves& step, const Grid& grid, double radius_mm) {
   return out;
 }
 
-/// What was lowered in the window since `before`, which holds its rows; more than kMostCells where it is more.
+/// What was lowered in the window since `before`, which holds its rows; more than kMostCells where it is
+/// more.
 void lowered(const Grid& grid, const Window& w, const std::vector<double>& before, Known& out) {
   std::size_t k = 0;
   for (int iy = w.y0; iy < w.y1; ++iy) {
