@@ -33,6 +33,8 @@ struct Record {
 
 /// Seconds between two entries of a record. Source: SERVO_PERIOD of machine/machine.ini.
 inline constexpr double kServoPeriod = 0.001;
+/// Of Record::kind: a rapid move, G0. Source: motion.motion-type (LinuxCNC's manual page motion(9)).
+inline constexpr int kRapid = 1;
 
 /// Adds what simulated.py sampled, a row per servo period, to `out`; why it cannot be used, or nothing.
 [[nodiscard]] std::string read_samples(std::string_view text, Record& out);

@@ -7,7 +7,6 @@ namespace capstan::linuxcnc {
 namespace {
 
 constexpr double kTurning = 1.0;  // 1/min: less is standing
-constexpr int kRapid = 1;         // motion.motion-type of G0
 // Of examples/reference_pocket.p21, mm.
 constexpr double kPocketX = 50.0, kPocketY = 40.0, kHalfWidth = 30.0, kHalfDepth = 20.0, kCorner = 6.0,
                  kFloor = -10.0;
