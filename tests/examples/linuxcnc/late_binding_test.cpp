@@ -378,5 +378,35 @@ TEST_F(LateBindingAtTheControl, GoesOnAtTheWorkingstepInWhichThePowerWasLost) {
   expect_pocket(cut);
 }
 
+TEST_F(LateBindingAtTheControl, GivesTheCaseBaseNothingOfTheWorkingstepInWhichThePowerWasLost) {
+  std::istringstream rows(scenarios().cases_of_power_lost);
+  std::string row;
+  std::getline(rows, row);
+  ASSERT_THAT(row, StartsWith("time_s,workingstep,tool,x_mm,")) << row;
+  double last_s = -1.0, x = NAN, y = NAN;
+  std::map<std::string, std::size_t> count;
+  while (std::getline(rows, row)) {
+    std::vector<std::string> word;
+    std::istringstream words(row);
+    for (std::string one; std::getline(words, one, ',');) word.push_back(one);
+    ASSERT_EQ(word.size(), 9u) << row;
+    const double now_s = parse_double(word[0]).value_or(NAN);
+    ASSERT_GT(now_s, last_s) << row;
+    last_s = now_s;
+    x = parse_double(word[3]).value_or(NAN), y = parse_double(word[4]).value_or(NAN);
+    ++count[word[1]];
+  }
+  // The finish is the one behind the restart, from its first move to where the machine ended.
+  EXPECT_NEAR(x, of("restarted").x_mm, 1e-3);
+  EXPECT_NEAR(y, of("restarted").y_mm, 1e-3);
+  ASSERT_EQ(count.size(), 2u);
+  EXPECT_TRUE(count.contains("\"POCKET area_rough\""));
+  // It has as many samples as where nothing went wrong, but for the way there from another place.
+  const std::vector<Record> whole = workingsteps(scenarios().first, of("all_there").mark);
+  ASSERT_EQ(whole.size(), 2u);
+  const auto samples = static_cast<double>(count["\"POCKET area_finish\""]);
+  EXPECT_NEAR(samples / static_cast<double>(whole[1].size()), 1.0, 0.2);
+}
+
 }  // namespace
 }  // namespace capstan::linuxcnc

@@ -2,6 +2,7 @@
 import json
 import pathlib
 import sys
+import tempfile
 import types
 import unittest
 import unittest.mock
@@ -268,6 +269,46 @@ class MeasuredValues(unittest.TestCase):
         said = answer(message=f'p: warning: kept [PIP-CONDITION]\nnote: {words} [LATE-REOPENED]\nnote: x [LATE-REOPENED]\n')
         self.assertEqual(program.ways_taken(said), [words])
         self.assertEqual(program.ways_taken({**said, 'code': 4}), [])
+
+
+def sample(number, x, z, rpm):
+    return f'{number} {x} 0 {z} 10 1 {rpm} 1 7 0.001 2 \n'
+
+
+class CasesOfARunInWhichThePowerWent(unittest.TestCase):
+    """The roughing is cut; the power goes in the finishing, at X 20; the tool is lifted, and the finishing cut whole."""
+
+    BEFORE = [sample(0, 0, 101.6, 0), sample(1, 10, 20, 5000), sample(2, 10, 101.6, 0), sample(3, 20, 20, 5000)]
+    AFTER = [sample(0, 20, 20, 0), sample(1, 20, 101.6, 0), sample(2, 30, 20, 5000), sample(3, 31, 20, 5000),
+             sample(4, 31, 101.6, 0)]
+
+    def expect_both_cut(self, rows):
+        import cases
+        rough, finish = cases.times(rows)
+        self.assertEqual([row[2] for row in rough], [10.0, 10.0])
+        self.assertEqual([row[2] for row in finish], [30.0, 31.0, 31.0])
+        seconds = [row[0] for row in rough + finish]
+        self.assertEqual(seconds, sorted(set(seconds)))  # time never goes back
+
+    def test_have_the_workingstep_that_was_cut_and_not_the_one_that_was_broken_off(self):
+        self.expect_both_cut(self.BEFORE + self.AFTER)
+
+    def test_do_without_a_row_that_the_loss_cut_short(self):
+        for words in ('4 21', '4', '4 21 0 20 10 1 5000 1 7 0.001'):
+            self.expect_both_cut(self.BEFORE + [words + self.AFTER[0]] + self.AFTER[1:])
+            self.expect_both_cut(self.BEFORE + self.AFTER + ['5' + words])
+
+    def test_do_not_do_without_a_row_elsewhere(self):
+        import cases
+        with self.assertRaisesRegex(ValueError, '^line 2 is no sample; expected 11 numbers'):
+            list(cases.times([self.BEFORE[0], 'overrun\n', *self.BEFORE[1:]]))
+
+    def test_have_no_workingstep_of_a_line_of_the_journal_that_the_loss_cut_short(self):
+        import cases
+        with tempfile.TemporaryDirectory() as folder:
+            journal = pathlib.Path(folder, 'journal.jsonl')
+            journal.write_text('{"event": "cut", "step": 1, "id": "area%20rough"}\n{"event": "cut", "st')
+            self.assertEqual(cases.cut(journal), ['area rough'])
 
 
 class BroadcastToNobody(unittest.TestCase):

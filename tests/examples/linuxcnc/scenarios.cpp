@@ -89,6 +89,10 @@ Scenarios run_all() {
                   " && '" CAPSTAN_COMMAND "' cases trace " + base + " " + plan + "; }",
               said) != 0;
   out.cases = testing::slurp(said);
+  exit_of("/usr/bin/python3 -B '" + root + "/examples/linuxcnc/cases.py' '" + folder.file("power_lost.txt") + "' '" +
+              folder.file("power_lost.jsonl") + "'",
+          said);
+  out.cases_of_power_lost = testing::slurp(said);
   out.broadcast = testing::slurp(folder.file("broadcast.jsonl"));
   out.failed = read_samples(testing::slurp(folder.file("samples.txt")), out.record);
   if (out.failed.empty()) out.failed = read_samples(testing::slurp(folder.file("all_there.txt")), out.first);

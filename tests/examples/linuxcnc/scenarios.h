@@ -39,6 +39,8 @@ struct Scenarios {
   Record first;
   std::string broadcast;
   bool cases_failed = false;
+  /// What cases.py makes of the scenario in which the power went and of all behind it: the table, or why not.
+  std::string cases_of_power_lost;
 };
 
 /// Run when it is asked for first, some five minutes.

@@ -108,6 +108,8 @@ def power_goes(shop):
     shop.tell('restarted', shop.execute(shop.options.program))
     process.kill()
     process.wait()
+    shutil.copyfile('journal.jsonl', 'power_lost.jsonl')
+    shutil.copyfile('so_far.json', 'power_lost.json')
 
 
 def full_disk(shop):
@@ -178,6 +180,26 @@ def of_mark(samples, mark, out):
         file.writelines(row for row in rows if row.split()[8] == str(mark))
 
 
+def behind(place, stood):
+    """X, Y, Z of a sample, in words, of a simulation that was started where the axes `stood`, mm: it counts them from there."""
+    return [f'{float(word) + mm:.6f}' for word, mm in zip(place, stood)]
+
+
+def to_the_end(samples, mark, stood, out):
+    """The samples from a scenario on, as a machine has them whose axes are where they were when it is started again."""
+    begun, last, again = False, -1, False
+    with open(samples) as rows, open(out, 'w') as file:
+        for row in rows:
+            number, *words = row.split()
+            begun = begun or words[7] == str(mark)
+            again = again or int(number) <= last
+            last = int(number)
+            if again:
+                words[:3] = behind(words, stood)
+            if begun:
+                file.write(' '.join([number, *words]) + '\n')
+
+
 def changes(samples, out, stood):
     """The samples at which the machine did anything, numbered anew. `stood`: where it stood when LinuxCNC was started again, mm."""
     last, expected, count, again = '', None, 0, False
@@ -191,8 +213,7 @@ def changes(samples, out, stood):
             expected = int(number) + 1
             if again:
                 words = rest.split()
-                place = [f'{float(word) + mm:.6f}' for word, mm in zip(words, stood)]
-                rest = ' '.join([*place, *words[3:]]) + '\n'
+                rest = ' '.join([*behind(words, stood), *words[3:]]) + '\n'
             if rest != last:
                 file.write(f'{count} {rest}')
                 last, count = rest, count + 1
@@ -214,13 +235,18 @@ def main():
              **{name: HERE / name for name in ('M110', 'M111', 'M112', 'M113', 'faulty_planner.py')}}
 
     def collect(folder):
-        for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json', 'broadcast.jsonl'):
+        out = pathlib.Path(options.out)
+        for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json', 'power_lost.jsonl', 'power_lost.json', 'broadcast.jsonl'):
             if (folder / name).exists():
-                shutil.copyfile(folder / name, pathlib.Path(options.out) / name)
-        of_mark(folder / 'samples.txt', 1, pathlib.Path(options.out) / 'all_there.txt')
+                shutil.copyfile(folder / name, out / name)
+        of_mark(folder / 'samples.txt', 1, out / 'all_there.txt')
         stood = folder / 'stood.txt'
-        changes(folder / 'samples.txt', pathlib.Path(options.out) / 'samples.txt',
-                [float(word) for word in stood.read_text().split()] if stood.exists() else [])
+        place = [float(word) for word in stood.read_text().split()] if stood.exists() else []
+        if place:
+            mark = dict(line.split('\t')[1:] for line in (folder / 'outcomes.txt').read_text().splitlines()
+                        if line.startswith('power_lost\tmark\t'))['mark']
+            to_the_end(folder / 'samples.txt', mark, place, out / 'power_lost.txt')
+        changes(folder / 'samples.txt', out / 'samples.txt', place)
 
     return simulated.session(lambda operator: work(operator, options), files, clock_rate=options.rate, collect=collect,
                              keep=options.keep)
