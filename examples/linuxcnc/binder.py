@@ -8,6 +8,9 @@ else. A line out: {"code": N, "message": TEXT, "program": G-CODE or null, "steps
 workingstep, how many there are, and the plan as far as it is bound, which is the FILE of the next one. Codes and options
 are as include/capstan/capstan_late.h has them; at the deadline what is not checked is given up (stop-at-deadline).
 
+Or: {"event": "start" or "end", "workingstep": ID, "time": TEXT, "elapsed_s": S, "measured": {NAME: VALUE}}, of the
+plan that was bound last. A line out: {"code": N, "message": TEXT, "lines": [TEXT]}: the broadcasts due, in JSON.
+
 MEMORY_MB is what planning may take beyond what the library takes when it is loaded. Where it is not enough, the answer says so; where
 not even an answer can be made, the exit status is 12 (ENOMEM). Either way the process ends: what a session is worth of which a call ran
 out of memory, nobody knows. It ends, too, with the process that started it.
@@ -23,16 +26,18 @@ import sys
 
 JSON, LINUXCNC = 1, 2  # CAPSTAN_LATE_JSON, CAPSTAN_LATE_LINUXCNC
 FAULT = 70  # CAPSTAN_LATE_FAULT
-INTERFACE = 4  # CAPSTAN_LATE_INTERFACE, at least
+USAGE = 2  # CAPSTAN_LATE_USAGE
+INTERFACE = 9  # CAPSTAN_LATE_INTERFACE, at least: capstan_late_measured
 
 
 def load(path):
     library = ctypes.CDLL(path)
-    session, text = ctypes.c_void_p, ctypes.c_char_p
+    session, text, texts = ctypes.c_void_p, ctypes.c_char_p, ctypes.POINTER(ctypes.c_char_p)
     for name, result, arguments in (
             ('interface', ctypes.c_uint, []), ('create', session, []), ('close', None, [session]), ('set', ctypes.c_int, [session, text, text]),
             ('bind_next', ctypes.c_int, [session, text, ctypes.c_size_t, ctypes.c_uint, ctypes.c_uint, ctypes.c_uint]),
-            ('steps', ctypes.c_uint, [session]),
+            ('measured', text, [session, text, text, text, ctypes.c_double, texts, texts, ctypes.c_size_t]),
+            ('steps', ctypes.c_uint, [session]), ('status', ctypes.c_int, [session]),
             ('message', text, [session]), ('output', text, [session, ctypes.c_int, ctypes.c_void_p])):
         function = getattr(library, 'capstan_late_' + name)
         function.restype, function.argtypes = result, arguments
@@ -80,13 +85,42 @@ def bind(library, request):
     # The plan that this session bound last it need not read again.
     text, size = (None, 0) if plan == Held.plan else (plan, len(plan))
     code = library.capstan_late_bind_next(session, text, size, request['from'], 1, request['deadline_ms'])
-    program = library.capstan_late_output(session, LINUXCNC, None) if code == 0 else None
-    answer = {'code': code, 'message': library.capstan_late_message(session).decode(),
-              'program': program.decode() if program else None}
-    if program:
-        Held.plan = library.capstan_late_output(session, JSON, None)
-        answer.update(steps=library.capstan_late_steps(session), plan=Held.plan.decode())
-    return answer
+    said = library.capstan_late_message(session).decode()
+    if code == 0:
+        program = library.capstan_late_output(session, LINUXCNC, None)
+        so_far = library.capstan_late_output(session, JSON, None) if program else None
+        if so_far:
+            Held.plan = so_far
+            return {'code': 0, 'message': said, 'program': program.decode(),
+                    'steps': library.capstan_late_steps(session), 'plan': so_far.decode()}
+        code, said = why_not(library, session)
+    return {'code': code, 'message': said, 'program': None}
+
+
+def why_not(library, session):
+    """Code and message of a call that gave nothing."""
+    code = library.capstan_late_status(session)
+    if code == 0:
+        raise MemoryError  # not even for a reason
+    return code, library.capstan_late_message(session).decode()
+
+
+def tell(library, event):
+    """The broadcasts that are due by an event."""
+    if not Held.session:
+        return {'code': USAGE, 'lines': [],
+                'message': 'error: the planner was ended since the workingstep was bound, and knows nothing of it; '
+                           'start the program again'}
+    measured = event['measured']
+    texts = ctypes.c_char_p * len(measured)
+    names = texts(*(name.encode() for name in measured))
+    values = texts(*(json.dumps(value).encode() for value in measured.values()))
+    lines = library.capstan_late_measured(Held.session, event['event'].encode(), event['workingstep'].encode(),
+                                          event['time'].encode(), event['elapsed_s'], names, values, len(measured))
+    if lines is None:
+        code, said = why_not(library, Held.session)
+        return {'code': code, 'message': said, 'lines': []}
+    return {'code': 0, 'message': '', 'lines': [line for line in lines.decode().split('\n') if line]}
 
 
 def of_memory(answer, memory_mb):
@@ -108,7 +142,8 @@ def main():
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
     try:
         for line in sys.stdin:
-            answer = bind(library, json.loads(line))
+            request = json.loads(line)
+            answer = tell(library, request) if 'event' in request else bind(library, request)
             ends = of_memory(answer, memory_mb)
             print(json.dumps(answer), flush=True)
             if ends:

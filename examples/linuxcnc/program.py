@@ -53,13 +53,24 @@ def of_answer(answer, n):
     """The program of workingstep n in the planner's answer (binder.py), where it is one to be cut."""
     lines = answer['message'].splitlines()
     if answer['code'] != 0 or not answer['program']:
-        errors = [line for line in lines if 'error: ' in line]
-        raise Refused(errors[0].partition('error: ')[2] if errors else f'no program (code {answer["code"]})')
+        raise Refused(first_error(answer) or f'no program (code {answer["code"]})')
     # What the check only warns of is for somebody to decide, and nobody is asked here.
     doubts = [line for line in lines if 'warning: ' in line and '[CHK-' in line]
     if doubts:
         raise Refused(doubts[0].partition('warning: ')[2])
     return Program(answer['program'], n)
+
+
+def first_error(answer):
+    errors = [line for line in answer['message'].splitlines() if 'error: ' in line]
+    return errors[0].partition('error: ')[2] if errors else ''
+
+
+def lines_due(answer):
+    """The broadcasts in the planner's answer, each in JSON."""
+    if answer['code'] != 0:
+        raise Refused('nothing can be broadcast: ' + (first_error(answer) or f'code {answer["code"]}'))
+    return answer['lines']
 
 
 def ways_taken(answer):

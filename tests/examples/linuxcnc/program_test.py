@@ -213,10 +213,17 @@ class MemoryOfTheBinder(unittest.TestCase):
 
 
 class Library:
-    """What of libcapstan_late.so a session needs."""
+    """What of libcapstan_late.so a session needs. A bind gives `code`; `outputs` by format; `lines` are due."""
 
-    def __init__(self):
+    def __init__(self, code=0, outputs=None, status=0, lines=None):
         self.open, self.made = set(), 0
+        self.capstan_late_set = lambda *_: 0
+        self.capstan_late_bind_next = lambda *_: code
+        self.capstan_late_output = lambda session, form, size: (outputs or {}).get(form)
+        self.capstan_late_status = lambda session: status
+        self.capstan_late_message = lambda session: b'error: so it is\n' if code or status else b''
+        self.capstan_late_steps = lambda session: 2
+        self.capstan_late_measured = unittest.mock.Mock(return_value=lines)
 
     def capstan_late_create(self):
         self.made += 1
@@ -239,6 +246,53 @@ class SessionOfTheBinder(unittest.TestCase):
             # What was measured is over: a session that has it would go on with it.
             self.assertEqual(binder.session_for(library, {'machine': 'm'}), 2)
         self.assertEqual(library.open, {2})
+
+
+class AnswersOfTheBinder(unittest.TestCase):
+    EVENT = {'event': 'end', 'workingstep': 'rough', 'time': '12:00', 'elapsed_s': 1.5,
+             'measured': {'location': [1, 2, 3]}}
+
+    def setUp(self):
+        import binder
+        self.binder = binder
+        held = unittest.mock.patch.multiple(binder.Held, session=None, options={}, plan=None)
+        held.start()
+        self.addCleanup(held.stop)
+
+    def bind(self, library):
+        with tempfile.NamedTemporaryFile() as plan:
+            return self.binder.bind(library, {'plan': plan.name, 'from': 1, 'options': {}, 'deadline_ms': 1})
+
+    def test_have_program_and_plan_of_what_was_bound(self):
+        bound = self.bind(Library(outputs={self.binder.LINUXCNC: b'M2', self.binder.JSON: b'{}'}))
+        self.assertEqual(bound, {'code': 0, 'message': '', 'program': 'M2', 'steps': 2, 'plan': '{}'})
+
+    def test_are_not_given_where_there_is_no_memory_for_an_output(self):
+        for outputs in ({}, {self.binder.LINUXCNC: b'M2'}, {self.binder.JSON: b'{}'}):
+            with self.assertRaises(MemoryError):
+                self.bind(Library(outputs=outputs))
+
+    def test_say_why_there_is_no_program(self):
+        for library in (Library(code=4, outputs={self.binder.LINUXCNC: b'M2'}), Library(status=4)):
+            self.assertEqual(self.bind(library), {'code': 4, 'message': 'error: so it is\n', 'program': None})
+
+    def test_have_each_line_that_is_due(self):
+        library = Library(outputs={self.binder.LINUXCNC: b'M2', self.binder.JSON: b'{}'}, lines=b'{"a":1}\n{"b":2}\n')
+        self.bind(library)
+        due = {'code': 0, 'message': '', 'lines': ['{"a":1}', '{"b":2}']}
+        self.assertEqual(self.binder.tell(library, self.EVENT), due)
+        told = library.capstan_late_measured.call_args[0]
+        self.assertEqual(told[:5], (1, b'end', b'rough', b'12:00', 1.5))
+        self.assertEqual((list(told[5]), list(told[6]), told[7]), ([b'location'], [b'[1, 2, 3]'], 1))
+
+    def test_say_why_nothing_can_be_due(self):
+        lost = self.binder.tell(Library(), self.EVENT)
+        with self.assertRaisesRegex(program.Refused, 'the planner was ended since the workingstep was bound'):
+            program.lines_due(lost)
+        self.bind(Library(outputs={self.binder.LINUXCNC: b'M2', self.binder.JSON: b'{}'}))
+        self.assertEqual(self.binder.tell(Library(status=2), self.EVENT)['code'], 2)
+        with self.assertRaises(MemoryError):
+            self.binder.tell(Library(), self.EVENT)
 
 
 class MeasuredValues(unittest.TestCase):
