@@ -8,6 +8,9 @@ state are still those. Any doubt is a refusal with its reason on the screen: the
 stood while it waited, retracted and with its spindle stopped.
 
 Watchdog: a planner that does not answer within its deadline and `--grace` is killed. ask.py watches this process.
+Broadcasts: at the start and end of a workingstep the planner gives the lines that the plan's broadcasts ask for
+(`--broadcast`). A line that waits for a reply holds the control, retracted and stopped, until somebody replies (`ask.py
+reply NUMBER`).
 Measured values: what M105 tells by number the plan's if and while statements read by name (`--values`), until the next
 workingstep is cut: then what was measured is of a piece that is no more.
 Restart: `journal.jsonl` has what was cut, line by line, and `so_far.json` the plan as far as it was cut; M101 P0 says which
@@ -28,10 +31,10 @@ import struct
 import subprocess
 import sys
 import time
+import urllib.parse
 
 import linuxcnc
 
-import broadcast
 import program as programs
 from program import Refused
 
@@ -41,6 +44,7 @@ TOLD = 'told.state'  # the states of tools that the planner is given
 SO_FAR = 'so_far.json'  # the plan with the paths that were cut
 SHOWN_S = 5.0  # within which the control shows an input: its periods are milliseconds, a busy machine holds them up. Default, unsourced
 ENDS_S = 2.0  # that a process whose pipe is closed may take to be gone. Default, unsourced
+REPLIES_S = 10.0  # within which somebody replies to a broadcast that waits: as long as `capstan serve` waits
 MEASURED_DECIMALS = 4  # of a diameter in mm: finer than a setter measures, and as a program in mm has it (decimals of the machine's control)
 SCREEN = 220  # characters of a message that LinuxCNC's screen takes (256 with its own words)
 
@@ -184,6 +188,23 @@ def written(path, text):
         raise Refused(f'{path} cannot be written: {error.strerror}') from error
 
 
+def sent(path, line):
+    """A line behind the others in a file, or in a FIFO: where nobody reads that, or its reader is full, it is lost."""
+    try:
+        file = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_NONBLOCK, 0o600)
+        try:
+            rest = (line + '\n').encode()
+            while rest:
+                rest = rest[os.write(file, rest):]
+        finally:
+            os.close(file)
+    except (BlockingIOError, BrokenPipeError):
+        pass
+    except OSError as error:
+        if error.errno != errno.ENXIO:
+            raise Refused(f'nothing can be broadcast: {path} cannot be written: {error.strerror}') from error
+
+
 class ToolStates:
     """What the shop tells of its tools beside the table: broken, worn, life left (docs/late_binding.md); the planner reads it."""
 
@@ -234,7 +255,7 @@ class Adapter:
         self.journal = Journal(options.journal)
         self.measured, self.values, self.material = {}, {}, options.material
         self.names = options.values.split(',') if options.values else []
-        self.broadcast = broadcast.Broadcast(options) if options.broadcast else None
+        self.door, self.since = None, time.monotonic()
         self.tool_states = ToolStates(options.tool_state)
         self.bound = {}  # n -> (program, state, hash, plan)
 
@@ -304,8 +325,7 @@ class Adapter:
             raise Refused(f'{name}: what is told of the tools changed since it was bound')
         if now != state:
             raise Refused(f'{name}: tool table or work offset changed since it was bound')
-        if self.broadcast:
-            self.broadcast.begins(step, plan, self.machine)
+        self.broadcast('start', step)
 
     def done(self, n):
         if n not in self.bound:
@@ -319,8 +339,49 @@ class Adapter:
                          position_mm=[round(v, 6) for v in s.actual_position[:3]],
                          following_error_max_mm=[s.joint[i]['ferror_highmark'] for i in range(s.joints)])
         # The step is cut and in the journal, whoever hears of it.
-        if self.broadcast:
-            self.broadcast.ends(step, self.machine)
+        self.broadcast('end', step)
+
+    def broadcast(self, event, step):
+        """Sends what is due, of what the control's status has now. Names are those of the AP238 edition 4 mapping."""
+        if not self.options.broadcast:
+            return
+        s = self.machine.stat
+        s.poll()
+        tip = [round(s.actual_position[i] - s.g5x_offset[i] - s.tool_offset[i], 6) for i in range(3)]  # mm, of G54
+        measured = {'location': tip, 'spindle speed': s.spindle[0]['speed'], 'feedrate': round(60.0 * s.current_vel, 6)}
+        now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec='milliseconds')
+        answer = self.planner.ask({'event': event, 'workingstep': urllib.parse.unquote(step.id), 'time': now,
+                                   'elapsed_s': time.monotonic() - self.since, 'measured': measured},
+                                  self.options.deadline + self.options.grace)
+        lines = programs.lines_due(answer)
+        for line in lines:
+            sent(self.options.broadcast, line)
+        waits = [str(number) for number in (json.loads(line).get('reply_to') for line in lines) if number is not None]
+        self.wait_for_replies(waits)
+
+    def wait_for_replies(self, numbers):
+        """Hears `reply` to each of these broadcasts, and refuses all else meanwhile."""
+        until = time.monotonic() + REPLIES_S
+        while numbers:
+            try:
+                self.door.settimeout(max(until - time.monotonic(), 0.001))
+                caller = self.door.accept()[0]
+            except TimeoutError as error:
+                raise Refused(f'nobody replied to broadcast {numbers[0]} within {REPLIES_S:g} s; expected '
+                              f'`ask.py reply {numbers[0]}`') from error
+            finally:
+                self.door.settimeout(None)
+            with caller:
+                try:
+                    words = self.heard(caller)
+                    if words and words[0] == 'reply' and words[-1] in numbers:
+                        numbers.remove(words[-1])
+                        reply = 'ok'
+                    else:
+                        reply = f'the control waits for a reply to broadcast {numbers[0]}; ask again behind it'
+                    caller.sendall((reply + '\n').encode())
+                except (OSError, ValueError):
+                    pass  # who asked waits no longer, or asked in no words
 
     def take_value(self, number, value):
         """Measured value `number` of the plan's statements, as --values names them from 1."""
@@ -340,6 +401,8 @@ class Adapter:
             self.journal.add('measured', tool=tool, diameter_mm=diameter)
         elif verb == 'value':
             self.take_value(int(float(numbers[0])), float(numbers[1]))
+        elif verb == 'reply':
+            raise Refused(f'no broadcast of number {" ".join(numbers)} waits for a reply')
         elif verb in ('bind', 'check', 'done'):
             getattr(self, verb)(int(float(numbers[0])))
         else:
@@ -349,6 +412,7 @@ class Adapter:
         unheard = SOCKET + '.new'
         pathlib.Path(unheard).unlink(missing_ok=True)
         with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as door:
+            self.door = door
             # Under its name only when it listens: who sees it may ask.
             door.bind(unheard)
             os.chmod(unheard, 0o600)
@@ -358,14 +422,18 @@ class Adapter:
                 with door.accept()[0] as caller:
                     self.one(caller)
 
-    def one(self, caller):
+    def heard(self, caller):
+        """The words of a question; None of who may not ask."""
         uid = struct.unpack('3i', caller.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, 12))[1]
         caller.settimeout(5.0)
+        return caller.makefile().readline(200).split() if uid in (0, os.geteuid()) else None
+
+    def one(self, caller):
         words = []
         try:
-            if uid not in (0, os.geteuid()):
+            words = self.heard(caller)
+            if words is None:
                 return
-            words = caller.makefile().readline(200).split()
             self.answer(words)
             reply = 'ok'
         except (Refused, OSError, IndexError, ValueError, KeyError,
@@ -394,7 +462,6 @@ def main():
     parser.add_argument('--tool-state', help='file in which the shop tells which tools broke, wore, or have how much life')
     parser.add_argument('--values', help='names of the values that M105 P1, P2, ... measure, for the plan\'s if and while: wall,floor')
     parser.add_argument('--broadcast', help='file or FIFO that gets a line of JSON at the start and end of each workingstep')
-    parser.add_argument('--capstan', default='capstan', help='the command that makes the broadcasts (capstan serve)')
     parser.add_argument('--deadline', type=float, default=10.0, help='seconds for one binding')
     parser.add_argument('--grace', type=float, default=2.0, help='seconds after it until the planner is killed')
     parser.add_argument('--memory', help='MB that planning may take')
@@ -406,13 +473,14 @@ def main():
         options.planner = [sys.executable, str(here / 'binder.py'), options.library,
                            *([options.memory] if options.memory else [])]
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
-    adapter = Adapter(options)
+    try:
+        adapter = Adapter(options)
+    except Refused as error:
+        sys.exit(f'capstan: the adapter cannot begin: {error}')
     try:
         adapter.serve()
     finally:
         adapter.planner.end()
-        if adapter.broadcast:
-            adapter.broadcast.end()
 
 
 if __name__ == '__main__':

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """One question to the adapter, for M-codes and for people; ends with 0 when the answer is yes.
 
-    ask.py bind N | check N | done N | measured TOOL DIAMETER_MM | value N NUMBER | material NAME
+    ask.py bind N | check N | done N | measured TOOL DIAMETER_MM | value N NUMBER | material NAME | reply N
 
 Ends with 1, and so ends the program that the control runs, when the adapter refuses, is not there, or does not
 answer within the seconds of $CAPSTAN_PATIENCE (30): the adapter has its own watchdog over the planner, this is the

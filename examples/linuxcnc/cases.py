@@ -8,9 +8,9 @@ SAMPLES is what `halsampler -t` wrote (machine/machine.hal says which pins; a sa
 journal.jsonl. The following error is that of the axes together: how far the tool was from where it was told to be. The samples
 have no clock and no workingstep; but between two workingsteps the tool is retracted and the spindle stands (part.ngc), and
 within one neither is: the n-th time that the spindle turned is the n-th workingstep that the journal has as cut. A last one
-that the journal has not was broken off, and is left out. So is one in which the power went: samples are numbered from 0 again
-behind it. A workingstep that was broken off while the control ran on, and cut again in the same run, is not told from one that
-was cut: leave its samples out.
+that the journal has not was broken off, and is left out. So is one in which the power went: samples are numbered from 0
+again behind it. A workingstep that was broken off while the control ran on, and cut again in the same run, is not told
+from one that was cut: leave its samples out.
 """
 import argparse
 import json
@@ -38,7 +38,7 @@ def cut(journal):
 
 
 def numbers(row):
-    """Of a sample: its number, X, Y, Z, velocity, spindle speed, tool, following error; None of a row that is cut short."""
+    """Number, X, Y, Z, velocity, spindle speed, tool and following error of a sample; None of a row cut short."""
     word = row.split()
     if len(word) != WORDS or not row.endswith('\n'):
         return None
@@ -50,7 +50,7 @@ def numbers(row):
 
 
 def whole(samples):
-    """The numbers of each sample. A row may be cut short where the sampler was ended: the last one, or the last before a restart."""
+    """The numbers of each sample. The last row, and the last before a restart, may be cut short."""
     short, last = None, -1
     for line, row in enumerate(samples, 1):
         found = numbers(row)

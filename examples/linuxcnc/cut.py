@@ -22,7 +22,7 @@ sys.path.insert(0, str(HERE))
 import simulated  # noqa: E402
 
 ADAPTER = ('adapter.py', 'ask.py', 'binder.py', 'program.py', 'part.ngc', 'M101', 'M102', 'M103', 'M104',
-           'M105', 'broadcast.py')
+           'M105')
 
 
 def files(tools, clock):

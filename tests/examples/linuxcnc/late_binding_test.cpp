@@ -153,7 +153,9 @@ TEST_F(LateBindingAtTheControl, BroadcastsTheMeasuredPropertiesAtTheBeginningAnd
   std::istringstream lines(scenarios().broadcast);
   std::vector<std::string> told;
   for (std::string line; std::getline(lines, line);) told.push_back(line);
-  ASSERT_EQ(told.size(), 4u) << scenarios().broadcast;
+  ASSERT_EQ(told.size(), 4u) << scenarios().broadcast;  // of one run, over both workingsteps:
+  for (std::size_t i = 0; i < told.size(); ++i)
+    EXPECT_EQ(number_behind(told[i], R"("sequence":)"), static_cast<double>(i + 1)) << told[i];
   const Outcome& o = of("all_there");
   for (std::size_t i = 0; i < told.size(); ++i) {
     EXPECT_THAT(told[i], HasSubstr(i < 2 ? R"("workingstep":"POCKET area_rough")"

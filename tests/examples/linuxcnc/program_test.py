@@ -1,6 +1,7 @@
 """What examples/linuxcnc/program.py makes of a program, and what it refuses; when the adapter says yes."""
-import json
+import os
 import pathlib
+import socket
 import sys
 import tempfile
 import types
@@ -330,7 +331,7 @@ def sample(number, x, z, rpm):
 
 
 class CasesOfARunInWhichThePowerWent(unittest.TestCase):
-    """The roughing is cut; the power goes in the finishing, at X 20; the tool is lifted, and the finishing cut whole."""
+    """The roughing is cut; the power goes in the finishing, at X 20; the tool is lifted, the finishing cut whole."""
 
     BEFORE = [sample(0, 0, 101.6, 0), sample(1, 10, 20, 5000), sample(2, 10, 101.6, 0), sample(3, 20, 20, 5000)]
     AFTER = [sample(0, 20, 20, 0), sample(1, 20, 101.6, 0), sample(2, 30, 20, 5000), sample(3, 31, 20, 5000),
@@ -365,20 +366,76 @@ class CasesOfARunInWhichThePowerWent(unittest.TestCase):
             self.assertEqual(cases.cut(journal), ['area rough'])
 
 
-class BroadcastToNobody(unittest.TestCase):
-    def test_that_waits_for_a_reply_which_does_not_come_ends_the_program(self):
-        import broadcast
-        late = {'code': 5, 'message': 'error: nobody replied to the broadcast in time [BROADCAST-REPLY]\n'}
-        with unittest.mock.patch.object(broadcast, 'Server') as server:
-            server.return_value.getresponse.return_value.read.return_value = json.dumps(late)
-            with self.assertRaisesRegex(program.Refused, 'nobody replied to the broadcast in time'):
-                broadcast.Broadcast.__new__(broadcast.Broadcast).ask('POST', '/v1/sessions/1/measured', {})
+class Broadcasts(unittest.TestCase):
+    """Lines that are due go into a file; one that waits for a reply holds the control."""
 
-    def test_of_which_the_server_does_not_answer_is_refused(self):
-        import broadcast
-        with unittest.mock.patch.object(broadcast, 'SOCKET', '/nowhere/broadcast.socket'):
-            with self.assertRaisesRegex(program.Refused, 'the server does not answer'):
-                broadcast.Broadcast.__new__(broadcast.Broadcast).ask('GET', '/health', {})
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = os.path.join(folder.name, 'lines')
+        self.module = adapter_module()
+        self.adapter = self.module.Adapter.__new__(self.module.Adapter)
+        self.adapter.options = types.SimpleNamespace(broadcast=self.file, deadline=1.0, grace=1.0)
+        self.adapter.since, self.adapter.machine, self.adapter.planner = 0.0, unittest.mock.Mock(), unittest.mock.Mock()
+        status = {'actual_position': (10.0, 20.0, 101.6), 'g5x_offset': (0.0, 5.0, -50.0),
+                  'tool_offset': (0.0, 0.0, 80.0), 'spindle': [{'speed': 0.0}], 'current_vel': 2.5}
+        self.adapter.machine.stat.configure_mock(**status)
+        self.adapter.door = socket.socket(socket.AF_UNIX)
+        self.addCleanup(self.adapter.door.close)
+        self.adapter.door.bind(os.path.join(folder.name, 'door'))
+        self.adapter.door.listen()
+
+    def broadcast(self, *lines, code=0, message=''):
+        self.adapter.planner.ask.return_value = {'code': code, 'message': message, 'lines': list(lines)}
+        self.adapter.broadcast('start', program.Program(TEXT.replace('"rough"', '"area%20rough"'), 1))
+
+    def ask(self, words):
+        """Begins to ask the adapter; gives what reads its answer."""
+        caller = socket.socket(socket.AF_UNIX)
+        self.addCleanup(caller.close)
+        caller.connect(self.adapter.door.getsockname())
+        caller.sendall((words + '\n').encode())
+        return lambda: caller.recv(1000).decode().strip()
+
+    def test_tell_the_planner_what_the_control_shows_and_write_what_is_due(self):
+        self.broadcast('{"sequence":1}')
+        self.broadcast('{"sequence":2}', '{"sequence":3}')
+        self.assertEqual(pathlib.Path(self.file).read_text(), '{"sequence":1}\n{"sequence":2}\n{"sequence":3}\n')
+        event = self.adapter.planner.ask.call_args[0][0]
+        self.assertEqual(event['workingstep'], 'area rough')
+        self.assertEqual(event['measured'], {'location': [10.0, 15.0, 71.6], 'spindle speed': 0.0, 'feedrate': 150.0})
+
+    def test_are_lost_in_a_fifo_that_nobody_reads_and_hold_nobody(self):
+        os.mkfifo(self.file)
+        self.broadcast('{"sequence":1}')
+        reader = os.open(self.file, os.O_RDONLY | os.O_NONBLOCK)
+        self.addCleanup(os.close, reader)
+        self.broadcast('{"sequence":2}')
+        self.assertEqual(os.read(reader, 1000), b'{"sequence":2}\n')
+
+    def test_that_cannot_be_made_or_written_are_refused(self):
+        with self.assertRaisesRegex(program.Refused, '^nothing can be broadcast: no such step'):
+            self.broadcast(code=2, message='error: no such step\n')
+        self.adapter.options.broadcast = os.path.dirname(self.file)
+        with self.assertRaisesRegex(program.Refused, '^nothing can be broadcast: .* cannot be written: Is a directory'):
+            self.broadcast('{}')
+
+    def test_that_wait_go_on_with_their_reply_and_nothing_else_is_answered_meanwhile(self):
+        answers = [self.ask(words) for words in ('material steel', 'reply 8', 'reply', '', 'reply 7')]
+        self.broadcast('{"reply_to":7}')
+        told = [answer() for answer in answers]
+        self.assertEqual(told[-1], 'ok')
+        for words in told[:-1]:
+            self.assertRegex(words, 'waits for a reply to broadcast 7; ask again behind it')
+
+    def test_that_wait_for_a_reply_which_does_not_come_end_the_program(self):
+        with unittest.mock.patch.object(self.module, 'REPLIES_S', 0.05):
+            with self.assertRaisesRegex(program.Refused, 'broadcast 7 within 0.05 s; expected `ask.py reply 7`'):
+                self.broadcast('{"reply_to":7}')
+
+    def test_that_do_not_wait_take_no_reply(self):
+        with self.assertRaisesRegex(program.Refused, 'no broadcast of number 7 waits'):
+            self.adapter.answer(['reply', '7'])
 
 
 if __name__ == '__main__':

@@ -69,7 +69,7 @@ Scenarios run_all() {
   const int code =
       exit_of("/usr/bin/python3 '" + root +
                   "/tests/examples/linuxcnc/scenarios.py' --library '" CAPSTAN_LATE_LIBRARY
-                  "' --clock '" CAPSTAN_FAST_CLOCK "' --capstan '" CAPSTAN_COMMAND "' --machine " +
+                  "' --clock '" CAPSTAN_FAST_CLOCK "' --machine " +
                   machine + " --plan '" + folder.file("plan.json") + "' --while-plan '" +
                   folder.file("while_plan.json") + "' --bracket-plan '" + folder.file("bracket_plan.json") +
                   "' --bracket-tools '" + magazine + "' --out '" + folder.path() + "'",
@@ -89,8 +89,8 @@ Scenarios run_all() {
                   " && '" CAPSTAN_COMMAND "' cases trace " + base + " " + plan + "; }",
               said) != 0;
   out.cases = testing::slurp(said);
-  exit_of("/usr/bin/python3 -B '" + root + "/examples/linuxcnc/cases.py' '" + folder.file("power_lost.txt") + "' '" +
-              folder.file("power_lost.jsonl") + "'",
+  exit_of("/usr/bin/python3 -B '" + root + "/examples/linuxcnc/cases.py' '" + folder.file("power_lost.txt") +
+              "' '" + folder.file("power_lost.jsonl") + "'",
           said);
   out.cases_of_power_lost = testing::slurp(said);
   out.broadcast = testing::slurp(folder.file("broadcast.jsonl"));

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs every scenario of late binding on one simulated machine, one after the other.
 
-    scenarios.py --library libcapstan_late.so --capstan capstan --plan PLAN --while-plan PLAN --bracket-plan PLAN --bracket-tools TABLE
+    scenarios.py --library libcapstan_late.so --plan PLAN --while-plan PLAN --bracket-plan PLAN --bracket-tools TABLE
                  --machine FILE --clock libfast_clock.so --out FOLDER [--only NAME ...]
 
 Writes OUT/samples.txt (simulated.py; its ninth column is the scenario's number) and OUT/outcomes.txt: lines of scenario,
@@ -109,7 +109,6 @@ def power_goes(shop):
     process.kill()
     process.wait()
     shutil.copyfile('journal.jsonl', 'power_lost.jsonl')
-    shutil.copyfile('so_far.json', 'power_lost.json')
 
 
 def full_disk(shop):
@@ -125,11 +124,10 @@ def full_disk(shop):
 def work(operator, options):
     plan = options.program = pathlib.Path('part.ngc').read_text()
     assert all(text in plan for text in (BIND, FIRST, END))
-    os.chmod('capstan', 0o755)
     with open('outcomes.txt', 'w') as out:
         shop = shops.Shop(operator, options, out)
         set_pins(lag_x__gain=LAG_GAIN, lag_y__gain=LAG_GAIN, lag_z__gain=LAG_GAIN)
-        shop.scenario('all_there', adapter=('--broadcast', 'broadcast.jsonl', '--capstan', './capstan'))
+        shop.scenario('all_there', adapter=('--broadcast', 'broadcast.jsonl'))
         set_pins(lag_x__gain=1, lag_y__gain=1, lag_z__gain=1)
         if not options.only or 'all_there' in options.only:
             shutil.copyfile('1001.ngc', 'earlier.ngc')
@@ -181,7 +179,7 @@ def of_mark(samples, mark, out):
 
 
 def behind(place, stood):
-    """X, Y, Z of a sample, in words, of a simulation that was started where the axes `stood`, mm: it counts them from there."""
+    """X, Y, Z of a sample, as words. A simulation that is started where the axes `stood`, mm, counts from there."""
     return [f'{float(word) + mm:.6f}' for word, mm in zip(place, stood)]
 
 
@@ -221,7 +219,7 @@ def changes(samples, out, stood):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in ('library', 'capstan', 'plan', 'while-plan', 'bracket-plan', 'bracket-tools', 'machine', 'clock', 'out'):
+    for name in ('library', 'plan', 'while-plan', 'bracket-plan', 'bracket-tools', 'machine', 'clock', 'out'):
         parser.add_argument(f'--{name}', required=True)
     parser.add_argument('--rate', type=float, default=24.0)
     parser.add_argument('--keep')
@@ -231,12 +229,12 @@ def main():
     os.environ['CAPSTAN_PATIENCE'] = '8'
     files = {**cut.files(cut.HERE / 'tools.tbl', options.clock), 'plan': options.plan, 'machine.yaml': options.machine,
              'while_plan': options.while_plan, 'bracket_plan': options.bracket_plan, 'bracket.tbl': options.bracket_tools,
-             'libcapstan_late.so': options.library, 'capstan': options.capstan,
+             'libcapstan_late.so': options.library,
              **{name: HERE / name for name in ('M110', 'M111', 'M112', 'M113', 'faulty_planner.py')}}
 
     def collect(folder):
         out = pathlib.Path(options.out)
-        for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json', 'power_lost.jsonl', 'power_lost.json', 'broadcast.jsonl'):
+        for name in ('outcomes.txt', 'all_there.jsonl', 'all_there.json', 'power_lost.jsonl', 'broadcast.jsonl'):
             if (folder / name).exists():
                 shutil.copyfile(folder / name, out / name)
         of_mark(folder / 'samples.txt', 1, out / 'all_there.txt')
