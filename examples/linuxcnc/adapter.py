@@ -13,14 +13,15 @@ Broadcasts: at the start and end of a workingstep the planner gives the lines th
 reply NUMBER`).
 Measured values: what M105 tells by number the plan's if and while statements read by name (`--values`), until the next
 workingstep is cut: then what was measured is of a piece that is no more.
-Restart: `journal.jsonl` has what was cut, line by line, and `so_far.json` the plan as far as it was cut; M101 P0 says which
-workingstep is the next one.
+Restart: `journal.jsonl` has what was cut, measured of tools and reported of the material, line by line, and
+`so_far.json` the plan as far as it was cut; M101 P0 says which workingstep is the next one.
 """
 import argparse
 import datetime
 import errno
 import hashlib
 import json
+import math
 import os
 import pathlib
 import re
@@ -223,28 +224,45 @@ class ToolStates:
 
 
 class Journal:
-    """What was bound, cut and refused, one line each; what was cut survives a restart."""
+    """What was bound, cut, told and refused, one line each.
+
+    A restart keeps what was cut, and what was told of tools and material.
+    """
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
-        self.cut = {}
-        if self.path.exists():
-            for line in self.path.read_text().splitlines():
-                try:
-                    entry = json.loads(line)
-                except ValueError:
-                    continue  # the power went while it was written
-                if entry['event'] == 'cut':
-                    self.cut[entry['step']] = entry['lines_sha256']
+        # Hashes by workingstep, diameters in mm by tool, and the name that was reported last.
+        self.cut, self.measured, self.material = {}, {}, None
+        try:
+            text = self.path.read_text() if self.path.exists() else ''
+        except (OSError, UnicodeDecodeError) as error:
+            raise Refused(f'{path} cannot be read: {error}; what was cut is not known without it') from error
+        for line in text.splitlines():
+            try:
+                self.take(**json.loads(line))
+            except ValueError:
+                continue  # the power went while it was written
+        self.cut_short = text != '' and not text.endswith('\n')
+
+    def take(self, event, **what):
+        if event == 'cut':
+            self.cut[what['step']] = what['lines_sha256']
+        elif event == 'measured' and what['diameter_mm'] == 0.0:
+            self.measured.pop(what['tool'], None)
+        elif event == 'measured':
+            self.measured[what['tool']] = what['diameter_mm']
+        elif event == 'material':
+            self.material = what['name']
 
     def add(self, event, **what):
         now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec='milliseconds')
         with open(self.path, 'a') as file:
-            file.write(json.dumps({'time': now, 'event': event, **what}) + '\n')
+            # Behind a line that is cut short it would be no line of its own, and be lost with that.
+            file.write('\n' * self.cut_short + json.dumps({'time': now, 'event': event, **what}) + '\n')
             file.flush()
             os.fsync(file.fileno())
-        if event == 'cut':
-            self.cut[what['step']] = what['lines_sha256']
+        self.cut_short = False
+        self.take(event, **what)
 
 
 class Adapter:
@@ -253,15 +271,20 @@ class Adapter:
         self.machine = Machine(options.ini)
         self.planner = Planner(options.planner, options.memory)
         self.journal = Journal(options.journal)
-        self.measured, self.values, self.material = {}, {}, options.material
+        self.values = {}
         self.names = options.values.split(',') if options.values else []
         self.door, self.since = None, time.monotonic()
         self.tool_states = ToolStates(options.tool_state)
         self.bound = {}  # n -> (program, state, hash, plan)
 
+    @property
+    def material(self):
+        return self.journal.material or self.options.material
+
     def state(self):
-        """The machine as it is, with what is told of its tools."""
-        return {**self.machine.state(self.measured), 'told': self.tool_states.text()}
+        """The machine as it is, with what is told of its tools, and of the piece."""
+        return {**self.machine.state(self.journal.measured), 'told': self.tool_states.text(),
+                'material': self.material, 'values': dict(self.values)}
 
     def next(self):
         """The first workingstep that was not cut."""
@@ -300,15 +323,14 @@ class Adapter:
         text = step.subroutine(self.binding(state))
         written(self.subroutine(n), text)
         self.bound[n] = (step, state, programs.END.search(text)[1], plan)
-        self.journal.add('bound', step=n, id=step.id, tool=step.tool, file_sha256=self.bound[n][2],
-                         material=self.material, **state)
+        self.journal.add('bound', step=n, id=step.id, tool=step.tool, file_sha256=self.bound[n][2], **state)
 
     def subroutine(self, n):
         return os.path.join(self.options.subroutines, f'{programs.FIRST + n}.ngc')
 
     def binding(self, state):
         """Names the machine's state and the moment: two bindings have different subroutines."""
-        seen = hashlib.sha256(json.dumps([state, self.material, self.measured, self.values]).encode()).hexdigest()
+        seen = hashlib.sha256(json.dumps(state).encode()).hexdigest()
         return f'state={seen[:16]} at={time.time_ns()}'
 
     def check(self, n):
@@ -393,11 +415,12 @@ class Adapter:
     def answer(self, words):
         verb, numbers = words[0], words[1:]
         if verb == 'material':
-            self.material = numbers[0]
-            self.journal.add('material', name=self.material)
+            self.journal.add('material', name=numbers[0])
         elif verb == 'measured':
-            tool, diameter = int(float(numbers[0])), round(float(numbers[1]), MEASURED_DECIMALS)
-            self.measured[tool] = diameter
+            tool, told = int(float(numbers[0])), float(numbers[1])
+            diameter = round(told, MEASURED_DECIMALS) if math.isfinite(told) else -1.0
+            if told != 0.0 and not diameter > 0.0:
+                raise Refused(f'T{tool} measures {told:g} mm; expected more than 0 mm, or 0 to take the measure back')
             self.journal.add('measured', tool=tool, diameter_mm=diameter)
         elif verb == 'value':
             self.take_value(int(float(numbers[0])), float(numbers[1]))

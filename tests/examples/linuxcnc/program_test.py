@@ -173,6 +173,16 @@ def adapter_module():
     return adapter
 
 
+class BeginningOfTheAdapter(unittest.TestCase):
+    def test_that_cannot_be_says_why_and_is_no_traceback(self):
+        adapter = adapter_module()
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.object(adapter, 'Machine'), \
+                unittest.mock.patch.object(sys, 'argv', ['adapter.py', '--ini', 'i', '--plan', 'p', '--machine', 'm',
+                                                         '--journal', folder]):
+            with self.assertRaisesRegex(SystemExit, f'^capstan: the adapter cannot begin: {folder} cannot be read: '):
+                adapter.main()
+
+
 class EndOfThePlanner(unittest.TestCase):
     """A planner that ended for want of memory is told from one that was killed, and from one that broke down."""
 
@@ -299,9 +309,16 @@ class AnswersOfTheBinder(unittest.TestCase):
 class MeasuredValues(unittest.TestCase):
     """By number from the control, by name to the plan."""
 
-    def adapter(self):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.journal = os.path.join(folder.name, 'journal.jsonl')
+
+    def adapter(self, material=None):
+        """As it is begun, with the journal that there is."""
         out = adapter_module().Adapter.__new__(adapter_module().Adapter)
-        out.names, out.values, out.measured, out.journal = ['wall', 'floor'], {}, {}, unittest.mock.Mock()
+        out.names, out.values, out.journal = ['wall', 'floor'], {}, adapter_module().Journal(self.journal)
+        out.options, out.tool_states = types.SimpleNamespace(material=material), adapter_module().ToolStates(None)
         return out
 
     def test_get_the_name_of_their_number(self):
@@ -317,7 +334,35 @@ class MeasuredValues(unittest.TestCase):
     def test_a_diameter_is_as_exact_as_a_program_states_it(self):
         adapter = self.adapter()
         adapter.answer(['measured', '1.000000', '7.899472'])
-        self.assertEqual(adapter.measured, {1: 7.8995})
+        self.assertEqual(adapter.journal.measured, {1: 7.8995})
+
+    def test_diameters_and_the_material_are_known_after_a_restart(self):
+        adapter = self.adapter(material='steel')
+        self.assertEqual(adapter.material, 'steel')
+        for words in ('measured 1 7.8', 'material brass', 'measured 1 7.9', 'measured 3 9.9', 'material aluminium'):
+            adapter.answer(words.split())
+        again = self.adapter(material='steel')
+        self.assertEqual(again.journal.measured, {1: 7.9, 3: 9.9})
+        self.assertEqual(again.material, 'aluminium')
+
+    def test_a_diameter_of_0_takes_it_back_and_the_table_counts_again(self):
+        adapter = self.adapter()
+        for words in ('measured 1 7.8', 'measured 3 9.9', 'measured 1.000000 0.000000'):
+            adapter.answer(words.split())
+        self.assertEqual(adapter.journal.measured, {3: 9.9})
+        self.assertEqual(self.adapter().journal.measured, {3: 9.9})
+
+    def test_what_is_no_diameter_is_refused(self):
+        for value in ('-1.000000', '0.000010', '-0.000010', 'nan', 'inf'):
+            with self.assertRaisesRegex(program.Refused, 'expected more than 0 mm, or 0 to take the measure back'):
+                self.adapter().answer(['measured', '1', value])
+
+    def test_a_line_of_the_journal_that_the_loss_of_power_cut_short_takes_no_other_with_it(self):
+        self.adapter().answer(['measured', '1', '7.8'])
+        with open(self.journal, 'a') as file:
+            file.write('{"event": "cut", "st')
+        self.adapter().answer(['measured', '3', '9.9'])
+        self.assertEqual(self.adapter().journal.measured, {1: 7.8, 3: 9.9})
 
     def test_what_a_statement_was_decided_to_is_found_in_the_answer(self):
         words = "while 'STANDS': 'PASS' is taken, for wall (0.05) > 0.02 holds, once more"
