@@ -343,8 +343,10 @@ class Adapter:
         except Refused as error:
             raise Refused(f'{name}: {error}') from error
         now = self.state()
-        if now['told'] != state['told']:
-            raise Refused(f'{name}: what is told of the tools changed since it was bound')
+        for key, what in (('told', 'what is told of the tools'), ('material', 'the material'),
+                          ('values', 'a measured value')):
+            if now[key] != state[key]:
+                raise Refused(f'{name}: {what} changed since it was bound')
         if now != state:
             raise Refused(f'{name}: tool table or work offset changed since it was bound')
         self.broadcast('start', step)

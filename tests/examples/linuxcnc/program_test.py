@@ -364,6 +364,25 @@ class MeasuredValues(unittest.TestCase):
         self.adapter().answer(['measured', '3', '9.9'])
         self.assertEqual(self.adapter().journal.measured, {1: 7.8, 3: 9.9})
 
+    def test_that_come_between_binding_and_call_refuse_the_subroutine(self):
+        step = program.Program(TEXT, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            for words, why in ((None, None), ('value 1 0.1', 'a measured value changed since it was bound'),
+                               ('material brass', 'the material changed since it was bound')):
+                adapter = self.adapter()
+                adapter.options = types.SimpleNamespace(material=None, subroutines=folder, broadcast=None)
+                adapter.machine = types.SimpleNamespace(state=lambda measured: {'tools': TABLE})
+                state = adapter.state()
+                text = step.subroutine(adapter.binding(state))
+                pathlib.Path(adapter.subroutine(1)).write_text(text)
+                adapter.bound = {1: (step, state, program.END.search(text)[1], '{}')}
+                if words is None:
+                    adapter.check(1)
+                    continue
+                adapter.answer(words.split())
+                with self.assertRaisesRegex(program.Refused, why):
+                    adapter.check(1)
+
     def test_what_a_statement_was_decided_to_is_found_in_the_answer(self):
         words = "while 'STANDS': 'PASS' is taken, for wall (0.05) > 0.02 holds, once more"
         said = answer(message=f'p: warning: kept [PIP-CONDITION]\nnote: {words} [LATE-REOPENED]\nnote: x [LATE-REOPENED]\n')
