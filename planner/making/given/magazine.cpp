@@ -134,6 +134,25 @@ bool fixed_by_its_path(const model::Plan& plan, AnyRef operation) {
   return step::has_given_path(plan, step);
 }
 
+/// The plan's operations that a workingstep executes. A feature may list more: those of steps that were left
+/// out, whose tools nobody calls. Where there is no workingstep yet, all.
+std::vector<AnyRef> executed_operations(const model::Plan& plan) {
+  const std::vector<AnyRef> roots = {plan.project};
+  const std::vector<AnyRef> all = model::reachable(plan.model, roots);
+  std::set<AnyRef> executed;
+  for (const AnyRef r : all) {
+    if (const auto* ws = plan.model.get<model::MachiningWorkingstep>(r);
+        ws != nullptr && ws->its_operation.set())
+      executed.insert(ws->its_operation);
+  }
+  std::vector<AnyRef> out;
+  for (const AnyRef r : all) {
+    const bool operation = plan.model.get<model::MachiningOperation>(r) != nullptr;
+    if (operation && (executed.empty() || executed.contains(r))) out.push_back(r);
+  }
+  return out;
+}
+
 /// How a planned tool is missing: not there, or of another size by the wear that is told of it.
 std::string missing_as(const std::vector<Cutter>& library, const Cutter& planned) {
   for (const Cutter& c : library) {
@@ -234,9 +253,8 @@ Result<Matched> match_loaded(const model::Plan& plan, std::vector<Cutter>& libra
   Matched out;
   std::vector<Cutter> merged;
   std::set<std::string> seen;
-  const std::vector<AnyRef> roots = {plan.project};
   const std::vector<AnyRef> all =
-      of != nullptr ? std::vector<AnyRef>(of->begin(), of->end()) : model::reachable(plan.model, roots);
+      of != nullptr ? std::vector<AnyRef>(of->begin(), of->end()) : executed_operations(plan);
   for (const AnyRef r : all) {
     const auto* op = plan.model.get<model::MachiningOperation>(r);
     if (op == nullptr || !plan.model.holds<model::MachiningTool>(op->its_tool)) continue;

@@ -17,6 +17,7 @@
 #include "tests/door/late/brought.h"
 #include "tests/support/differences/subjects.h"
 #include "tests/support/soak.h"
+#include "tooling/library/nouns/nouns.h"
 
 namespace capstan::late {
 namespace {
@@ -58,6 +59,30 @@ TEST(LateKept, AToolOfAnotherLengthPlansNothingAndIsChecked) {
       EXPECT_NE(bound->program.tool_table.find(table.substr(table.find(line), 14)), std::string::npos);
     }
   }
+}
+
+// A surface's plan lists the operations of steps that were left out: once their tools, which nobody loads,
+// made a bind plan it anew.
+TEST(LateKept, AnOperationThatNoWorkingstepExecutesNeedsNoTool) {
+  model::Plan plan = bracket().plan;
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(plan.steps[2].step);
+  ASSERT_NE(ws, nullptr);
+  const std::string mill = std::to_string(eight_mill(plan));
+  const auto other = std::find_if(plan.cutters.begin(), plan.cutters.end(), [&](const model::Cutter& c) {
+    return c.cutter_class == model::CutterClass::kTwistDrill;
+  });
+  ASSERT_NE(other, plan.cutters.end());
+  const auto left_out = plan.model.add<model::Drilling>({});
+  model::Cutter drill = *other;
+  drill.id = "left out";
+  drill.cutting_diameter_mm = 3.141;
+  plan.model.get<model::MachiningOperation>(left_out)->its_id = "left out";
+  plan.model.get<model::MachiningOperation>(left_out)->its_tool = tooling::tool_noun(plan.model, drill);
+  plan.model.get<model::ManufacturingFeature>(ws->its_feature)->its_operations.items.push_back(left_out);
+  Job job;
+  const auto bound = bind(plan, shop_of(with(bracket().table, std::stoi(mill), "Z", 0.5)), kInTime, job);
+  ASSERT_TRUE(bound) << to_text(bound.error());
+  EXPECT_TRUE(bound->kept);
 }
 
 TEST(LateKept, AToolInAnotherPlaceIsCalledThere) {
