@@ -114,9 +114,11 @@ CAPSTAN_LATE_API capstan_late_code capstan_late_bind_next(capstan_late* session,
 CAPSTAN_LATE_API const char* capstan_late_left_open(capstan_late* session);
 
 /* What of the plan at hand no longer holds with machine, material and tools as they are set now, a sentence a
- * line: what a bind would open or check anew; empty where nothing does. Nothing is bound. NULL where it
- * cannot be told: capstan_late_status and capstan_late_message say why (USAGE: no plan; IMPOSSIBLE: what no
- * bind gets over, as a tool without a length). It is valid until the next call of it or close. */
+ * line: what a bind would open or check anew; empty where nothing does. Nothing is bound. Not asked: lives
+ * that are left, values that were edited, other choices (raw piece, tolerance, workholding), cases,
+ * conditions, and steps that are bound in a plan that is bound step by step, which count as cut. NULL where
+ * it cannot be told: capstan_late_status and capstan_late_message say why (USAGE: no plan; IMPOSSIBLE: what
+ * no bind gets over, as a tool without a length). It is valid until the next call of it or close. */
 CAPSTAN_LATE_API const char* capstan_late_no_longer_valid(capstan_late* session);
 
 /* What of the plan at hand does not suit the control, before the first chip, a finding a line, errors first:

@@ -113,7 +113,8 @@ Result<Profile> load_profile(const std::string& id_or_file, Job& job) {
     if (id_of(name) == id_or_file)
       return read_tree(unpack(embedded_tree(name)).front(), std::string(name), job);
   }
-  if (only_a_name(id_or_file) && !std::filesystem::exists(id_or_file))
+  std::error_code none;  // a name too long is none of a file
+  if (only_a_name(id_or_file) && !std::filesystem::exists(id_or_file, none))
     return fail(unknown_name("control", id_or_file, profile_ids(), "capstan check --help"));
   const auto text = read_file(id_or_file, kProfileCap);
   if (!text) return tl::unexpected(text.error());

@@ -90,12 +90,47 @@ bool shown(double a, double b, int decimals) { return trimmed(a, decimals) != tr
 /// 0i, operator's manual, increment system IS-B.
 constexpr double kIncrementMm = 1e-3;
 
-/// Whether two paths are the same moves, within kIncrementMm at each point.
+/// The points of a path at which its way changes: not those at which a line, or an arc about one centre, is
+/// split, as it is where another feed begins.
+std::vector<std::size_t> corners(const model::CutterPath& p) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    bool split = false;
+    if (!out.empty() && i + 1 < p.size() && p.kind[i] == p.kind[i + 1] && p.role[i] == p.role[i + 1]) {
+      if (model::is_arc(p.kind[i])) {
+        const geometry::Vec2 off{p.cx[i] - p.cx[i + 1], p.cy[i] - p.cy[i + 1]};
+        const auto steep = [&](std::size_t k) { return (p.z[k] - p.z[k - 1]) / model::arc_sweep(p, k); };
+        split = norm(off) <= model::kSameNumber && std::abs(steep(i) - steep(i + 1)) <= model::kSameNumber;
+      } else if (p.kind[i] != model::MoveKind::kDwell) {
+        const geometry::Vec3 a = p.point(out.back()), b = p.point(i);
+        const geometry::Vec3 way = p.point(i + 1) - a;
+        const double length = norm(way);
+        const double at = length > 0.0 ? std::clamp(dot(b - a, way) / (length * length), 0.0, 1.0) : 0.0;
+        split = norm(b - (a + at * way)) <= model::kSameNumber;
+      }
+    }
+    if (!split) out.push_back(i);
+  }
+  return out;
+}
+
+/// Whether two paths are the same way, within kIncrementMm at each of its corners.
 bool agree(const model::CutterPath& a, const model::CutterPath& b) {
-  if (a.size() != b.size() || a.kind != b.kind) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto off = a.point(i) - b.point(i);
-    if (std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)}) > kIncrementMm) return false;
+  const std::vector<std::size_t> of_a = corners(a), of_b = corners(b);
+  if (of_a.size() != of_b.size()) return false;
+  // A turn more about one centre has no corner more.
+  const auto length = [](const model::CutterPath& p) {
+    double mm = 0.0;
+    for (std::size_t i = 1; i < p.size(); ++i) mm += model::move_length(p, i);
+    return mm;
+  };
+  if (std::abs(length(a) - length(b)) > 4.0 * kIncrementMm * static_cast<double>(of_a.size())) return false;
+  for (std::size_t k = 0; k < of_a.size(); ++k) {
+    const std::size_t i = of_a[k], j = of_b[k];
+    if (a.kind[i] != b.kind[j]) return false;
+    const geometry::Vec3 off = a.point(i) - b.point(j);
+    const geometry::Vec2 centre{a.cx[i] - b.cx[j], a.cy[i] - b.cy[j]};
+    if (norm(off) > kIncrementMm || (model::is_arc(a.kind[i]) && norm(centre) > kIncrementMm)) return false;
   }
   return true;
 }
@@ -136,10 +171,9 @@ Change compared(const Plan& before, const Plan& after, const StepResult& a, cons
   const auto changed = [](const auto& p, const auto& q) {
     return (p == nullptr) != (q == nullptr) || (p != nullptr && !(*p == *q));
   };
-  const bool path = changed(a.path, b.path);
+  const bool path = changed(a.path, b.path) && !(a.path && b.path && agree(*a.path, *b.path));
   if (path) {
-    const bool follows = (depth || width) && a.path && b.path && agree(*a.path, *b.path);
-    const bool decided = same && !measured && !other_cut && !follows;
+    const bool decided = same && !measured && !other_cut;
     out.add(decided ? std::optional(Choice::kStrategy) : std::nullopt, "new path");
   }
   const bool speed = shown(a.spindle_rpm, b.spindle_rpm, 0), feed = shown(a.feed_mm_min, b.feed_mm_min, 1);

@@ -329,6 +329,11 @@ Result<LateOutcome> bind_case(const model::Plan& as_given, pipeline::Inputs inpu
     const auto speeds = planned_speeds(brought, cut);
     if (!speeds.empty() && !reopened) reopened = as_it_came();
     for (const model::DecisionKey& key : speeds) reopened->ledger.reopen(key);
+    if (window && as_it_came().steps.size() > window->first) {
+      // What is known of steps from here on, their forces and lives, is of the other material.
+      if (!reopened) reopened = as_it_came();
+      reopened->steps.resize(window->first);
+    }
     if (!speeds.empty()) why.push_back(other + ": the speeds and feeds that planning chose are chosen anew");
   }
   poll();

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "planner/controls/profile/profile.h"
 #include "planner/controls/suitability.h"
 #include "planner/door/late/late.h"
 #include "planner/door/late/measured_names.h"
@@ -228,6 +229,10 @@ Status edit(const Request& request, const model::Plan& plan, pipeline::Inputs& i
 /// Closes a plan that was read, in a shop whose choices are taken.
 Outcome<Planned> bound(const Request& request, const model::Plan& brought, pipeline::Inputs inputs,
                        std::chrono::steady_clock::time_point began, Job& job) {
+  if (request.profile) {  // known before anything is planned
+    if (auto known = controls::load_profile(*request.profile, job); !known)
+      return failed(known.error(), code_of(known.error(), Code::kUnreadable));
+  }
   if (!request.tools) take_tools_of_plan(request, brought, inputs, job);
   // A catalogue says nothing of what is loaded.
   const bool any = std::any_of(inputs.library.begin(), inputs.library.end(),

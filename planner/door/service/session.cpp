@@ -27,6 +27,9 @@ constexpr std::array<std::string_view, 9> kOfOneCall = {
 /// Options that a bound program is held against before it is given.
 constexpr std::array<std::string_view, 3> kHeldAgainst = {"axis-limits", "profile", "work-offset"};
 
+constexpr const char* kNotOpen =
+    "error: the session did not open: an option is wrong, as the call that opened it said; set it anew";
+
 /// The option that tells what became of the loaded tools.
 constexpr std::string_view kTools = "tool-state";
 
@@ -102,7 +105,7 @@ void Session::drop_bound() {
   outputs_.clear();
 }
 
-bool Session::goes_on_from_bound() const { return bound_ && !taken_since_ && bound_->part && !bound_->late; }
+bool Session::goes_on_from_bound() const { return bound_ && !taken_since_ && !bound_->late; }
 
 const model::Plan* Session::at_hand() const {
   if (bound_ && !taken_since_ && !bound_->late) return &bound_->plan;
@@ -177,8 +180,8 @@ Code Session::asked(Ask ask) {
   return guarded([&] {
     message_.clear();
     const model::Plan* plan = at_hand();
-    if (plan == nullptr || failed_)
-      return end(Code::kUsage, "error: there is no plan, or the session did not open");
+    if (plan == nullptr) return end(Code::kUsage, "error: there is no plan");
+    if (failed_) return end(Code::kUsage, kNotOpen);
     Job job;
     if (const Code code = opened(job); code != Code::kDone) return end(code);
     const Code code = ask(*plan, job);
@@ -260,8 +263,8 @@ Code Session::bind_as(std::string plan, Request request) {
     outputs_.clear();
     message_.clear();
     const model::Plan* so_far = last_ ? &*last_ : goes_on_ && read_ ? &read_->plan : nullptr;
-    if ((plan.empty() && so_far == nullptr) || failed_)
-      return end(Code::kUsage, "error: there is no plan, or the session did not open");
+    if (plan.empty() && so_far == nullptr) return end(Code::kUsage, "error: there is no plan");
+    if (failed_) return end(Code::kUsage, kNotOpen);
     Job job;
     job.threads = request_.threads;
     job.set_progress(progress_);

@@ -75,6 +75,21 @@ TEST(LateChanges, LessThanAControlsIncrementIsNoDecisionAndNoExcuseForAnotherPat
   ASSERT_EQ(less.size(), 1U);
   EXPECT_TRUE(less.front().decided.empty()) << less.front().text;
   EXPECT_TRUE(within_policy(then, now, may("feeds"), false));
+  // A line that is split where another feed begins is the same way.
+  std::size_t line = 1;
+  while (path->kind[line] != model::MoveKind::kLine) ++line;
+  auto split = std::make_shared<model::CutterPath>(*path);
+  const geometry::Vec3 half = model::point_on_move(*path, line, 0.5);
+  const auto at = static_cast<std::ptrdiff_t>(line);
+  split->x.insert(split->x.begin() + at, half.x);
+  split->y.insert(split->y.begin() + at, half.y);
+  split->z.insert(split->z.begin() + at, half.z);
+  split->cx.insert(split->cx.begin() + at, 0.0);
+  split->cy.insert(split->cy.begin() + at, 0.0);
+  split->kind.insert(split->kind.begin() + at, path->kind[line]);
+  split->role.insert(split->role.begin() + at, path->role[line]);
+  now.steps[step].path = split;
+  EXPECT_TRUE(changes(then, now, false).front().decided.empty());
   path = std::make_shared<model::CutterPath>(*path);
   path->x[2] += 0.5;
   now.steps[step].path = path;

@@ -127,6 +127,28 @@ TEST(LateNext, AFinishIsAsWideStepByStepAsInTheWhole) {
   }
 }
 
+// The plate's file gives the speeds of a finish, so that none is chosen anew; its forces are those of the
+// other material all the same. Once step by step they were those of the one that the plan was made for.
+TEST(LateNext, WhatIsKnownOfLaterStepsIsOfTheMaterialThatIsThere) {
+  const Brought early = brought(kPlate, pipeline::Format::kJson);
+  pipeline::Inputs in = remembering(shop_of(early.table));
+  in.material_name = "42CrMo4+QT";
+  LatePolicy all = next();
+  all.next.reset();
+  Job job;
+  const auto whole = bind(early.plan, in, all, job);
+  ASSERT_TRUE(whole) << to_text(whole.error());
+  model::Plan so_far = early.plan;
+  for (std::size_t k = 0; k < whole->plan.steps.size(); ++k) {
+    auto bound = bind(so_far, in, next(1, k + 1), job);
+    ASSERT_TRUE(bound) << k << ": " << to_text(bound.error());
+    const double one = bound->part->steps.front().loads.peak_force_n,
+                 of_whole = whole->plan.steps[k].loads.peak_force_n;
+    EXPECT_NEAR(one, of_whole, 0.03 * of_whole) << k;
+    so_far = std::move(bound->plan);
+  }
+}
+
 TEST(LateNext, AWorkingstepIsCheckedAgainstWhatIsCutAndItsFaultsAreFound) {
   const Open part = open(kPocket);
   const pipeline::Inputs in = shop_of(part.table);
