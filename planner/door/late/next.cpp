@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/door/late/unbound.h"
+#include "planner/making/given/listed_steps.h"
 #include "planner/model/features/shape.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/cutter/cutter_fields.h"
@@ -114,6 +115,16 @@ Plan joined(const Plan& brought, const Plan& bound, const pipeline::Window& wind
       }
       s.cutter_id = name->second;
     }
+  }
+  // Steps to come that have no result know their tools by name alone: nouns hold less of them.
+  for (const AnyRef step : given::steps_in_order(brought)) {
+    const auto* ws = brought.model.get<model::MachiningWorkingstep>(step);
+    const auto* op =
+        ws == nullptr ? nullptr : brought.model.get<model::MachiningOperation>(ws->its_operation);
+    const auto* tool = op == nullptr ? nullptr : brought.model.get<model::MachiningTool>(op->its_tool);
+    if (tool == nullptr || brought.ledger.is_open(ws->its_operation, "its_tool")) continue;
+    const model::Cutter* named = model::find_cutter(brought, tool->its_id.value_or(""));
+    if (named != nullptr && model::find_cutter(out, named->id) == nullptr) out.cutters.push_back(*named);
   }
   return out;
 }

@@ -172,6 +172,10 @@ TEST(LateOtherMaterial, StepByStepTheLaterOnesAreStillOpenForIt) {
   ASSERT_TRUE(first) << to_text(first.error());
   expect_slower(first->plan.steps[0], early.steps[0]);
   EXPECT_TRUE(first->plan.ledger.is_open(technology_of(early, early.steps[1]), "spindle"));
+  // What was known of the others was of the other material; their tools are known as before.
+  EXPECT_EQ(first->plan.steps.size(), 1U);
+  for (const model::Cutter& c : early.cutters)
+    EXPECT_NE(model::find_cutter(first->plan, c.id), nullptr) << c.id;
   policy.next = Next{1, 2};
   const auto second = bind(first->plan, of("42CrMo4+QT"), policy, job);
   ASSERT_TRUE(second) << to_text(second.error());
