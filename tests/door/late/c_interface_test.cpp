@@ -102,6 +102,7 @@ TEST(LateInterface, TellsWhatIsOpenBeforeAndAfterABind) {
   const std::string open = capstan_late_left_open(s);
   EXPECT_EQ(std::count(open.begin(), open.end(), '\n'), 2) << open;
   EXPECT_NE(open.find("MILLING_TECHNOLOGY"), std::string::npos) << open;
+  EXPECT_NE(open.find(", step 'DRILL PLAIN HOLE'"), std::string::npos) << open;
   ASSERT_EQ(capstan_late_bind_next(s, nullptr, 0, 1, 5, 600000), CAPSTAN_LATE_OK) << capstan_late_message(s);
   EXPECT_STREQ(capstan_late_left_open(s), "");
   capstan_late_close(s);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "planner/door/service/explain/computed.h"
@@ -339,9 +340,25 @@ void open_list(const Plan& plan, std::string& out) {
 }  // namespace
 
 std::vector<std::string> open_texts(const Plan& plan) {
+  const auto views = views_of(plan);
+  std::map<model::AnyRef, std::vector<std::string>> steps_of;
+  for (const StepView& v : views) {
+    const auto* op = plan.model.get<model::MachiningOperation>(v.operation);
+    for (const model::AnyRef at :
+         {v.step, v.operation, op == nullptr ? model::AnyRef{} : model::AnyRef(op->its_technology)})
+      if (at.set()) steps_of[at].push_back(v.id);
+  }
   std::vector<std::string> out;
-  for (const DecisionKey& key : open_decisions(plan)) out.push_back(key_text(plan, key));
-  if (views_of(plan).empty()) out.emplace_back("operations of all features: there is no workingstep");
+  for (const DecisionKey& key : open_decisions(plan)) {
+    std::string text = key_text(plan, key);
+    if (const auto at = steps_of.find(key.object); at != steps_of.end()) {
+      text += ", step '" + at->second.front() + "'";
+      if (const std::size_t more = at->second.size() - 1; more > 0)
+        text += " and " + std::to_string(more) + " more";
+    }
+    out.push_back(std::move(text));
+  }
+  if (views.empty()) out.emplace_back("operations of all features: there is no workingstep");
   return out;
 }
 

@@ -14,8 +14,8 @@ namespace capstan::service {
 /// still open. Text for people; same plan, same bytes.
 [[nodiscard]] std::string explain(const model::Plan& plan);
 
-/// What the plan leaves open, each in a few words: "feedrate of MILLING_TECHNOLOGY 'x'"; of a part without a
-/// workingstep: that it has none.
+/// What the plan leaves open, each in a few words: "feedrate of MILLING_TECHNOLOGY 'x', step 'y'"; of a part
+/// without a workingstep: that it has none.
 [[nodiscard]] std::vector<std::string> open_texts(const model::Plan& plan);
 
 /// One workingstep: each value of its operation, tool, technology and strategy, who bound it, why and by
