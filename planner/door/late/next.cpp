@@ -117,6 +117,8 @@ Plan joined(const Plan& brought, const Plan& bound, const pipeline::Window& wind
     }
   }
   // Steps to come that have no result know their tools by name alone: nouns hold less of them.
+  const auto is_there = [&](const model::Cutter& c) { return model::find_cutter(out, c.id) != nullptr; };
+  if (std::all_of(brought.cutters.begin(), brought.cutters.end(), is_there)) return out;
   for (const AnyRef step : given::steps_in_order(brought)) {
     const auto* ws = brought.model.get<model::MachiningWorkingstep>(step);
     const auto* op =
@@ -124,7 +126,7 @@ Plan joined(const Plan& brought, const Plan& bound, const pipeline::Window& wind
     const auto* tool = op == nullptr ? nullptr : brought.model.get<model::MachiningTool>(op->its_tool);
     if (tool == nullptr || brought.ledger.is_open(ws->its_operation, "its_tool")) continue;
     const model::Cutter* named = model::find_cutter(brought, tool->its_id.value_or(""));
-    if (named != nullptr && model::find_cutter(out, named->id) == nullptr) out.cutters.push_back(*named);
+    if (named != nullptr && !is_there(*named)) out.cutters.push_back(*named);
   }
   return out;
 }

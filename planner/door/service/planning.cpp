@@ -6,7 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "planner/controls/profile/profile.h"
 #include "planner/controls/suitability.h"
 #include "planner/door/late/late.h"
 #include "planner/door/late/measured_names.h"
@@ -229,9 +228,11 @@ Status edit(const Request& request, const model::Plan& plan, pipeline::Inputs& i
 /// Closes a plan that was read, in a shop whose choices are taken.
 Outcome<Planned> bound(const Request& request, const model::Plan& brought, pipeline::Inputs inputs,
                        std::chrono::steady_clock::time_point began, Job& job) {
+  std::optional<controls::Conformance> control;
   if (request.profile) {  // known before anything is planned
-    if (auto known = controls::load_profile(*request.profile, job); !known)
-      return failed(known.error(), code_of(known.error(), Code::kUnreadable));
+    auto named = control_of(request, inputs.machine, job);
+    if (!named) return failed(named.error(), code_of(named.error(), Code::kUnreadable));
+    control = *std::move(named);
   }
   if (!request.tools) take_tools_of_plan(request, brought, inputs, job);
   // A catalogue says nothing of what is loaded.
@@ -277,11 +278,9 @@ Outcome<Planned> bound(const Request& request, const model::Plan& brought, pipel
   if (auto left = leaves_limits(request.state, outcome->part ? *outcome->part : outcome->plan,
                                 outcome->program.text, outcome->program.tool_table))
     return failed(*std::move(left), Code::kImpossible);
-  if (request.profile) {
+  if (control) {
     const model::Plan& made = outcome->part ? *outcome->part : outcome->plan;
-    auto found = unsuited(request, made.machine, made, outcome->part.has_value(), job);
-    if (!found) return failed(found.error(), code_of(found.error(), Code::kUnreadable));
-    for (model::Finding& f : *found) {
+    for (model::Finding& f : unsuited(*control, made, outcome->part.has_value())) {
       if (f.severity == Severity::kError && !request.allow_findings)
         return failed({.code = "LATE-UNSUITED",
                        .message = "the plan does not suit the control '" + *request.profile +

@@ -203,9 +203,9 @@ Code Session::no_longer_valid(std::vector<std::string>& out) {
 Code Session::unsuited(std::vector<std::string>& out) {
   out.clear();
   return asked([&](const model::Plan& plan, Job& job) {
-    const auto found = service::unsuited(*in_shop_, shop_->machine, plan, false, job);
-    if (!found) return end(code_of(found.error(), Code::kUnreadable), to_text(found.error()));
-    for (const model::Finding& f : *found)
+    const auto control = control_of(*in_shop_, shop_->machine, job);
+    if (!control) return end(code_of(control.error(), Code::kUnreadable), to_text(control.error()));
+    for (const model::Finding& f : service::unsuited(*control, plan, false))
       out.push_back(
           to_text(Diagnostic{.code = f.code,
                              .severity = f.severity,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "planner/controls/controls.h"
@@ -16,26 +15,25 @@
 
 namespace capstan::service {
 
-Result<std::vector<model::Finding>> unsuited(const Request& request, const model::Machine& machine,
-                                             const model::Plan& plan, bool part, Job& job) {
-  std::optional<controls::Conformance> can;
+Result<controls::Conformance> control_of(const Request& request, const model::Machine& machine, Job& job) {
   if (request.profile) {
     auto read = controls::load_profile(*request.profile, job);
     if (!read) return tl::unexpected(read.error());
-    can = std::move(read->can);
-  } else if (const controls::Dialect* own = controls::find_dialect(machine.control.dialect)) {
-    can = own->conformance;
+    return std::move(read->can);
   }
-  if (!can) {
-    Diagnostic d =
-        unknown_name("control", machine.control.dialect, controls::profile_ids(), "capstan controls list");
-    d.code = "CONTROL-UNKNOWN";
-    d.hint = "correct `dialect` in the machine's file, or name a control's profile with " + request.sign +
-             "profile";
-    return fail(std::move(d));
-  }
-  auto out = controls::specification(plan, *can, part);
-  auto cannot = controls::suitability(plan, *can);
+  if (const controls::Dialect* own = controls::find_dialect(machine.control.dialect)) return own->conformance;
+  Diagnostic d =
+      unknown_name("control", machine.control.dialect, controls::profile_ids(), "capstan controls list");
+  d.code = "CONTROL-UNKNOWN";
+  d.hint =
+      "correct `dialect` in the machine's file, or name a control's profile with " + request.sign + "profile";
+  return fail(std::move(d));
+}
+
+std::vector<model::Finding> unsuited(const controls::Conformance& control, const model::Plan& plan,
+                                     bool part) {
+  auto out = controls::specification(plan, control, part);
+  auto cannot = controls::suitability(plan, control);
   std::move(cannot.begin(), cannot.end(), std::back_inserter(out));
   std::stable_sort(out.begin(), out.end(),
                    [](const auto& a, const auto& b) { return a.severity > b.severity; });
