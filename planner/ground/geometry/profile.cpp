@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace capstan::geometry {
 namespace {
@@ -192,6 +193,26 @@ CutterProfile cone_profile(double diameter_mm, double point_angle_rad, double cu
   if (tip > 0.0) out.pieces.push_back({.r0_mm = 0.0, .r1_mm = tip});
   if (tip < radius) {
     out.pieces.push_back({.r0_mm = tip, .r1_mm = radius, .slope = 1.0 / std::tan(0.5 * point_angle_rad)});
+  }
+  return out;
+}
+
+CutterProfile rounding_profile(double diameter_mm, double round_radius_mm, double cutting_length_mm) {
+  // A chord of a tenth of a quarter turn lies 1 - cos(4.5 degrees) of the radius off its arc. With the tip
+  // these are as many pieces as the stock's kernel takes (planner/physics/stock/sweep/rows.h).
+  constexpr int kChords = 10;
+  const double radius = 0.5 * diameter_mm, round = std::min(round_radius_mm, radius);
+  const double tip = radius - round;
+  CutterProfile out{.pieces = {}, .radius_mm = radius, .cutting_length_mm = cutting_length_mm};
+  if (tip > 0.0) out.pieces.push_back({.r0_mm = 0.0, .r1_mm = tip});
+  double r0 = tip, z0 = 0.0;
+  for (int i = 1; i <= kChords; ++i) {
+    const double angle = 0.5 * std::numbers::pi * i / kChords;
+    const double r1 = i == kChords ? radius : tip + round * (1.0 - std::cos(angle));
+    const double z1 = i == kChords ? round : round * std::sin(angle);
+    out.pieces.push_back({.r0_mm = r0, .r1_mm = r1, .z0_mm = z0, .slope = (z1 - z0) / (r1 - r0)});
+    r0 = r1;
+    z0 = z1;
   }
   return out;
 }

@@ -74,5 +74,10 @@ struct ConvexOutline {
 /// `tip_diameter_mm`: flat at the tip (0: sharp).
 [[nodiscard]] CutterProfile cone_profile(double diameter_mm, double point_angle_rad, double cutting_length_mm,
                                          double tip_diameter_mm = 0.0);
+/// A hollow quarter round from the rim of the flat tip, where it is upright, out to the diameter, where it is
+/// level: what rounds an edge. Its tip is what the round leaves of the diameter. In ten chords, which lie on
+/// the side of the material, 0.3 % of the radius from the arc.
+[[nodiscard]] CutterProfile rounding_profile(double diameter_mm, double round_radius_mm,
+                                             double cutting_length_mm);
 
 }  // namespace capstan::geometry

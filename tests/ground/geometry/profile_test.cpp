@@ -59,6 +59,23 @@ TEST(ConeProfile, RisesByItsHalfAngleFromItsTip) {
   EXPECT_TRUE(is_flat(cone_profile(10.0, 0.5 * pi, 20.0, 10.0))) << "the tip as wide as the cutter";
 }
 
+TEST(RoundingProfile, IsTheRoundOfAnEdgeFromItsTipOutwards) {
+  const CutterProfile p = rounding_profile(9.0, 2.0, 4.0);
+  EXPECT_EQ(p.radius_mm, 4.5);
+  EXPECT_EQ(p.height(2.5), 0.0);
+  EXPECT_NEAR(p.height(4.5), 2.0, kRounding);
+  // The edge's round is a circle about a place 2 mm inside the wall, which the tip runs along, at the tip's
+  // height.
+  for (double inside = 0.01; inside < 2.0; inside += 0.01) {
+    const double round = std::sqrt(4.0 - (2.0 - inside) * (2.0 - inside));
+    const double height = p.height(2.5 + inside);
+    EXPECT_LE(height, round + kRounding) << inside;
+    // What a chord of a tenth of a quarter turn lies below its arc, in the direction of the radius.
+    EXPECT_GE(std::hypot(2.0 - inside, height), 2.0 * std::cos(4.5 * pi / 180.0) - kRounding) << inside;
+  }
+  EXPECT_FALSE(convex_outline(p));
+}
+
 TEST(RadiusAt, IsWhereTheSurfaceReachesAHeight) {
   EXPECT_NEAR(ball_profile(10.0, 20.0).radius_at(2.0), 4.0, kRounding);
   EXPECT_NEAR(bull_profile(20.0, 5.0, 30.0).radius_at(1.0), 8.0, kRounding);

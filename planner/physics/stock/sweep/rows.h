@@ -8,7 +8,7 @@ namespace capstan::stock::rows {
 
 inline constexpr int kLanes = 8;
 inline constexpr int kBins = 64;
-inline constexpr int kPieces = 8;
+inline constexpr int kPieces = 12;
 /// Thinner removals are skipped, mm: single precision cannot distinguish them from rounding.
 inline constexpr float kThinnest = 2e-5F;
 

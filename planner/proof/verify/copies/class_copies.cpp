@@ -28,8 +28,8 @@ enum Trait : std::uint16_t {
 };
 
 /// What a class's edges sweep: a flat end with rounded corners, a cone to a point, a cone over a flat tip by
-/// the flank's own angle or by the lead angle, a ball.
-enum class Outline : std::uint8_t { kFlat, kPointed, kTapered, kLead, kBall };
+/// the flank's own angle or by the lead angle, a ball, a hollow quarter round over a flat tip.
+enum class Outline : std::uint8_t { kFlat, kPointed, kTapered, kLead, kBall, kHollow };
 
 struct Copy {
   unsigned traits;
@@ -77,7 +77,7 @@ Copy copy_of(CutterClass c) {
     case CutterClass::kBackCountersink:
       return {kAxis | kMill | kUnder | kHang | kPoint, Outline::kFlat};
     case CutterClass::kCornerRoundingMill:
-      return {kMill, Outline::kFlat};
+      return {kMill, Outline::kHollow};
     case CutterClass::kTaperedEndmill:
       return {kMill, Outline::kTapered};
     case CutterClass::kSideMill:
@@ -126,6 +126,9 @@ geometry::CutterProfile outline_of(const model::Cutter& c) {
       break;
     case Outline::kBall:
       return geometry::ball_profile(d, high);
+    case Outline::kHollow:
+      if (c.corner_radius_mm > 0.0) return geometry::rounding_profile(d, c.corner_radius_mm, high);
+      break;
     case Outline::kFlat:
       break;
   }

@@ -25,9 +25,7 @@ double degrees_off(const Placement& at) {
   return std::atan2(std::hypot(at.z.x, at.z.y), at.z.z) * 180.0 / std::numbers::pi;
 }
 
-bool any_direction(ShapeKind kind) {
-  return kind == ShapeKind::kFreeform || kind == ShapeKind::kToolpath || kind == ShapeKind::kEdgeRound;
-}
+bool any_direction(ShapeKind kind) { return kind == ShapeKind::kFreeform || kind == ShapeKind::kToolpath; }
 
 /// Whether a tool along Z can cut it.
 bool reached(const volumes::Form& f, const Placement& at) {

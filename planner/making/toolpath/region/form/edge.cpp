@@ -156,8 +156,12 @@ Result<TipAt> tip_of_round(const PathJob& task) {
   if (std::abs(c.corner_radius_mm - s.round_radius_mm) > 1e-3)
     return refuse("the cutter's radius of " + trimmed(c.corner_radius_mm, 3) + " mm is not the edge's " +
                   trimmed(s.round_radius_mm, 3) + " mm");
-  if (!(c.tip_diameter_mm > 0.0)) return refuse("the diameter of the cutter's tip is not known");
-  return TipAt{0.5 * c.tip_diameter_mm, s.round_radius_mm};
+  // What the round leaves of the diameter, whatever is known of the tip.
+  const double tip = 0.5 * c.cutting_diameter_mm - c.corner_radius_mm;
+  if (!(tip > 0.0))
+    return refuse("a cutter of " + trimmed(c.cutting_diameter_mm, 3) +
+                  " mm has no tip inside its rounds of " + trimmed(c.corner_radius_mm, 3) + " mm");
+  return TipAt{tip, s.round_radius_mm};
 }
 
 /// `tip_below_mm` of the chamfer or cone.

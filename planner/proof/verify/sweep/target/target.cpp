@@ -84,7 +84,6 @@ bool representable(const Form& s) {
     case ShapeKind::kToolpath:
     case ShapeKind::kSphericalCap:
     case ShapeKind::kRoundedEnd:
-    case ShapeKind::kEdgeRound:
     case ShapeKind::kFreeform:
       return false;
     default:
