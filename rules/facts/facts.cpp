@@ -206,7 +206,7 @@ void area_facts(const FeatureShape& s, const Context& c, FeatureFacts& out) {
   if (s.kind == ShapeKind::kFace) out.facts.set("sides", model::stops_at_walls(s) ? "wall" : "free");
   out.facts.set("wall", std::abs(s.slope_rad) > 1e-6 ? "drafted" : "upright");
   out.facts.set("floor", s.through ? "open" : "closed");
-  out.facts.set("floor_edge", s.bottom_radius_mm > 0.0 ? "rounded" : "sharp");
+  out.facts.set("floor_edge", model::largest_fillet_mm(s) > 0.0 ? "rounded" : "sharp");
   const double across = out.passage.narrowest_mm;
   const double corner = s.corner_radius_mm > 0.0 ? s.corner_radius_mm : 0.5 * out.passage.exact_mm;
   const bool corners = corner > 0.0 && s.kind != ShapeKind::kFace && s.kind != ShapeKind::kOutside;

@@ -154,7 +154,7 @@ tl::expected<Limit, std::string> before_narrow(const Making& m, double allowance
 
 // Allowance of roughing such that a cutter without the fillet's radius stays above the fillet: its corner
 // lies on or above the arc of radius r if both allowances are (1 - 1/sqrt 2) r.
-double for_fillet(const Making& m) { return 0.293 * m.shape.bottom_radius_mm; }
+double for_fillet(const Making& m) { return 0.293 * model::largest_fillet_mm(m.shape); }
 
 /// `leaves`: as its row says, which may leave corners or narrow places to a step after it.
 Made rough_with(const Making& m, bool leaves) {
@@ -189,6 +189,19 @@ Made rough_with(const Making& m, bool leaves) {
 
 Made rough(const Making& m) { return rough_with(m, true); }
 
+constexpr const char* kFilletsDiffer =
+    "the fillets at its floor have different radii, so that no one cutter makes them";
+
+std::string too_round(double r, const Limit& limit) {
+  return "a floor fillet of " + mm_text(r) + " needs a wider cutter than fits (" + limit.text + ")";
+}
+
+/// A cutter whose corner makes a fillet of radius r at the foot of a wall.
+void make_fillet(model::ToolRequirement& tool, double r) {
+  tool.classes = {CutterClass::kBullnoseEndmill};
+  tool.corner_radius_exact_mm = tool.corner_radius_max_mm = r;
+}
+
 Made finish(const Making& m) {
   ProposedStep s = begin(m);
   s.allowance_side_mm = m.number("allowance_side_mm");
@@ -202,14 +215,13 @@ Made finish(const Making& m) {
   if (limit.diameter_mm < 0.0) return no("no cutter is narrow enough: " + limit.text);
   s.tool.diameter_max_mm = limit.diameter_mm;
   s.tool.corner_radius_limited = true;
-  const double r = m.shape.bottom_radius_mm;
+  const auto fillet = model::floor_fillet_mm(m.shape);
+  if (!fillet) return no(kFilletsDiffer);
   s.tool.classes = {CutterClass::kEndmill};
-  if (r > 0.0) {
-    if (limit.diameter_mm > 0.0 && 2.0 * r > limit.diameter_mm + 1e-9)
-      return no("a floor fillet of " + mm_text(r) + " needs a wider cutter than fits (" + limit.text + ")");
-    s.tool.classes = {CutterClass::kBullnoseEndmill, CutterClass::kBallEndmill};
-    s.tool.corner_radius_exact_mm = r;
-    s.tool.corner_radius_max_mm = r;
+  if (const double r = *fillet; r > 0.0) {
+    if (limit.diameter_mm > 0.0 && 2.0 * r > limit.diameter_mm + 1e-9) return no(too_round(r, limit));
+    make_fillet(s.tool, r);
+    s.tool.classes.push_back(CutterClass::kBallEndmill);
   }
   s.strategy = StrategyKind::kContourParallel;
   s.why.text = limit.text;
@@ -294,6 +306,12 @@ Made plane(const Making& m, double allowance, StrategyKind strategy) {
     s.tool.classes = {CutterClass::kEndmill};
     s.tool.corner_radius_limited = true;
     s.why.text = limit.text;
+    const auto fillet = model::floor_fillet_mm(m.shape);
+    if (!fillet) return no(kFilletsDiffer);
+    if (const double r = *fillet; r > 0.0) {
+      if (2.0 * r > limit.diameter_mm + 1e-9) return no(too_round(r, limit));
+      make_fillet(s.tool, r);  // also before it is finished: nothing is left beside what stands
+    }
   }
   return s;
 }

@@ -319,6 +319,99 @@ TEST(Shape, TheCornersOfAnOpenPocketMayKeepAShareOfItsNarrowerSideAndOfAClosedOn
   EXPECT_NEAR(unstated_corner_mm(k.only(k.pocket(0, 0, 40, 30, 5))), 3.0, 1e-9);
 }
 
+/// How high a fillet of radius r is so far from its wall.
+double fillet(double r, double from_wall) { return r - std::sqrt(r * r - (r - from_wall) * (r - from_wall)); }
+
+TEST(Shape, TheFloorOfAnOpenPocketRisesInFilletsAtItsWallsAndNotAtItsMouth) {
+  Maker k;
+  FeatureShape s = open_pocket(k, {{40, 30}, {0, 30}, {0, 0}, {40, 0}}, {{40, 0}, {40, 30}});
+  EXPECT_EQ(floor_at(s, {20, 0.5}), -3.0);
+  s.bottom_radius_mm = 2.0;
+  EXPECT_NEAR(*floor_at(s, {20, 0.5}), -3.0 + fillet(2.0, 0.5), 1e-9);
+  EXPECT_NEAR(*floor_at(s, {0.5, 15}), -3.0 + fillet(2.0, 0.5), 1e-9);
+  EXPECT_EQ(floor_at(s, {39.5, 15}), -3.0);
+}
+
+TEST(Shape, TheFloorOfASlotRisesInFilletsAlongBothSides) {
+  FeatureShape s;
+  s.kind = ShapeKind::kSlot;
+  s.depth_mm = 8.0;
+  s.width.nominal_mm = 20.0;
+  s.bottom_radius_mm = 3.0;
+  s.spine = {{0, 0}, {50, 0}};
+  s.area = geometry::rectangle({0, -10}, {50, 10});
+  EXPECT_EQ(floor_at(s, {25, 6}), -8.0);
+  EXPECT_NEAR(*floor_at(s, {25, 9}), -8.0 + fillet(3.0, 1.0), 1e-9);
+  EXPECT_NEAR(*floor_at(s, {25, -9}), -8.0 + fillet(3.0, 1.0), 1e-9);
+  EXPECT_EQ(floor_at(s, {0.1, 0}), -8.0);
+}
+
+TEST(Shape, TheFilletAtTheFootOfABossIsThatOfTheFaceAroundIt) {
+  Maker k;
+  Boss b;
+  b.its_id = "B";
+  b.feature_placement = k.at(30, 20, 0);
+  b.depth = k.depth(-6);
+  b.its_boundary = k.rectangle(10, 10);
+  b.fillet_radius = k.length(1.5);
+  PlanarFace f;
+  f.its_id = "F";
+  f.feature_placement = k.at(0, 0, 0);
+  f.depth = k.depth(-6);
+  f.face_boundary = k.rectangle(200, 200);
+  f.its_boss.push_back(k.m.add(b));
+  f.its_boss.given = true;
+  const FeatureShape s = k.only(k.m.add(f));
+  ASSERT_EQ(s.islands.size(), 1U);
+  EXPECT_EQ(s.islands.front().foot_radius_mm, 1.5);
+  EXPECT_EQ(floor_fillet_mm(s), 1.5);
+  EXPECT_NEAR(*floor_at(s, {35.5, 20}), -6.0 + fillet(1.5, 0.5), 1e-9);
+  EXPECT_EQ(floor_at(s, {37, 20}), -6.0);
+}
+
+TEST(Shape, FilletsOfDifferentRadiiAtOneFloorAreToldApart) {
+  Maker k;
+  FeatureShape s = k.only(k.pocket(0, 0, 40, 30, 5));
+  EXPECT_EQ(floor_fillet_mm(s), 0.0);
+  s.bottom_radius_mm = 2.0;
+  s.islands.push_back({geometry::disc({0, 0}, 4.0), -1.0, 2.0});
+  EXPECT_EQ(floor_fillet_mm(s), 2.0);
+  s.islands.front().foot_radius_mm = 0.0;
+  EXPECT_FALSE(floor_fillet_mm(s)) << "a sharp foot beside round ones";
+  EXPECT_EQ(largest_fillet_mm(s), 2.0);
+  EXPECT_EQ(floor_at(s, {4.5, 0}), -5.0);
+  // An island that is lower than its fillet ends it.
+  s.islands.front() = {geometry::disc({0, 0}, 4.0), -4.5, 2.0};
+  EXPECT_EQ(floor_at(s, {4.01, 0}), -4.5);
+  s.open = true;
+  s.reach = geometry::subtract(s.area, s.islands.front().area);
+  EXPECT_EQ(floor_at(s, {4.01, 0}), -4.5) << "the reach has holes for islands, which are no walls";
+}
+
+TEST(Shape, AnEdgeIsBrokenBesideItsOutlineOnTheSideOfTheMaterial) {
+  Maker k;
+  EdgeRound e;
+  e.first_feature = k.pocket(0, 0, 40, 30, 5);
+  e.radius = k.length(2.0);
+  const FeatureShape in = k.only(k.m.add(e));
+  EXPECT_FALSE(floor_at(in, {19, 0})) << "within the pocket";
+  EXPECT_FALSE(floor_at(in, {22.5, 0}));
+  EXPECT_NEAR(*floor_at(in, {20.5, 0}), -2.0 + std::sqrt(4.0 - 1.5 * 1.5), 1e-9);
+  Boss b;
+  b.its_id = "B";
+  b.feature_placement = k.at(0, 0, 0);
+  b.depth = k.depth(-6);
+  b.its_boundary = k.rectangle(40, 30);
+  Chamfer c;
+  c.first_feature = k.m.add(b);
+  c.angle_to_plane = 0.25 * std::numbers::pi;
+  c.first_offset_amount = k.length(1.0);
+  const FeatureShape around = k.only(k.m.add(c));
+  EXPECT_FALSE(floor_at(around, {20.5, 0})) << "beside the boss";
+  EXPECT_NEAR(*floor_at(around, {19.75, 0}), -0.75, 1e-9);
+  EXPECT_FALSE(floor_at(around, {18.5, 0}));
+}
+
 TEST(Shape, WhatIsMissingIsNamed) {
   Maker k;
   ClosedPocket p;

@@ -6,6 +6,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
+#include "planner/model/features/fillet_slack.h"
 #include "planner/model/plan/requirement.h"
 #include "planner/model/plan/resources/changed_by_hand.h"
 #include "planner/physics/mechanics/constants.h"
@@ -246,11 +247,20 @@ bool is_other_size(const Cutter& c, const ToolRequirement& r) {
   return (low > 0.0 && d < low - kSizeSlackMm) || (high > 0.0 && d > high + kSizeSlackMm);
 }
 
+namespace {
+
+/// How far a corner's radius may be off the one that is asked: that of an edge's round is all that makes it.
+double corner_slack(const Cutter& c) {
+  return c.cutter_class == CutterClass::kCornerRoundingMill ? model::kPitchSlackMm : model::kFilletSlackMm;
+}
+
+}  // namespace
+
 std::optional<std::string> wrong_shape(const Cutter& c, const ToolRequirement& r) {
-  if (r.corner_radius_exact_mm >= 0.0 &&
-      std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > model::kPitchSlackMm)
+  const bool exact = r.corner_radius_exact_mm >= 0.0;
+  if (exact && std::abs(c.corner_radius_mm - r.corner_radius_exact_mm) > corner_slack(c) + kSizeSlackMm)
     return "corner radius " + mm_text(c.corner_radius_mm) + " is not " + mm_text(r.corner_radius_exact_mm);
-  if (r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
+  if (!exact && r.corner_radius_limited && c.corner_radius_mm > r.corner_radius_max_mm + kSizeSlackMm)
     return "corner radius " + mm_text(c.corner_radius_mm) + " is above " + mm_text(r.corner_radius_max_mm);
   if (auto why = wrong_point(c, r)) return why;
   // A dovetail's flanks lean inwards by its lead angle.

@@ -119,7 +119,8 @@ bool within(const geometry::Box3& b, Vec3 p) {
 
 /// Heights of the ball's middle that are tried, frame: below the top, above the floor.
 std::vector<double> heights(const FeatureShape& s, double left_bottom, double ball) {
-  const double floor = -s.depth_mm + (s.through ? 0.0 : left_bottom + s.bottom_radius_mm + ball + kRoom);
+  const double floor =
+      -s.depth_mm + (s.through ? 0.0 : left_bottom + model::largest_fillet_mm(s) + ball + kRoom);
   std::vector<double> out;
   for (const double part : {0.5, 0.25, 0.75}) {
     const double z = std::max(-part * s.depth_mm, floor);

@@ -33,6 +33,7 @@ struct Toleranced {
 struct Island {
   geometry::Region area;  ///< at the pocket's bottom, feature frame
   double top_z_mm = 0.0;  ///< feature frame; 0 is the pocket's top
+  double foot_radius_mm = 0.0;  ///< between it and the bottom (fillet_radius, else planar_radius)
 };
 
 /// What one feature removes, in plain geometry.
@@ -100,6 +101,12 @@ struct FeatureShape {
 /// Features that are parts of others: elements of compounds, bases of patterns, bosses of pockets, faces and
 /// steps.
 [[nodiscard]] std::set<AnyRef> parts_of_others(const Model& model);
+
+/// The radius of the fillets between the bottom and what stands beside it: walls and islands; 0: none.
+/// Nothing: they differ by more than kFilletSlackMm, so that no one cutter makes them.
+[[nodiscard]] std::optional<double> floor_fillet_mm(const FeatureShape& shape);
+/// The largest of them, 0 where there is none: what a flat cutter keeps clear of.
+[[nodiscard]] double largest_fillet_mm(const FeatureShape& shape);
 
 /// Height of the finished surface of this one feature above p, frame coordinates: -depth on the bottom,
 /// higher on sloped or rounded walls, 0 or nothing outside: nothing means that the feature leaves p alone.

@@ -34,6 +34,7 @@ struct Standing {
   geometry::Region widest;    ///< over all its heights
   double height_mm = 0.0;
   double slope_rad = 0.0;
+  std::optional<double> foot_mm;  ///< its fillet, where one is stated
 };
 
 geometry::Placement own_frame(const Model& m, AnyRef feature) {
@@ -50,7 +51,10 @@ Result<Standing> stated(const Model& m, AnyRef boss) {
   const auto* noun = m.get<Boss>(boss);
   const auto area = closed_area(m, noun->its_boundary, *shape);
   if (!area) return tl::unexpected(area.error());
-  Standing out{shape->frame, *area, *area, kAnyHeight, noun->slope.value_or(0.0)};
+  Standing out{shape->frame, *area, *area, kAnyHeight, noun->slope.value_or(0.0), {}};
+  const auto foot = foot_of(m, boss);
+  if (!foot) return tl::unexpected(foot.error());
+  out.foot_mm = *foot;
   const auto depth = depth_of(m, boss);
   const bool known = depth && !depth->tilted && depth->depth_mm >= 0.0;
   if (known) out.height_mm = depth->depth_mm;
@@ -139,7 +143,7 @@ void spare(FeatureShape& s, const Standing& boss, const geometry::Placement& at,
   if (top <= -s.depth_mm + kLower || foot >= -kLower) return;
   if (!stands_in(s, moved(rel, boss.area))) return;
   const geometry::Region stays = moved(rel, boss.widest);
-  s.islands.push_back({stays, top});
+  s.islands.push_back({stays, top, boss.foot_mm.value_or(s.bottom_radius_mm)});
   s.reach = geometry::subtract(s.reach, stays);
   if (std::abs(boss.slope_rad) > kLower) {
     s.assumptions.push_back("it keeps clear of " + name + ", whose walls lean by " +
@@ -177,6 +181,15 @@ bool lies_below(const Model& m, AnyRef boss, const FeatureShape& s) {
 }
 
 }  // namespace
+
+Result<std::optional<double>> foot_of(const Model& m, AnyRef boss) {
+  const auto* b = m.get<Boss>(boss);
+  if (b == nullptr || !b->fillet_radius.set()) return std::optional<double>();
+  const auto r = length(m, b->fillet_radius);
+  if (!r) return tl::unexpected(r.error());
+  if (!(r->nominal_mm >= 0.0)) return unsupported(m, boss, "its fillet_radius is negative");
+  return std::optional<double>(r->nominal_mm);
+}
 
 bool leans(const Boss& boss) { return std::abs(boss.slope.value_or(0.0)) > kLower; }
 
@@ -248,7 +261,9 @@ Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& in
                              " mm high: place the boss in the coordinates that the feature is placed in, "
                              "or take it out of the list");
     }
-    into.islands.push_back({stays, top});
+    const auto fillet = foot_of(m, bosses[i]);
+    if (!fillet) return tl::unexpected(fillet.error());
+    into.islands.push_back({stays, top, fillet->value_or(into.bottom_radius_mm)});
   }
   return {};
 }

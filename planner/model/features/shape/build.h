@@ -69,6 +69,8 @@ Result<std::vector<geometry::Vec2>> open_line(const Model& m, Ref<OpenProfile> p
 Result<std::vector<geometry::Vec2>> travel_line(const Model& m, Ref<TravelPath> path, FeatureShape& into);
 /// The bosses of a pocket or face as islands. Fails for one that is not in it, and for one that leans.
 Status add_islands(const Model& m, const RefList<Boss>& bosses, FeatureShape& into);
+/// The radius at the foot of a boss, where one is stated, mm.
+Result<std::optional<double>> foot_of(const Model& m, AnyRef boss);
 
 /// The box that spans a box in plan: workpiece coordinates in, coordinates of the frame out.
 geometry::Box2 in_plan(const geometry::Box3& box, const geometry::Placement& frame);

@@ -54,15 +54,6 @@ bool in_section(const FeatureShape& s, Vec3 p) {
   return geometry::contains(s.area, off > mouth ? foot + (mouth / off) * (q - foot) : q);
 }
 
-/// A quarter of a circle along the outline of the edge's feature, which touches both of its sides.
-bool in_round(const FeatureShape& s, Vec3 p) {
-  const bool around = !s.islands.empty() && s.open;
-  const geometry::Region& edge = around ? s.islands.front().area : s.area;
-  if (geometry::contains(edge, xy(p)) != around) return false;
-  const double r = s.round_radius_mm, d = geometry::distance_to_boundary(edge, xy(p));
-  return d < r && -p.z < r && std::hypot(r - d, r + p.z) > r;
-}
-
 /// What the planner's shapes hold and where, so that a place is asked of few.
 class Shapes {
  public:
@@ -226,10 +217,14 @@ std::optional<std::string> other_sizes(const Reading& own, const std::vector<Fea
   }
   if (own.solids.size() == 1 && planner.size() == 1 && planner[0].kind != ShapeKind::kThread) {
     double foot = -1.0;
-    if (const auto* a = std::get_if<Area>(&own.solids[0].form)) foot = a->foot_radius_mm;
-    if (foot >= 0.0 && differ(foot, planner[0].bottom_radius_mm))
+    if (const auto* a = std::get_if<Area>(&own.solids[0].form)) {
+      foot = a->foot_radius_mm;
+      for (const Standing& s : a->standing) foot = std::max(foot, s.foot_radius_mm);
+    }
+    if (const auto* g = std::get_if<Groove>(&own.solids[0].form)) foot = g->foot_radius_mm;
+    if (foot >= 0.0 && differ(foot, model::largest_fillet_mm(planner[0])))
       return "the radius between its walls and its floor is " + mm(foot) + " by the file, " +
-             mm(planner[0].bottom_radius_mm) + " by the planner's reading";
+             mm(model::largest_fillet_mm(planner[0])) + " by the planner's reading";
   }
   return std::nullopt;
 }
@@ -258,7 +253,6 @@ bool removes(const FeatureShape& s, Vec3 p) {
   const Vec3 q = s.frame.to_local(p);
   if (q.z > 0.0) return false;
   if (s.kind == ShapeKind::kToolpath || s.kind == ShapeKind::kFreeform) return false;
-  if (s.kind == ShapeKind::kEdgeRound) return in_round(s, q);
   if (model::has(s.kind, model::ShapeTrait::kSwept) && undercut(s)) return in_section(s, q);
   const bool hole = s.kind == ShapeKind::kHole || s.kind == ShapeKind::kThread;
   if (hole && s.bottom_diameter_mm > s.diameter.nominal_mm && q.z > -s.depth_mm) {
@@ -268,13 +262,6 @@ bool removes(const FeatureShape& s, Vec3 p) {
   }
   const auto floor = model::floor_at(s, xy(q));
   if (!floor) return false;
-  // Of what is open the radius between walls and floor is a size only; its walls bound its reach, too.
-  const double up = s.bottom_radius_mm - (q.z + s.depth_mm);
-  if (s.open && s.kind != ShapeKind::kSlot && s.kind != ShapeKind::kChamfer && s.bottom_radius_mm > 0.0 &&
-      up > 0.0 && up < s.bottom_radius_mm && *floor <= -s.depth_mm) {
-    const double out = s.bottom_radius_mm - std::sqrt(s.bottom_radius_mm * s.bottom_radius_mm - up * up);
-    if (geometry::distance_to_boundary(s.reach, xy(q)) < out) return false;
-  }
   return q.z > *floor || (s.through && *floor <= -s.depth_mm + 1e-9);
 }
 

@@ -105,6 +105,9 @@ PointState in_groove(const Groove& g, const Solid& s, Vec3 p) {
     return PointState::kStays;
   const Near near = nearest(g.course, q);
   if (near.distance_mm > g.half_mm) return PointState::kStays;
+  // Also round an end that is half round.
+  if (g.foot_radius_mm > 0.0 && height < g.foot_radius_mm && g.half_mm - near.distance_mm < g.foot_radius_mm)
+    return PointState::kNotStated;
   const std::size_t last = g.course.edges.size() - 1;
   const Edge& e = g.course.edges[near.edge];
   const Vec2 along = e.along(near.share);
@@ -142,8 +145,6 @@ PointState in_groove(const Groove& g, const Solid& s, Vec3 p) {
   if (at_vertex && !held) return PointState::kStays;
   if (at_vertex) return PointState::kNotStated;
   if (height < g.unsaid_height_mm && near.distance_mm > g.unsaid_half_mm) return PointState::kNotStated;
-  if (g.foot_radius_mm > 0.0 && height < g.foot_radius_mm && g.half_mm - near.distance_mm < g.foot_radius_mm)
-    return PointState::kNotStated;
   return held ? PointState::kRemoved : PointState::kStays;
 }
 

@@ -51,6 +51,9 @@ void spare(const Source& source, Solid& s) {
     for (const Edge& e : c.edges) x.outline.add(e);
     x.top_mm = top;
     x.leaning_mm = form.leaning_mm;
+    const auto* stated = source.m.get<model::Boss>(b.noun);
+    x.foot_radius_mm =
+        stated != nullptr && stated->fillet_radius.set() ? form.foot_radius_mm : area->foot_radius_mm;
     if (all_of_it) {
       // A boss that ends at the wall lies in the area, too.
       const bool held = std::all_of(x.outline.edges.begin(), x.outline.edges.end(), [&](const Edge& e) {

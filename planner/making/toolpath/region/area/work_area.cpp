@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/making/toolpath/region/area/track.h"
+#include "planner/model/features/fillet_slack.h"
 
 namespace capstan::toolpath {
 
@@ -54,7 +55,7 @@ Result<WorkArea> work_area(const PathJob& task) {
   w.bottom_z_mm = f.origin.z - s.depth_mm;
   if (s.through) w.bottom_z_mm -= task.break_through_mm;
   w.slope_rad = s.slope_rad;
-  w.bottom_radius_mm = s.through ? 0.0 : s.bottom_radius_mm;
+  w.bottom_radius_mm = s.through ? 0.0 : model::largest_fillet_mm(s);
   // A closed outline that runs over the piece's edge is open there.
   constexpr double kOverMm2 = 1e-3;
   w.open =
@@ -72,7 +73,7 @@ Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_m
   // In the fillet between wall and bottom the cutter's own corner must stay inside the larger radius.
   double fillet = 0.0;
   const double spare = w.bottom_radius_mm - cutter.corner_radius_mm;
-  if (spare > 0.0 && above < spare) {
+  if (spare > model::kFilletSlackMm && above < spare) {
     const double rise = spare - above;
     fillet = spare - std::sqrt((spare - rise) * (spare + rise));
   }

@@ -171,7 +171,7 @@ Status beside_a_line(const Model& m, AnyRef self, const std::vector<Vec2>& line,
 /// What is cut around a contour that stays: as far as kOpenReach, and out to the edge of the raw piece that
 /// the file states.
 void stand_in_its_middle(const Model& m, AnyRef self, const geometry::Region& inner, FeatureShape& s) {
-  s.islands.push_back({inner, 0.0});
+  s.islands.push_back({inner, 0.0, 0.0});
   s.area = geometry::offset_sharp(inner, kOpenReach);
   s.reach = geometry::subtract(geometry::offset_sharp(inner, 2.0 * kOpenReach), inner);
   const auto raw = stated_raw(m, self);
@@ -228,6 +228,9 @@ Result<Shapes> boss(const Model& m, AnyRef self, const Boss& f) {
   auto inner = closed_area(m, f.its_boundary, *s);
   if (!inner) return tl::unexpected(inner.error());
   stand_in_its_middle(m, self, *inner, *s);
+  const auto foot = foot_of(m, self);
+  if (!foot) return tl::unexpected(foot.error());
+  s->islands.front().foot_radius_mm = foot->value_or(0.0);
   return Shapes{*s};
 }
 

@@ -82,10 +82,10 @@ double corner_allowed(const Form& s, double mill) {
   return std::min(mill, kUnstatedShare * narrow_side(s.area));
 }
 
-/// The same for the foot of its walls; `corner`: that of the mill.
+/// The same for the foot of its walls; `corner`: that of the mill. Of stated feet, and of edges, the floor
+/// tells it.
 double foot_allowed(const Form& s, double corner) {
-  if (const double foot = s.foot_radius_mm(); foot > 0.0)
-    return s.open() || s.kind == ShapeKind::kSlot ? foot : 0.0;  // else its floor tells it
+  if (s.foot_radius_mm() > 0.0 || s.bevel() != nullptr) return 0.0;
   return std::min(corner, s.slope_rad > 0.0 ? kUnstatedShare * narrow_side(s.area) : kUnstatedFootMm);
 }
 
@@ -102,7 +102,8 @@ bool is_narrower(const Region& area, double ring) {
 
 /// What of a feature no height tells, or no cell.
 std::string not_judged(const Form& s, const Asked& a, double ring) {
-  if (s.kind != ShapeKind::kChamfer && is_narrower(s.area, ring))
+  const bool narrow = s.bevel() != nullptr ? s.bevel()->width_mm < 2.0 * ring : is_narrower(s.area, ring);
+  if (narrow)
     return "all of it, which is narrower than two cells (" + mm(2.0 * ring) + " with its tolerances)";
   const auto* bore = s.kind == ShapeKind::kHole ? s.bore() : nullptr;
   const bool cone = bore != nullptr && bore->top_radius_mm - bore->bottom_radius_mm > 5e-7;

@@ -56,22 +56,29 @@ std::optional<double> floor_of(const Area& a, const Form& f, Vec2 q) {
     const double up = nearest(a.outline, q).distance_mm / std::tan(f.slope_rad);
     return up < depth ? std::optional<double>(-depth + up) : std::nullopt;
   }
-  // Of what is open the radius at the foot is a size only.
-  if (a.foot_radius_mm > 0.0 && !f.open())
-    return -depth + rise(a.foot_radius_mm, nearest(a.outline, q).distance_mm);
-  return -depth;
+  double up = 0.0;
+  if (a.foot_radius_mm > 0.0) up = rise(a.foot_radius_mm, nearest(a.outline, q, true).distance_mm);
+  for (const Standing& s : a.standing) {
+    if (!(s.foot_radius_mm > 0.0)) continue;
+    const double foot = rise(s.foot_radius_mm, nearest(s.outline, q).distance_mm);
+    up = std::max(up, std::clamp(foot, 0.0, std::max(0.0, s.top_mm + depth)));
+  }
+  return -depth + up;
 }
 
 std::optional<double> floor_of_groove(const Form& f, Vec2 q) {
   if (!geometry::contains(f.area, q)) return std::nullopt;
   const auto& half = f.half_section;
-  if (half.empty()) return -f.depth_mm();
+  const auto* g = std::get_if<Groove>(&f.solid.form);
+  const double foot = g != nullptr ? g->foot_radius_mm : 0.0;
+  if (half.empty() && !(foot > 0.0)) return -f.depth_mm();
   double aside = 1e300;
   for (std::size_t i = 1; i < f.course.size(); ++i) {
     const Vec2 a = f.course[i - 1], d = f.course[i] - a;
     const double share = std::clamp(dot(q - a, d) / std::max(dot(d, d), 1e-300), 0.0, 1.0);
     aside = std::min(aside, norm(q - (a + share * d)));
   }
+  if (half.empty()) return -f.depth_mm() + rise(foot, g->half_mm - aside);
   // Down from the mouth as long as the section is wide enough.
   double height = half.back().x;
   if (half.back().y < aside) return 0.0;
@@ -111,9 +118,9 @@ bool level_about(const Form& f, Vec2 q, double distance_mm) {
   const auto* a = std::get_if<Area>(&f.solid.form);
   if (a == nullptr || f.area.empty() || f.slope_rad > 0.0) return false;
   const double apart = distance_mm + kHair;
-  if (nearest(a->outline, q).distance_mm <= apart + (f.open() ? 0.0 : a->foot_radius_mm)) return false;
+  if (nearest(a->outline, q).distance_mm <= apart + a->foot_radius_mm) return false;
   return std::all_of(a->standing.begin(), a->standing.end(), [&](const Standing& s) {
-    return nearest(s.outline, q).distance_mm > apart + s.leaning_mm;
+    return nearest(s.outline, q).distance_mm > apart + std::max(s.leaning_mm, s.foot_radius_mm);
   });
 }
 

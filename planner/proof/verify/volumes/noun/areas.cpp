@@ -142,7 +142,8 @@ std::string stand(const Model& m, const model::RefList<model::Boss>& bosses, con
     if (lean > kSteep) return "the walls of a boss that it lists lean too much";
     // Its contour is its top; its foot, on the floor, is wider.
     if (lean > kUpright) s.leaning_mm += std::max(0.0, s.top_mm + in.depth_mm) * std::tan(lean);
-    s.foot_radius_mm = std::max(area.foot_radius_mm, radius_of(m, b->fillet_radius).value_or(0.0));
+    s.foot_radius_mm =
+        b->fillet_radius.set() ? radius_of(m, b->fillet_radius).value_or(0.0) : area.foot_radius_mm;
     area.standing.push_back(std::move(s));
   }
   return {};
@@ -395,7 +396,10 @@ Reading area_of(const Source& source, AnyRef self, Solid solid) {
   if (b == nullptr) return unread("it is of a kind that this reading does not know");
   const double lean = std::abs(b->slope.value_or(0.0)), height = solid.depth_mm;
   if (lean > kSteep) return unread("its walls lean too much");
+  const auto foot = radius_of(m, b->fillet_radius);
+  if (!foot) return unread("its fillet_radius is no length");
   Reading out = around(m, b->its_boundary, std::move(solid));
+  if (out.unread.empty()) std::get<Area>(out.solids.front().form).foot_radius_mm = *foot;
   if (lean > kUpright && out.unread.empty()) {
     double& open = std::get<Area>(out.solids.front().form).leaning_mm;
     open = std::max(open, height * std::tan(lean));

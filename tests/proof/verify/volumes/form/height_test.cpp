@@ -62,5 +62,50 @@ TEST(LevelAbout, SaysSoOnlyWhereTheFloorIsTheSameAllAround) {
   EXPECT_FALSE(level_about(f, {15, 0}, 2.5)) << "the radius at the foot begins at 17";
 }
 
+TEST(FloorAt, RisesInTheFilletAtTheFootOfABossToItsTopAtMost) {
+  Form f = pocket();
+  auto& boss = std::get<Area>(f.solid.form).standing.front();
+  boss.foot_radius_mm = 2.0;
+  // A quarter of a circle of 2 mm, its middle 2 mm beside the boss and above the floor.
+  for (const double beside : {0.25, 1.0, 1.75}) {
+    EXPECT_NEAR(*floor_at(f, {4.0 + beside, 0}),
+                -10.0 + 2.0 - std::sqrt(4.0 - (2.0 - beside) * (2.0 - beside)), 1e-9);
+  }
+  EXPECT_EQ(floor_at(f, {6.5, 0}), -10.0);
+  EXPECT_FALSE(level_about(f, {6.5, 0}, 1.0));
+  boss.top_mm = -9.5;
+  EXPECT_EQ(floor_at(f, {4.01, 0}), -9.5);
+}
+
+TEST(FloorAt, OfASlotRisesInTheFilletsAlongItsSides) {
+  Groove g;
+  g.half_mm = 10.0;
+  g.foot_radius_mm = 3.0;
+  Form f;
+  f.kind = model::ShapeKind::kSlot;
+  f.solid.depth_mm = 8.0;
+  f.solid.form = g;
+  f.course = {{0, 0}, {50, 0}};
+  f.area = geometry::rectangle({0, -10}, {50, 10});
+  EXPECT_EQ(floor_at(f, {25, 6}), -8.0);
+  EXPECT_NEAR(*floor_at(f, {25, 9}), -8.0 + 3.0 - std::sqrt(9.0 - 2.0 * 2.0), 1e-9);
+  EXPECT_NEAR(*floor_at(f, {25, -10}), -5.0, 1e-9);
+}
+
+TEST(FloorAt, OfAnOpenAreaRisesAtItsWallsAlone) {
+  Area a;
+  a.outline = square(20.0);
+  a.outline.edges[0].open = true;
+  a.foot_radius_mm = 3.0;
+  Form f;
+  f.kind = model::ShapeKind::kPocket;
+  f.solid.depth_mm = 10.0;
+  f.solid.form = a;
+  f.area = geometry::rectangle({-20, -20}, {20, 20});
+  ASSERT_TRUE(f.open());
+  EXPECT_EQ(floor_at(f, {0, -19.5}), -10.0);
+  EXPECT_NEAR(*floor_at(f, {0, 19.5}), -10.0 + 3.0 - std::sqrt(9.0 - 2.5 * 2.5), 1e-9);
+}
+
 }  // namespace
 }  // namespace capstan::verify::volumes
