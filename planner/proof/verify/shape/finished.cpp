@@ -13,6 +13,7 @@
 #include "planner/proof/verify/plan/plan_checks.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/program/readers.h"
+#include "planner/proof/verify/shape/edges.h"
 #include "planner/proof/verify/shape/lattice.h"
 #include "planner/proof/verify/sweep/grid/grid.h"
 #include "planner/proof/verify/sweep/grid/way.h"
@@ -31,6 +32,10 @@ constexpr std::size_t kPlaces = 8;
 constexpr double kAtCentreMm = 1e-6;
 /// How far out or in a plane may lie so that it is still measured, mm, beyond the tolerance.
 constexpr std::array<double, 6> kSearched = {0.1, 0.2, 0.4, 0.8, 1.6, kFarthestPlaneMm};
+/// Places at sharp edges that are looked at, at most; so many times the tolerance within both faces. Default,
+/// unsourced.
+constexpr std::size_t kEdgePlaces = 2000;
+constexpr double kInsideEdges = 2.5;
 /// To which a plane's distance is measured, mm. Default, unsourced: what messages show.
 constexpr double kMeasuredMm = 0.005;
 
@@ -286,6 +291,28 @@ void compare_planes(const model::Plan& plan, const Swept& swept, const Threads& 
   }
 }
 
+/// What breaks edges on purpose, where no chamfer of the part is its feature: `--edges`, and cones at mouths
+/// of holes.
+bool breaks_edges_alone(const model::Plan& plan, const StepMoves& s) {
+  if (s.cutter == nullptr || !breaks_edges(s.cutter->cutter_class) || s.planned == nullptr) return false;
+  const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.planned->step);
+  return ws == nullptr || !plan.model.holds<model::TransitionFeature>(ws->its_feature);
+}
+
+void compare_edges(const model::Plan& plan, const std::vector<StepMoves>& steps, const Threads& threads,
+                   const AskedShape& shape, ShapeDifference& out) {
+  std::vector<StepMoves> others;
+  for (const StepMoves& s : steps) {
+    if (!breaks_edges_alone(plan, s)) others.push_back(s);
+  }
+  const Swept swept(plan, others);
+  for (const Vec3 at : inside_sharp_edges(shape.mesh, kInsideEdges * out.tolerance_mm, kEdgePlaces)) {
+    poll();
+    if (!holds(plan.stock.box, at) || !swept.over(at) || threads.hold(at)) continue;
+    if (out.edges_cut++ == 0) out.edge_at = at;
+  }
+}
+
 std::string at_words(Vec3 p) {
   return "(" + trimmed(p.x, 2) + ", " + trimmed(p.y, 2) + ", " + trimmed(p.z, 2) + ")";
 }
@@ -353,6 +380,7 @@ ShapeDifference compare_with_shape(const model::Plan& plan, const std::vector<St
   out.gouge_at = gouged.at();
   out.overlap = either == 0 ? 0.0 : static_cast<double>(common) / static_cast<double>(either);
   compare_planes(plan, swept, threads, shape, out);
+  compare_edges(plan, steps, threads, shape, out);
   return out;
 }
 
@@ -380,13 +408,17 @@ std::vector<model::Finding> check_shape(const ProgramText& text, const model::Pl
                     std::to_string(d.planes - std::min(off, d.planes)) + " of " +
                     counted(d.planes, "plane face", "plane faces") + " within " + trimmed(d.tolerance_mm, 2) +
                     " mm");
-  if (d.gouged_mm3 > 0.0 || !d.low.empty()) {
-    findings.error(11, "CHK-SHAPE-GOUGE", whole,
-                   "about " + trimmed(d.gouged_mm3, 2) + " mm3 of the part in " + of +
-                       " are cut away, up to " + off_words(d.deepest_gouge_mm, d.worst_low_mm) + " deep" +
-                       (d.gouged_mm3 > 0.0 ? " at " + at_words(d.gouge_at) : std::string()) +
-                       (d.low.empty() ? std::string() : "; plane faces cut into: " + names(d.low)) +
-                       "; leave out the feature that cuts there");
+  if (d.gouged_mm3 > 0.0 || !d.low.empty() || d.edges_cut > 0) {
+    findings.error(
+        11, "CHK-SHAPE-GOUGE", whole,
+        "about " + trimmed(d.gouged_mm3, 2) + " mm3 of the part in " + of + " are cut away, up to " +
+            off_words(d.deepest_gouge_mm, d.worst_low_mm) + " deep" +
+            (d.gouged_mm3 > 0.0 ? " at " + at_words(d.gouge_at) : std::string()) +
+            (d.low.empty() ? std::string() : "; plane faces cut into: " + names(d.low)) +
+            (d.edges_cut == 0 ? std::string()
+                              : "; sharp edges cut off at " + counted(d.edges_cut, "place", "places") +
+                                    ", at " + at_words(d.edge_at)) +
+            "; leave out the feature that cuts there");
   }
   if (d.left_mm3 > 0.0 || !d.high.empty()) {
     findings.warn(36, d.high.empty() ? "CHK-SHAPE-LEFT" : std::string(kFacesLeft), whole,

@@ -32,6 +32,8 @@ struct ShapeDifference {
   double left_mm3 = 0.0, gouged_mm3 = 0.0;    ///< further than that on the wrong side of the surface
   double deepest_left_mm = 0.0, deepest_gouge_mm = 0.0;
   geometry::Vec3 left_at, gouge_at;    ///< the worst places
+  std::size_t edges_cut = 0;           ///< places at sharp edges of the shape that are cut away
+  geometry::Vec3 edge_at;              ///< the first of them
   double overlap = 0.0;                ///< common volume over the volume of both together
   std::size_t planes = 0;              ///< that were compared
   std::vector<std::string> high, low;  ///< names of those that lie further than the tolerance out, or in
@@ -46,7 +48,7 @@ inline constexpr double kShapeMm = 0.04;
 inline constexpr double kFarthestPlaneMm = 3.2;
 
 /// Sweeps every move through the raw piece and compares what is left with the shape: on a lattice of points,
-/// and at places of each plane face, where the height of the cutters is exact.
+/// at places of each plane face, where the height of the cutters is exact, and just inside its sharp edges.
 ///
 /// Threads   what the steps of a thread cut beside its core counts as neither: a CAD model draws the core.
 ///

@@ -58,9 +58,12 @@ Lattice lattice_over(const geometry::Box3& raw) {
   const Vec3 size = raw.size();
   out.step_mm = std::cbrt(size.x * size.y * size.z / kPoints);
   const std::array<double, 3> sizes{size.x, size.y, size.z};
-  for (std::size_t k = 0; k < 3; ++k) out.n[k] = std::max(1, static_cast<int>(sizes[k] / out.step_mm));
+  // Up to the sides, for what is cut off edges lies there; a little off the middle, where floors lie.
+  constexpr double kBeyond = 0.1, kOffMiddle = 0.49;
+  for (std::size_t k = 0; k < 3; ++k)
+    out.n[k] = std::max(1, static_cast<int>(std::ceil(sizes[k] / out.step_mm - kBeyond)));
   const Vec3 covered = out.box().size();
-  out.lo = raw.lo + 0.5 * (size - covered);
+  out.lo = raw.lo + kOffMiddle * (size - covered);
   const std::size_t all = static_cast<std::size_t>(out.n[0]) * static_cast<std::size_t>(out.n[1]) *
                           static_cast<std::size_t>(out.n[2]);
   out.asked.assign(all, 0);

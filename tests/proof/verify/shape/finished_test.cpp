@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "planner/proof/verify/plan/plan_checks.h"
+#include "planner/proof/verify/shape/edges.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "tests/proof/verify/checked.h"
 #include "tests/proof/verify/plans.h"
@@ -287,6 +288,49 @@ TEST_F(LeaningHole, IsMeasuredWhereItIsTooDeep) {
   EXPECT_NEAR(d.deepest_gouge_mm, 0.5, 0.05);
   EXPECT_NEAR(d.worst_low_mm, 0.5, 0.006);
   EXPECT_EQ(d.left_mm3, 0.0);
+}
+
+/// A box as a mesh, its faces with corners of their own.
+geometry::Mesh box_mesh(Vec3 lo, Vec3 hi) {
+  geometry::Mesh out;
+  const auto face = [&](Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+    const auto first = static_cast<std::uint32_t>(out.vertices.size());
+    for (const Vec3 p : {a, b, c, d}) out.vertices.push_back(p);
+    out.triangles.push_back({first, first + 1, first + 2});
+    out.triangles.push_back({first, first + 2, first + 3});
+  };
+  const auto at = [&](int x, int y, int z) {
+    return Vec3{x != 0 ? hi.x : lo.x, y != 0 ? hi.y : lo.y, z != 0 ? hi.z : lo.z};
+  };
+  face(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
+  face(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
+  face(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
+  face(at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0));
+  face(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0));
+  face(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1));
+  return out;
+}
+
+TEST(SharpEdges, HavePlacesAsFarWithinBothFaces) {
+  const auto places = inside_sharp_edges(box_mesh({0, 0, 0}, {40, 30, 20}), 0.15, 100);
+  EXPECT_GE(places.size(), 12U);
+  EXPECT_LE(places.size(), 100U);
+  std::array<int, 3> along{};
+  for (const Vec3 p : places) {
+    // Of the distances from the three pairs of sides two are 0.15 mm.
+    const std::array<double, 3> in{std::min(p.x, 40 - p.x), std::min(p.y, 30 - p.y), std::min(p.z, 20 - p.z)};
+    int near = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (std::abs(in[k] - 0.15) < 1e-9) {
+        ++near;
+      } else {
+        ++along[k];
+        EXPECT_GT(in[k], 0.15);
+      }
+    }
+    EXPECT_EQ(near, 2);
+  }
+  for (const int n : along) EXPECT_GE(n, 4) << "each of four edges";
 }
 
 }  // namespace
