@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "planner/files/from_cad/drawn.h"
 #include "planner/model/features/shape/open_reach.h"
 #include "planner/model/nouns/profile.h"
 
@@ -24,56 +25,6 @@ constexpr double kMostPastMm = 16.0;
 
 Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
 Vec2 right_of(Vec2 d) { return {d.y, -d.x}; }
-
-Region shifted(const Region& r, Vec2 by) {
-  Region out = r;
-  for (Loop& loop : out.loops) {
-    for (Vec2& p : loop) p = p + by;
-  }
-  return out;
-}
-
-/// A room in the frame of its noun: at the middle of its area, at its top.
-struct Drawn {
-  geometry::Placement at;
-  double depth_mm = 0.0;
-  Region raw, area;
-  std::vector<RoundWall> walls;
-  std::vector<FlatWall> flats;
-  std::vector<Piece> outer;
-  std::vector<std::vector<Piece>> islands;
-  double chord_mm = 0.0;
-  geometry::Box2 around;  ///< the whole raw piece in plan
-};
-
-Drawn drawn(const Part& part, const Room& room) {
-  Drawn out;
-  const geometry::Box2 box = geometry::bounds(room.area);
-  const Vec2 middle = 0.5 * (box.lo + box.hi);
-  out.at = room.frame;
-  out.at.origin = room.frame.to_parent({middle.x, middle.y, room.top_mm});
-  out.depth_mm = room.top_mm - room.level_mm;
-  out.raw = shifted(room.raw, -1.0 * middle);
-  const geometry::Box3 piece = geometry::transformed(part.raw(), geometry::inverse(out.at));
-  out.around = {xy(piece.lo), xy(piece.hi)};
-  out.area = shifted(room.area, -1.0 * middle);
-  for (const RoundWall& w : part.round_walls(room.frame))
-    out.walls.push_back({w.centre - middle, w.radius_mm});
-  for (const FlatWall& w : part.flat_walls(room.frame)) out.flats.push_back({w.from - middle, w.to - middle});
-  // The mesh keeps its chord; where two meshes of a circle cross, corners lie a little beside it.
-  out.chord_mm = 2.0 * part.brep().chord;
-  for (std::size_t i = 0; i < out.area.loops.size(); ++i) {
-    auto pieces = pieces_of(out.area.loops[i], out.raw, out.walls, out.chord_mm, out.flats);
-    if (pieces.empty()) continue;
-    if (geometry::signed_area(out.area.loops[i]) > 0.0) {
-      out.outer = std::move(pieces);
-    } else {
-      for (Piece& p : pieces) p.open = false;
-      out.islands.push_back(std::move(pieces));
-    }
-  }
-  return out;
-}
 
 /// Runs of walls, and of open sides, round a boundary: alternately, beginning with walls.
 std::vector<std::vector<Piece>> runs(const std::vector<Piece>& outer) {
@@ -105,8 +56,8 @@ class Maker {
       : room_(room), d_(d), m_(m), nouns_(m), piece_(piece), number_(std::move(number)) {}
 
   AnyRef make() {
-    if (d_.outer.empty()) return {};
     if (is_contour(room_, d_)) return outside();
+    if (d_.outer.empty()) return {};
     const auto sides = runs(d_.outer);
     const bool walls = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return !p.open; });
     const bool open = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return p.open; });
@@ -162,6 +113,7 @@ class Maker {
         p.sweep_rad = -p.sweep_rad;
       }
       boss.its_boundary = profile(round);
+      if (d_.island_feet) boss.fillet_radius = nouns_.length(room_.blend_radius_mm);
       out.push_back(m_.add(boss));
     }
     return out;
@@ -174,7 +126,7 @@ class Maker {
 
   void radii(model::Pocket& f, double corner_mm) {
     if (corner_mm > 0.0) f.orthogonal_radius = nouns_.length(corner_mm);
-    if (room_.blend_radius_mm > 0.0) f.planar_radius = nouns_.length(room_.blend_radius_mm);
+    if (d_.wall_feet) f.planar_radius = nouns_.length(room_.blend_radius_mm);
   }
 
   AnyRef closed_pocket() {
@@ -184,6 +136,7 @@ class Maker {
     f.its_boss = bosses(d_.islands);
     f.bottom_condition = bottom();
     radii(f, corner);
+    if (room_.slope_rad > 0.0) f.slope = room_.slope_rad;
     return m_.add(f);
   }
 
@@ -256,7 +209,7 @@ class Maker {
     // ISO 10303-238 demands the profile of a step's wall, also where it has no fillet.
     model::VeeProfile vee;
     vee.profile_angle = std::numbers::pi / 2.0;
-    vee.profile_radius = nouns_.length(room_.blend_radius_mm);
+    vee.profile_radius = nouns_.length(d_.wall_feet ? room_.blend_radius_mm : 0.0);
     vee.tilt_angle = 0.0;
     f.wall_boundary = m_.add(vee);
     f.its_boss = bosses(d_.islands);
@@ -290,7 +243,7 @@ class Maker {
     f.course_of_travel = m_.add(path);
     model::SquareUProfile section;
     section.width = nouns_.length(width);
-    section.first_radius = section.second_radius = nouns_.length(room_.blend_radius_mm);
+    section.first_radius = section.second_radius = nouns_.length(d_.wall_feet ? room_.blend_radius_mm : 0.0);
     section.first_angle = section.second_angle = std::numbers::pi / 2.0;
     f.swept_shape = m_.add(section);
     for (int i = 0; i < 2; ++i) f.end_conditions.push_back(m_.add(model::OpenSlotEndType{}));
@@ -427,6 +380,7 @@ std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, 
       room.area = c.rooms[i];
       room.blends = way.blends;
       room.blend_radius_mm = way.blend_radius_mm;
+      room.slope_rad = way.slope_rad;
       room.faces = feature.faces;
       out.push_back(std::move(room));
     }

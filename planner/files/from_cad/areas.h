@@ -19,6 +19,7 @@ struct Room {
   geometry::Region raw, area;  ///< in the frame's plane; holes are what stands in the area
   std::vector<std::uint32_t> blends;
   double blend_radius_mm = 0.0;
+  double slope_rad = 0.0;               ///< by which its walls lean outwards
   std::vector<std::uint32_t> faces;     ///< of the features that it makes, ascending
   std::vector<std::size_t> recognised;  ///< into Recognition::features
 };

@@ -177,11 +177,15 @@ struct Shape {
 std::vector<Shape> shapes_in(const model::Model& m) {
   std::vector<Shape> out;
   const auto parts = model::parts_of_others(m);
-  for (const AnyRef f : m.all_below(model::TypeId::kTwo5dManufacturingFeature)) {
+  for (const AnyRef f : m.all_below(model::TypeId::kManufacturingFeature)) {
     if (parts.count(f) != 0) continue;
     const auto shapes = model::shapes_of(m, Ref<model::ManufacturingFeature>(f));
     if (!shapes) continue;
-    for (const model::FeatureShape& s : *shapes) out.push_back({f, s, geometry::bounds(s.area)});
+    for (const model::FeatureShape& s : *shapes) {
+      geometry::Box2 box = geometry::bounds(s.area);
+      const Vec2 beside{s.chamfer_width_mm + s.round_radius_mm, s.chamfer_width_mm + s.round_radius_mm};
+      out.push_back({f, s, {box.lo - beside, box.hi + beside}});
+    }
   }
   return out;
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/files/from_cad/part.h"
+#include "planner/files/from_cad/solid/part.h"
 #include "planner/model/nouns/arena/model.h"
 
 namespace capstan::from_cad {

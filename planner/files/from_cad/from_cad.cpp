@@ -6,10 +6,9 @@
 #include <map>
 
 #include "planner/files/exchange/brep/one_body.h"
-#include "planner/files/from_cad/areas.h"
 #include "planner/files/from_cad/asked/requirements.h"
 #include "planner/files/from_cad/cover.h"
-#include "planner/files/from_cad/holes.h"
+#include "planner/files/from_cad/removal.h"
 #include "planner/ground/base/number.h"
 #include "planner/model/plan/decision/not_recognised.h"
 
@@ -19,124 +18,9 @@ namespace {
 using recognise::Feature;
 using recognise::Recognition;
 
-bool is_hole(const Feature& f) {
-  return f.type == model::TypeId::kRoundHole || f.type == model::TypeId::kCounterboreHole ||
-         f.type == model::TypeId::kCountersunkHole;
-}
-
-std::string word_of(model::TypeId type) {
-  std::string out;
-  for (const char c : model::noun_type(type).keyword)
-    out += c == '_' ? ' ' : static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return out;
-}
-
-/// Faces that no feature of the plan makes, and why.
-struct Left {
-  std::vector<std::uint32_t> faces;
-  std::string why;
-};
-
-/// Recognition in terms of rooms and holes.
-struct Removal {
-  std::vector<Room> rooms;
-  std::vector<Hole> holes;
-  std::vector<std::size_t> hole_of;  ///< per hole: into Recognition::features
-  std::vector<Left> left;
-};
-
 std::string too_thin(const Room& room) {
   return "its area of " + trimmed(geometry::area(room.area), 4) + " mm2 at the level of " +
          trimmed(room.level_mm, 3) + " mm is thinner than points are told apart, 0.0001 mm: nothing is drawn";
-}
-
-/// The sides of the part that lie below the raw piece's: faces to be milled.
-std::vector<Feature> sides_to_mill(const Part& part, const Recognition& found) {
-  std::vector<Feature> out;
-  for (const std::uint32_t f : found.on_raw) {
-    const Vec3 normal = normal_of(part.brep().faces[f]);
-    const geometry::Placement frame = Part::frame_along(normal);
-    if (part.raw_span(frame).second - part.span(frame, {f}).second < kLevelMm) continue;
-    const auto same = std::find_if(out.begin(), out.end(), [&](const Feature& o) {
-      return recognise::kSameAngleRad > norm(o.access - normal);
-    });
-    if (same != out.end()) {
-      same->faces.push_back(f);
-      continue;
-    }
-    Feature side;
-    side.type = model::TypeId::kPlanarFace;
-    side.access = normal;
-    side.faces = {f};
-    side.reason = "a side of the part below that of the raw piece";
-    out.push_back(side);
-  }
-  return out;
-}
-
-/// Why a feature is not asked for ways at all; empty: it is.
-std::string not_written(const Feature& f) {
-  const bool leans =
-      std::any_of(f.parameters.begin(), f.parameters.end(), [](const auto& p) { return p.name == "slope"; });
-  if (leans) return "its walls lean; walls that lean are not planned from CAD files yet";
-  if (f.type == model::TypeId::kRegionSurfaceList)
-    return "it is a surface without walls and floors; such surfaces are planned from STL meshes only";
-  return {};
-}
-
-Removal removal_of(const Part& part, const std::vector<Feature>& features) {
-  Removal out;
-  struct Wanted {
-    std::size_t feature = 0;
-    std::vector<Way> ways;
-  };
-  std::vector<Wanted> wanted;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const Feature& f = features[i];
-    std::string why = not_written(f);
-    if (why.empty() && is_hole(f)) {
-      if (auto hole = hole_of(part, f, why)) {
-        out.holes.push_back(*std::move(hole));
-        out.hole_of.push_back(i);
-        continue;
-      }
-    }
-    // A hole that no drill makes may be a pocket.
-    if (why.empty() || is_hole(f)) {
-      std::string no_way;
-      Wanted w{i, ways_of(part, f, no_way)};
-      if (!w.ways.empty()) {
-        wanted.push_back(std::move(w));
-        continue;
-      }
-      if (why.empty()) why = no_way;
-    }
-    out.left.push_back({f.faces, "a " + word_of(f.type) + ": " + why});
-  }
-  // Fewest set-ups: first the directions without which a feature is not reached, then what these reach.
-  std::vector<Vec3> used;
-  const auto known = [&](Vec3 d) { return std::find(used.begin(), used.end(), d) != used.end(); };
-  for (const Hole& h : out.holes) {
-    if (!known(h.frame.z)) used.push_back(h.frame.z);
-  }
-  for (const Wanted& w : wanted) {
-    if (w.ways.size() == 1 && !known(w.ways.front().frame.z)) used.push_back(w.ways.front().frame.z);
-  }
-  for (const Wanted& w : wanted) {
-    const auto best =
-        std::find_if(w.ways.begin(), w.ways.end(), [&](const Way& x) { return known(x.frame.z); });
-    const Way& way = best == w.ways.end() ? w.ways.front() : *best;
-    if (!known(way.frame.z)) used.push_back(way.frame.z);
-    for (Room& room : rooms_of(part, features[w.feature], way)) {
-      room.recognised = {w.feature};
-      out.rooms.push_back(std::move(room));
-    }
-  }
-  settle(out.rooms);
-  join_contours(part, out.rooms);
-  for (Hole& h : out.holes) raise(part, out.rooms, h);
-  end(part, out.rooms, out.holes);
-  return out;
 }
 
 geometry::Box3 box_of(const Brep& brep, const exchange::Body& body) {
@@ -205,7 +89,9 @@ class Writer {
       std::vector<std::size_t> of;
     };
     std::vector<Item> items;
-    for (const Room& r : removal.rooms) items.push_back({r.faces.front(), &r, nullptr, r.recognised});
+    // A room without faces is the outline of the raw piece, which a rim goes round.
+    for (const Room& r : removal.rooms)
+      items.push_back({r.faces.empty() ? 0 : r.faces.front(), &r, nullptr, r.recognised});
     for (std::size_t i = 0; i < removal.holes.size(); ++i)
       items.push_back({removal.holes[i].faces.front(), nullptr, &removal.holes[i], {removal.hole_of[i]}});
     std::stable_sort(items.begin(), items.end(),
@@ -220,21 +106,21 @@ class Writer {
         removal.left.push_back({faces, too_thin(*item.room)});
         continue;
       }
-      if (item.room != nullptr && item.room->blend_radius_mm > 0.0)
-        blends_.emplace(made, item.room->blend_radius_mm);
-      std::string why = "from faces " + recognise::faces_in_words(part_.brep(), faces);
-      std::vector<model::Rejected> rejected;
-      for (const std::size_t of : item.of) {
-        const Feature& f = features_[of];
-        why += "; " + word_of(f.type) + ": " + f.reason;
-        for (const auto& a : f.alternatives)
-          rejected.push_back({word_of(a.type) + ", " + a.reason, "not the first choice of recognition"});
+      keep(made, "feature_placement", faces, item.of);
+      if (item.room != nullptr) nouns_of_rooms_[item.room] = made;
+    }
+    for (const OnEdge& e : removal.on_edges) {
+      const Room& room = removal.rooms[e.of.room];
+      const auto edge = nouns_of_rooms_.find(&room);
+      const AnyRef of = edge == nouns_of_rooms_.end()
+                            ? AnyRef()
+                            : noun_with(part_, room, e.of.loop, edge->second, plan_.model);
+      if (!of.set()) {
+        removal.left.push_back({e.rim.faces, "the feature whose edge it breaks is not written"});
+        continue;
       }
-      plan_.ledger.bind(made, "feature_placement", model::Binder::kRecognition,
-                        {"recognise.feature", why, "the shape of " + plan_.file_name}, {},
-                        std::move(rejected));
-      plan_.kept.push_back(made);
-      made_.push_back({made, faces});
+      const AnyRef made = noun_of(e.rim, of, plan_.model, piece_, std::to_string(++number));
+      keep(made, "first_feature", e.rim.faces, e.recognised);
     }
   }
 
@@ -251,23 +137,30 @@ class Writer {
     model::set_not_recognised(plan_, made, left.why);
   }
 
-  /// Why a feature is not planned that, read as it is written, would cut into the part.
-  [[nodiscard]] std::string cutting(const Cut& cut) const {
-    const std::string cuts = "it would cut " + trimmed(cut.volume_mm3, 1) + " mm3 out of the part";
-    const auto blend = blends_.find(cut.feature);
-    if (blend == blends_.end()) return "as it is written " + cuts;
-    return "its floor meets walls in fillets of " + trimmed(blend->second, 3) +
-           " mm, and fillets at the walls of steps and open pockets and at islands are not planned yet: "
-           "without them " +
-           cuts;
-  }
-
   model::Plan plan_;
   std::vector<MadeOf> made_;
   Ref<model::Workpiece> piece_;
 
  private:
-  std::map<AnyRef, double> blends_;  ///< features with fillets at their floors: the radius, mm
+  /// A feature that recognition bound: from which faces, and as what.
+  void keep(AnyRef made, const char* attribute, const std::vector<std::uint32_t>& faces,
+            const std::vector<std::size_t>& of) {
+    std::string why = faces.empty() ? "the outline of the raw piece, for the edge that is broken round it"
+                                    : "from faces " + recognise::faces_in_words(part_.brep(), faces);
+    std::vector<model::Rejected> rejected;
+    for (const std::size_t i : of) {
+      const Feature& f = features_[i];
+      why += "; " + word_of(f.type) + ": " + f.reason;
+      for (const auto& a : f.alternatives)
+        rejected.push_back({word_of(a.type) + ", " + a.reason, "not the first choice of recognition"});
+    }
+    plan_.ledger.bind(made, attribute, model::Binder::kRecognition,
+                      {"recognise.feature", why, "the shape of " + plan_.file_name}, {}, std::move(rejected));
+    plan_.kept.push_back(made);
+    if (!faces.empty()) made_.push_back({made, faces});
+  }
+
+  std::map<const Room*, AnyRef> nouns_of_rooms_;
   const Part& part_;
   const std::vector<Feature>& features_;
   Nouns nouns_;
@@ -407,16 +300,16 @@ Result<model::Plan> plan_of_part(const Brep& given, const std::string& name, con
          .hint = "name a larger one with --stock"});
   }
   const Part part(brep, *body, box);
-  std::vector<Feature> features = found.features;
-  for (Feature& side : sides_to_mill(part, found)) features.push_back(std::move(side));
-  Removal removal = removal_of(part, features);
-  for (const recognise::Rest& r : found.unrecognised) removal.left.push_back({r.faces, r.reason});
+  std::vector<Feature> features;
+  Removal removal = removal_of(part, found, features);
 
   Writer writer(part, features, name);
   writer.write(removal);
   for (const Cut& wrong : cuts_into(part, writer.plan_.model)) {
     // A reading of the nouns that differs from what was meant: never planned.
-    model::set_not_recognised(writer.plan_, wrong.feature, writer.cutting(wrong));
+    model::set_not_recognised(
+        writer.plan_, wrong.feature,
+        "as it is written it would cut " + trimmed(wrong.volume_mm3, 1) + " mm3 out of the part");
   }
   for (const Left& left : removal.left) writer.leave(left);
   std::vector<MadeOf> planned = writer.made_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/ground/base/number.h"
 
@@ -37,13 +38,30 @@ std::vector<Vec3> directions(const Part& part, const recognise::Feature& feature
   return out;
 }
 
-/// The way along a direction, if all faces are floors, walls, or fillets between them.
+/// Walls that lean more are floors. Default, unsourced: drafts are of 1 to 10 degrees.
+constexpr double kMostSlopeRad = 25.0 * std::numbers::pi / 180.0;
+
+/// By how much a wall leans outwards, rad; nothing: it is none, or upright.
+std::optional<double> lean_of(const exchange::Face& face, Vec3 access) {
+  double lean = 0.0;
+  if (face.carrier == Carrier::kPlane) lean = std::asin(std::clamp(dot(normal_of(face), access), -1.0, 1.0));
+  if (face.carrier == Carrier::kCone && !face.outward && along(face.axis, access)) lean = face.half_angle;
+  if (lean < kSameAngleRad || lean > kMostSlopeRad) return std::nullopt;
+  return lean;
+}
+
+/// The way along a direction, if all faces are floors, walls of one slope, or fillets between them.
 std::optional<Way> seen_along(const Part& part, const recognise::Feature& feature, Vec3 access) {
   Way way;
   way.frame = Part::frame_along(access);
   std::vector<std::uint32_t> walls;
   for (const std::uint32_t f : feature.faces) {
     const exchange::Face& face = part.brep().faces[f];
+    if (const auto lean = lean_of(face, access)) {
+      if (way.slope_rad > 0.0 && std::abs(way.slope_rad - *lean) > kSameAngleRad) return std::nullopt;
+      way.slope_rad = *lean;
+      continue;
+    }
     switch (face.carrier) {
       case Carrier::kPlane:
         if (along(normal_of(face), access)) {
@@ -75,12 +93,23 @@ std::optional<Way> seen_along(const Part& part, const recognise::Feature& featur
         return std::nullopt;
     }
   }
+  if (way.slope_rad > 0.0 && (way.levels_mm.size() != 1 || !walls.empty() || !way.blends.empty()))
+    return std::nullopt;
   if (way.levels_mm.empty()) {
     if (!way.blends.empty() || walls.empty()) return std::nullopt;
     way.levels_mm.push_back(part.span(way.frame, walls).first);
   }
   std::sort(way.levels_mm.begin(), way.levels_mm.end());
   return way;
+}
+
+/// Whether fillets meet in a sharp edge, as CAD systems make them round a sharp corner of a boss.
+bool creased(const Part& part, const std::vector<std::uint32_t>& blends) {
+  const auto is_blend = [&](std::uint32_t f) { return std::binary_search(blends.begin(), blends.end(), f); };
+  const auto& edges = part.brep().edges;
+  return !blends.empty() && std::any_of(edges.begin(), edges.end(), [&](const exchange::Edge& e) {
+    return e.convexity == exchange::Convexity::kConvex && is_blend(e.face[0]) && is_blend(e.face[1]);
+  });
 }
 
 /// How much of a feature no tool along the way comes to, mm2, and of how much.
@@ -147,6 +176,13 @@ std::vector<Way> ways_of(const Part& part, const recognise::Feature& feature, st
   for (const Vec3 d : directions(part, feature)) {
     auto way = seen_along(part, feature, d);
     if (!way) continue;
+    if (creased(part, way->blends)) {
+      if (why.empty())
+        why =
+            "the fillets at its floor meet in sharp creases at corners of what stands; a mill rolls round "
+            "these";
+      continue;
+    }
     const auto [missed, all] = out_of_reach(part, feature, *way);
     if (missed <= kOutOfReach * all) {
       out.push_back(*std::move(way));

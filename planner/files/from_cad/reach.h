@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/files/from_cad/part.h"
+#include "planner/files/from_cad/solid/part.h"
 
 namespace capstan::from_cad {
 
@@ -19,6 +19,7 @@ struct Way {
   std::vector<double> levels_mm;      ///< along z of the frame, the lowest first
   std::vector<std::uint32_t> blends;  ///< faces of fillets between wall and floor, ascending
   double blend_radius_mm = 0.0;
+  double slope_rad = 0.0;  ///< by which all walls lean outwards; 0: they are upright
 };
 
 /// The ways along which a tool reaches all of a feature's faces, past the rest of the part: the recognised

@@ -6,11 +6,12 @@
 #include <optional>
 #include <string>
 
+#include "planner/files/recognise/edge/rims.h"
+#include "planner/files/recognise/edge/rounds.h"
 #include "planner/files/recognise/graph.h"
 #include "planner/files/recognise/holes.h"
 #include "planner/files/recognise/interrupted.h"
 #include "planner/files/recognise/prismatic.h"
-#include "planner/files/recognise/rounds.h"
 #include "planner/files/recognise/view.h"
 
 namespace capstan::recognise {
@@ -195,6 +196,7 @@ Recognition recognise(const exchange::Brep& brep, std::size_t body) {
   std::sort(result.on_raw.begin(), result.on_raw.end());
 
   result.features = take_holes(context, taken);
+  for (Feature& rim : take_rims(context, taken)) result.features.push_back(std::move(rim));
   for (Feature& round : take_rounds(context, taken)) result.features.push_back(std::move(round));
   for (const std::vector<std::uint32_t>& patches : tied_groups(graph, taken)) {
     recognise_group(context, patches, result);

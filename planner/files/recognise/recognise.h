@@ -48,6 +48,7 @@ struct Feature {
   TypeId profile = TypeId::kNone;
   int walls = 0;                     ///< plane walls beside the floor
   bool through = false;              ///< no floor: it leaves the raw piece on the other side
+  bool rim = false;                  ///< chamfer, edge round: all along an outline, made from above
   int open_sides = 0;                ///< sides of the raw piece that it opens to, beside those along `access`
   Direction3 access;                 ///< from the material to the tool
   std::vector<std::uint32_t> faces;  ///< into Brep::faces, ascending

@@ -9,6 +9,11 @@ const std::string& command_file() {
 
 std::string command_quoted() { return "'" + command_file() + "'"; }
 
+const std::string& parts_file() {
+  static const std::string file = CAPSTAN_EVERYDAY_PARTS;
+  return file;
+}
+
 std::string python_quoted() {
   return "CAPSTAN=" + command_quoted() + " PYTHONPATH='" CAPSTAN_PYTHON_PATH "' " CAPSTAN_PYTHON;
 }

@@ -395,7 +395,7 @@ TEST_F(FromCad, TheRoundCornersOfAPlateAreOneContour) {
   EXPECT_NEAR(shapes.begin()->second.depth_mm, 10.0, 1e-6);
 }
 
-TEST_F(FromCad, AStepWithAFilletSaysThatItsFilletIsNotPlanned) {
+TEST_F(FromCad, AStepKeepsTheFilletAtTheFootOfItsWall) {
   // A shoulder with a fillet of 2 mm between its floor and its wall. On the large part, 600 mm long, the
   // points of the lattice lie 9 mm apart, and none in the fillet.
   for (const double s : {20.0, 200.0}) {
@@ -408,9 +408,11 @@ TEST_F(FromCad, AStepWithAFilletSaysThatItsFilletIsNotPlanned) {
                                         {{0, s}, {}}},
                                        3 * s));
     ASSERT_TRUE(plan) << plan.error().message;
-    ASSERT_FALSE(model::not_recognised(*plan).empty());
-    for (const auto& [feature, why] : model::not_recognised(*plan))
-      EXPECT_NE(why.find("fillets of 2 mm"), std::string::npos) << why;
+    EXPECT_EQ(reasons(*plan), "");
+    const auto shapes = shapes_of(*plan);
+    ASSERT_EQ(shapes.size(), 1U);
+    EXPECT_EQ(shapes.begin()->first, TypeId::kStep);
+    EXPECT_NEAR(shapes.begin()->second.bottom_radius_mm, 2.0, 1e-6);
   }
 }
 

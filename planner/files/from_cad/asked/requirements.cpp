@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "planner/files/from_cad/part.h"
+#include "planner/files/from_cad/solid/part.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/ground/base/text.h"

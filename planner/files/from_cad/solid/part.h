@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/files/exchange/brep/brep.h"
-#include "planner/files/from_cad/shadow.h"
+#include "planner/files/from_cad/solid/shadow.h"
 #include "planner/files/recognise/recognise.h"
 
 namespace capstan::from_cad {

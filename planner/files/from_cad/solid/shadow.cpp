@@ -1,4 +1,4 @@
-#include "planner/files/from_cad/shadow.h"
+#include "planner/files/from_cad/solid/shadow.h"
 
 #include <algorithm>
 #include <array>

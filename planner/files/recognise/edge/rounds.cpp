@@ -1,4 +1,4 @@
-#include "planner/files/recognise/rounds.h"
+#include "planner/files/recognise/edge/rounds.h"
 
 #include <algorithm>
 #include <cmath>

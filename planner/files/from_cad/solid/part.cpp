@@ -1,4 +1,4 @@
-#include "planner/files/from_cad/part.h"
+#include "planner/files/from_cad/solid/part.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,121 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "tests/door/app/command/command.h"
+#include "tests/door/app/programs.h"
+
+// Parts as CAD systems make them every day are planned whole, from above, and their programs make them.
+
+namespace capstan::app {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class EverydayParts : public CommandTest {
+ protected:
+  /// What planning a part says.
+  Ran planned(const std::string& name) {
+    put_part(name);
+    return run("plan " + name + ".step --material 6061 -o part.json -o part.ngc -o part.p21");
+  }
+  void put_part(const std::string& name) {
+    ASSERT_EQ(std::system(("'" + parts_file() + "' " + name + " '" + (folder_ / name).string() +
+                           ".step' >/dev/null 2>&1")
+                              .c_str()),
+              0);
+  }
+};
+
+#define NEEDS_PARTS() \
+  if (parts_file().empty()) GTEST_SKIP() << "built without OpenCASCADE"
+
+/// Planned whole in one set-up, and the program makes the CAD shape.
+auto whole_in_one_setup() {
+  return AllOf(HasSubstr("no face and no volume is left over"), HasSubstr("100 % overlap"),
+               HasSubstr("\nSafe: "), Not(HasSubstr("set-ups")), Not(HasSubstr("CHK-SHAPE-")),
+               Not(HasSubstr("PIP-UNPLANNED")));
+}
+
+TEST_F(EverydayParts, ChamfersRoundABlockTakeOneSetUp) {
+  NEEDS_PARTS();
+  const Ran r = planned("block_with_chamfers");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+  EXPECT_THAT(run("explain part.json").out, HasSubstr("CHAMFER 2 chamfer"));
+}
+
+TEST_F(EverydayParts, ChamfersOfAnOutlineAndOfAPocketAreMadeWithThem) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_with_chamfers");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+  EXPECT_THAT(run("explain part.json").out,
+              AllOf(HasSubstr("CHAMFER 3 chamfer"), HasSubstr("CHAMFER 4 chamfer")));
+  // The file says which edges they break, and reads back the same.
+  const Ran again = run("check part.p21");
+  EXPECT_THAT(again.err + again.out, HasSubstr("Safe: 1 file checked; no error"));
+}
+
+TEST_F(EverydayParts, AChamferThatASlotInterruptsIsOneChamfer) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_with_chamfers_and_slot");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+  EXPECT_THAT(r.err + r.out, HasSubstr("3 features of"));
+}
+
+TEST_F(EverydayParts, RoundsOfAnOutlineAreMadeByAMillThatRoundsEdges) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_with_rounds");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+  EXPECT_THAT(r.err + r.out, Not(HasSubstr("CHK-GOUGE-UNDECIDED")));
+  EXPECT_THAT(run("explain part.json").out, HasSubstr("corner rounding mill"));
+}
+
+TEST_F(EverydayParts, ABossKeepsTheFilletAtItsFootAndGetsItsChamfer) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_with_boss");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+}
+
+TEST_F(EverydayParts, FilletsAtTheFloorsOfOpenShapesAreMade) {
+  NEEDS_PARTS();
+  for (const char* part : {"block_with_shoulder", "block_with_round_slot", "block_with_open_pocket"}) {
+    const Ran r = planned(part);
+    EXPECT_EQ(r.code, 0) << part;
+    EXPECT_THAT(r.err + r.out, whole_in_one_setup()) << part;
+  }
+}
+
+TEST_F(EverydayParts, BevelsThatNoMillMakesFromAboveAreFaced) {
+  NEEDS_PARTS();
+  const Ran one = planned("block_with_one_bevel");
+  EXPECT_THAT(one.err + one.out, AllOf(HasSubstr("100 % overlap"), HasSubstr("\nSafe: ")));
+  const Ran wide = planned("block_with_wide_bevels");
+  EXPECT_THAT(wide.err + wide.out,
+              AllOf(HasSubstr("4 features of 4 faces"), HasSubstr("4 set-ups"), HasSubstr("\nSafe: ")));
+}
+
+TEST_F(EverydayParts, ASharpRibInTheSlotThatInterruptsAChamferStaysSharp) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_with_chamfers_and_rib");
+  EXPECT_THAT(r.err + r.out, AllOf(Not(HasSubstr("CHK-SHAPE-GOUGE")), HasSubstr("\nSafe")));
+  EXPECT_THAT(run("explain part.json").out, Not(HasSubstr("chamfer mill")));
+}
+
+TEST_F(EverydayParts, OfTwoBossesOneGetsItsChamfer) {
+  NEEDS_PARTS();
+  const Ran r = planned("block_with_two_bosses");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+}
+
+}  // namespace
+}  // namespace capstan::app
