@@ -15,8 +15,6 @@ namespace {
 using geometry::Loop;
 using geometry::Region;
 
-/// Of an area so much may differ by rounding, mm2.
-constexpr double kSpeckMm2 = 1e-2;
 /// How far past an open side a feature goes, at least; and where it is entered elsewhere: half the side,
 /// which is the widest that fits between its walls, and a little more, mm; no mill of the shipped libraries
 /// needs more than the most. Default, unsourced.

@@ -9,6 +9,9 @@
 
 namespace capstan::from_cad {
 
+/// Of an area so much may differ by rounding, mm2.
+inline constexpr double kSpeckMm2 = 1e-2;
+
 /// One area to be cleared down to one level: what one feature of the plan removes.
 struct Room {
   geometry::Placement frame;   ///< at the origin of the workpiece, z from the material to the tool

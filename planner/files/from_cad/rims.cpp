@@ -22,8 +22,8 @@ constexpr double kWidestMm = 8.0, kRoundestMm = 5.0;
 /// Slopes that one cutter of 90 degrees makes, rad. Default, unsourced: a drawing's half a degree.
 constexpr double kSameSlopeRad = 0.5 * std::numbers::pi / 180.0;
 /// Of what is free half way up a rim so much is looked at: default, unsourced; the chord of the band's arcs,
-/// mm; what is smaller is rounding, mm2.
-constexpr double kOfWidth = 0.8, kArcMm = 0.01, kSpeckMm2 = 1e-2;
+/// mm.
+constexpr double kOfWidth = 0.8, kArcMm = 0.01;
 
 /// How far the foot of a rim lies off an outline.
 double off(const Rim& rim, const Region& outline) {
@@ -34,70 +34,59 @@ double off(const Rim& rim, const Region& outline) {
 
 /// Whether a cutter may be had that makes it from above. Planes are else faced, each in a set-up of its own.
 bool one_cutter_makes(const Rim& rim) {
-  const double height = rim.top_mm - rim.foot_mm;
-  if (rim.type == model::TypeId::kEdgeRound) return height <= kRoundestMm + kLevelMm;
-  return height / std::tan(rim.angle_rad) <= kWidestMm + kLevelMm &&
+  if (rim.type == model::TypeId::kEdgeRound) return rim.height_mm() <= kRoundestMm + kLevelMm;
+  return rim.width_mm() <= kWidestMm + kLevelMm &&
          std::abs(rim.angle_rad - 0.25 * std::numbers::pi) < kSameSlopeRad;
 }
 
 /// Whether nothing of the part stands half way up a rim beside all of an outline. `within`: the material is
 /// inside the outline.
 bool broken_all_along(const Part& part, const Rim& rim, const Region& outline, bool within) {
-  const double height = rim.top_mm - rim.foot_mm, chord = 2.0 * part.brep().chord;
+  const double chord = 2.0 * part.brep().chord;
   const bool round = rim.type == model::TypeId::kEdgeRound;
-  const double wide = round ? height : height / std::tan(rim.angle_rad);
   // Half way up a bevel half of its width is free; of a round 1 - sin 60 degrees.
-  const double free = kOfWidth * (round ? 1.0 - 0.5 * std::numbers::sqrt3 : 0.5) * wide;
+  const double free = kOfWidth * (round ? 1.0 - 0.5 * std::numbers::sqrt3 : 0.5) * rim.width_mm();
   if (free < 2.0 * chord) return false;
   const Region band = within ? geometry::subtract(outline, geometry::offset(outline, -free, kArcMm))
                              : geometry::subtract(geometry::offset(outline, free, kArcMm), outline);
-  const Cleared& c = part.cleared(rim.frame, rim.foot_mm + 0.5 * height, {});
+  const Cleared& c = part.cleared(rim.frame, rim.foot_mm + 0.5 * rim.height_mm(), {});
   Region stays = geometry::intersect(band, c.raw);
   for (const Region& r : c.rooms) stays = geometry::subtract(stays, r);
   // The chords of the mesh lie a little beside the outline.
   return geometry::area(geometry::offset(stays, -chord, kArcMm)) < kSpeckMm2;
 }
 
-/// The outlines at whose upper edges chamfers and rounds are read, and whether the material is inside of
-/// each: of a contour what stands, of an area its islands, and its walls where these are closed.
-struct Outlines {
-  Region all;
-  std::vector<bool> within;  ///< per loop
-  std::vector<bool> broken;  ///< per loop: may be
-};
-
-Outlines outlines_of(const Part& part, const Room& room) {
-  Outlines out;
-  out.all = room.contour ? geometry::subtract(room.raw, room.area) : room.area;
-  bool closed = false;
-  if (!room.contour) {
-    const Drawn d = drawn(part, room);
-    closed = !d.outer.empty() &&
-             std::none_of(d.outer.begin(), d.outer.end(), [](const Piece& p) { return p.open; });
-  }
-  for (const geometry::Loop& loop : out.all.loops) {
-    const bool outer = geometry::signed_area(loop) > 0.0;
-    out.within.push_back(room.contour ? outer : !outer);
-    out.broken.push_back(room.contour ? outer : !outer || closed);
-  }
-  return out;
+/// Whether the area has walls all round.
+bool closed(const Part& part, const Room& room) {
+  const Drawn d = drawn(part, room);
+  return !d.outer.empty() &&
+         std::none_of(d.outer.begin(), d.outer.end(), [](const Piece& p) { return p.open; });
 }
 
-/// The loop of a room through which a rim's foot runs, broken all along.
+/// The loop of a room through which a rim's foot runs, broken all along. Chamfers and rounds are read at the
+/// upper edges of what stands in a contour, of an area's islands, and of its walls where these are closed.
 std::optional<std::size_t> loop_of(const Part& part, const Rim& rim, const Room& room) {
   const double near = 2.0 * part.brep().chord + kLevelMm;
-  const Outlines o = outlines_of(part, room);
-  for (std::size_t i = 0; i < o.all.loops.size(); ++i) {
-    if (!o.broken[i]) continue;
-    geometry::Loop loop = o.all.loops[i];
-    if (geometry::signed_area(loop) < 0.0) std::reverse(loop.begin(), loop.end());
+  const Region all = room.contour ? geometry::subtract(room.raw, room.area) : room.area;
+  for (std::size_t i = 0; i < all.loops.size(); ++i) {
+    geometry::Loop loop = all.loops[i];
+    const bool outer = geometry::signed_area(loop) > 0.0;
+    if (!outer) std::reverse(loop.begin(), loop.end());
     const Region filled{{loop}};
-    if (off(rim, filled) < near && broken_all_along(part, rim, filled, o.within[i])) return i;
+    if (off(rim, filled) >= near) continue;
+    if (room.contour ? !outer : outer && !closed(part, room)) continue;
+    // What stands in a contour lies within its outline, as islands do; a pocket's wall has it outside.
+    const bool within = outer == room.contour;
+    if (broken_all_along(part, rim, filled, within)) return i;
   }
   return std::nullopt;
 }
 
 }  // namespace
+
+double Rim::width_mm() const {
+  return type == model::TypeId::kEdgeRound ? height_mm() : height_mm() / std::tan(angle_rad);
+}
 
 Rim rim_of(const Part& part, const recognise::Feature& feature) {
   Rim out;
@@ -178,7 +167,6 @@ AnyRef noun_with(const Part& part, const Room& room, std::size_t loop, AnyRef no
 AnyRef noun_of(const Rim& rim, AnyRef edge_of, model::Model& m, Ref<model::Workpiece> piece,
                const std::string& number) {
   Nouns nouns(m);
-  const double height = rim.top_mm - rim.foot_mm;
   const auto begun = [&](auto f, const char* name) {
     f.its_id = name + number;
     f.its_workpiece = piece;
@@ -188,12 +176,12 @@ AnyRef noun_of(const Rim& rim, AnyRef edge_of, model::Model& m, Ref<model::Workp
   };
   if (rim.type == model::TypeId::kEdgeRound) {
     auto f = begun(model::EdgeRound{}, "ROUND ");
-    f.radius = nouns.length(height);
+    f.radius = nouns.length(rim.height_mm());
     return m.add(f);
   }
   auto f = begun(model::Chamfer{}, "CHAMFER ");
   f.angle_to_plane = rim.angle_rad;
-  f.first_offset_amount = nouns.length(height / std::tan(rim.angle_rad));
+  f.first_offset_amount = nouns.length(rim.width_mm());
   return m.add(f);
 }
 

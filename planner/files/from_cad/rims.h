@@ -16,6 +16,8 @@ struct Rim {
   double angle_rad = 0.0;              ///< chamfer: against the plane above
   std::vector<Vec2> foot;              ///< places where it ends on the walls, in the frame's plane
   std::vector<std::uint32_t> faces;    ///< ascending
+  [[nodiscard]] double height_mm() const { return top_mm - foot_mm; }
+  [[nodiscard]] double width_mm() const;  ///< along the plane above
 };
 
 /// A rim of recognition in the frame of its direction, mm.

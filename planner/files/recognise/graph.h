@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "planner/files/recognise/recognise.h"
@@ -60,6 +62,18 @@ class Groups {
   explicit Groups(std::size_t count);
   void join(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] std::uint32_t root(std::uint32_t a) const;  ///< the lowest of its group
+  /// The numbers for which `counts` says so, by their groups: both from the lowest.
+  template <class Counts>
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> members(const Counts& counts) const {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
+    for (std::uint32_t a = 0; a < parent_.size(); ++a) {
+      if (counts(a)) by_root[root(a)].push_back(a);
+    }
+    std::vector<std::vector<std::uint32_t>> out;
+    out.reserve(by_root.size());
+    for (auto& [lowest, all] : by_root) out.push_back(std::move(all));
+    return out;
+  }
 
  private:
   std::vector<std::uint32_t> parent_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -35,14 +34,7 @@ std::vector<std::vector<std::uint32_t>> tied_groups(const Graph& graph, const st
   for (const Join& join : graph.joins) {
     if (!taken[join.a] && !taken[join.b] && tied(graph, join)) groups.join(join.a, join.b);
   }
-  std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
-  for (std::uint32_t p = 0; p < graph.patches.size(); ++p) {
-    if (!taken[p]) by_root[groups.root(p)].push_back(p);
-  }
-  std::vector<std::vector<std::uint32_t>> found;
-  found.reserve(by_root.size());
-  for (auto& [root, patches] : by_root) found.push_back(std::move(patches));
-  return found;
+  return groups.members([&](std::uint32_t p) { return !taken[p]; });
 }
 
 std::vector<std::vector<std::uint32_t>> tied_groups(const Graph& graph,

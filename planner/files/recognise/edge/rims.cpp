@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -19,7 +18,6 @@ namespace {
 
 using exchange::Carrier;
 using exchange::Convexity;
-using geometry::cross;
 using geometry::dot;
 
 /// Planes and cones that lean less against the floor or the wall are none of a rim. Default, unsourced:
@@ -107,19 +105,27 @@ class Rims {
     for (const Join& j : context_.graph.joins) {
       if (strips_[j.a] && strips_[j.b] && strips_[j.a]->meets(*strips_[j.b])) groups.join(j.a, j.b);
     }
-    std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
-    for (std::uint32_t p = 0; p < strips_.size(); ++p) {
-      if (strips_[p]) by_root[groups.root(p)].push_back(p);
-    }
-    std::vector<std::vector<std::uint32_t>> out;
-    for (auto& [root, patches] : by_root) {
-      if (!interrupted || patches.size() > 1) out.push_back(std::move(patches));
-    }
+    auto out = groups.members([&](std::uint32_t p) { return strips_[p].has_value(); });
+    if (interrupted) std::erase_if(out, [](const auto& patches) { return patches.size() < 2; });
     return out;
   }
 
   [[nodiscard]] Feature feature(const std::vector<std::uint32_t>& patches) const {
-    return feature(*strips_[patches.front()], patches);
+    const Strip& s = *strips_[patches.front()];
+    Feature out;
+    out.rim = true;
+    out.access = access_;
+    out.faces = faces_of(context_.graph, patches);
+    if (s.round) {
+      out.type = TypeId::kEdgeRound;
+      out.parameters = {{"radius", s.hi - s.lo}};
+      out.reason = "one round all along an edge, between walls and the plane above them";
+    } else {
+      out.type = TypeId::kChamfer;
+      out.parameters = {{"width", (s.hi - s.lo) / std::tan(s.angle_rad)}, {"angle_to_plane", s.angle_rad}};
+      out.reason = "one bevel all along an edge, between walls and the plane above them";
+    }
+    return out;
   }
 
  private:
@@ -155,23 +161,6 @@ class Rims {
       }
     }
     return above && below && (interrupted ? !s.round : ends == 2 || ends == 0);
-  }
-
-  [[nodiscard]] Feature feature(const Strip& s, const std::vector<std::uint32_t>& patches) const {
-    Feature out;
-    out.rim = true;
-    out.access = access_;
-    out.faces = faces_of(context_.graph, patches);
-    if (s.round) {
-      out.type = TypeId::kEdgeRound;
-      out.parameters = {{"radius", s.hi - s.lo}};
-      out.reason = "one round all along an edge, between walls and the plane above them";
-    } else {
-      out.type = TypeId::kChamfer;
-      out.parameters = {{"width", (s.hi - s.lo) / std::tan(s.angle_rad)}, {"angle_to_plane", s.angle_rad}};
-      out.reason = "one bevel all along an edge, between walls and the plane above them";
-    }
-    return out;
   }
 
   const Context& context_;

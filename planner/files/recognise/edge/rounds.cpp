@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace capstan::recognise {
 namespace {
@@ -43,20 +42,17 @@ std::vector<Feature> take_rounds(const Context& context, std::vector<bool>& take
     const double b = round_radius(graph.patches[join.b]);
     if (std::abs(a - b) < kSameLengthMm) groups.join(join.a, join.b);
   }
-  std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
-  for (std::uint32_t p = 0; p < graph.patches.size(); ++p) {
-    if (round[p]) by_root[groups.root(p)].push_back(p);
-  }
   std::vector<Feature> found;
-  for (const auto& [root, patches] : by_root) {
+  for (const auto& patches : groups.members([&](std::uint32_t p) { return round[p]; })) {
+    const Patch& lowest = graph.patches[patches.front()];
     Feature feature;
     feature.type = TypeId::kEdgeRound;
     feature.through = true;
     feature.faces = faces_of(graph, patches);
-    feature.access = graph.patches[root].axis;
-    feature.parameters.push_back({"radius", round_radius(graph.patches[root])});
+    feature.access = lowest.axis;
+    feature.parameters.push_back({"radius", round_radius(lowest)});
     feature.reason = "tangent to both its neighbours, with the material inside";
-    if (graph.patches[root].carrier == Carrier::kCylinder) {
+    if (lowest.carrier == Carrier::kCylinder) {
       feature.alternatives.push_back(
           {TypeId::kGeneralOutsideProfile, feature.access, "mill it as a part of the outside contour"});
     }
