@@ -11,7 +11,8 @@
 // Bosses stand, whichever feature is cut around them. A feature lists the bosses that stand in it (its_boss);
 // a boss that is a feature of its own, in the same workpiece, stands in others, too: in every face and every
 // outside of another contour that is cut lower than the boss's top beside it, and in every pocket and step
-// whose area holds the whole of it. What is cut into a boss from its top, or across it, is not affected.
+// whose area holds the whole of it; and in what is cut around the island on which it stands. What is cut into
+// a boss from its top, or across it, is not affected.
 //
 // A boss of a compound or a pattern stands where that puts it, once for each copy. A boss that leans is kept
 // clear of by its widest section, whether its contour is drawn at its top or at its foot. One of which only
@@ -136,13 +137,28 @@ bool its_own(const Model& m, const FeatureShape& s, const std::vector<AnyRef>& b
   return norm(there.origin - at.origin) < kLower && norm(there.x - at.x) < kLower;
 }
 
+/// The island of what is cut, as high as the feature, on which a boss stands. Passes over the islands' tops
+/// must go round the boss.
+const Island* island_below(const FeatureShape& s, const geometry::Region& boss) {
+  const auto carries = [&](const Island& i) {
+    return std::abs(i.top_z_mm) <= kLower && geometry::area(geometry::subtract(boss, i.area)) <= kSpeck;
+  };
+  const auto at = std::find_if(s.islands.begin(), s.islands.end(), carries);
+  return at == s.islands.end() ? nullptr : &*at;
+}
+
 void spare(FeatureShape& s, const Standing& boss, const geometry::Placement& at, const std::string& name) {
   const geometry::Placement rel = compose(inverse(s.frame), at);
   if (std::abs(rel.z.z - 1.0) > kLower) return;
   const double top = rel.origin.z, foot = top - boss.height_mm;
-  if (top <= -s.depth_mm + kLower || foot >= -kLower) return;
-  if (!stands_in(s, moved(rel, boss.area))) return;
-  const geometry::Region stays = moved(rel, boss.widest);
+  if (top <= -s.depth_mm + kLower) return;
+  const geometry::Region drawn = moved(rel, boss.area), stays = moved(rel, boss.widest);
+  if (foot >= -kLower) {
+    const Island* below = foot <= kLower ? island_below(s, drawn) : nullptr;
+    if (below != nullptr) s.islands.push_back({stays, top, below->foot_radius_mm});
+    return;
+  }
+  if (!stands_in(s, drawn)) return;
   s.islands.push_back({stays, top, boss.foot_mm.value_or(s.bottom_radius_mm)});
   s.reach = geometry::subtract(s.reach, stays);
   if (std::abs(boss.slope_rad) > kLower) {
