@@ -43,13 +43,17 @@ Result<std::vector<Cutter>> read_tool_table(std::string_view text, const std::st
 }
 
 Result<std::vector<Cutter>> load_library(const std::string& path, Job& job, const LibraryOptions& options) {
-  if (path == "generic") return generic_library();
+  if (path == kGeneric) return generic_library();
+  if (path == kGenericInch) return generic_library(Sizes::kMetricAndInch);
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) {
     const auto text = read_file(path, kLibraryBytesCap);
     if (!text && only_a_name(path)) {
-      Diagnostic d = unknown_name("tool library", path, {"generic"}, "capstan tools list");
-      d.hint = "a file or folder of tools, or 'generic', which `capstan tools list` shows";
+      Diagnostic d = unknown_name("tool library", path, {std::string(kGeneric), std::string(kGenericInch)},
+                                  "capstan tools list");
+      d.hint =
+          "a file or folder of tools, or 'generic', which `capstan tools list` shows, or 'generic-inch', "
+          "which has inch sizes, too";
       return fail(std::move(d));
     }
     if (!text) return fail(text.error());

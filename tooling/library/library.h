@@ -21,7 +21,7 @@ struct LibraryOptions {
 
 /// Loads a tool library from a file or folder, whose content decides its kind: our own list (YAML or JSON,
 /// tooling/data/README.md), or any format of `tooling/library/formats` that can be read. "generic" is the
-/// shipped one.
+/// shipped one, "generic-inch" the same with inch sizes.
 ///
 /// Fields that the file leaves out are completed from the generic series (see complete.h), each with its
 /// source. Entries that cannot be used (no diameter, a kind that planning does not know) are left out, with a

@@ -97,6 +97,14 @@ void take_lengths(Cutter& c, const ToolRequirement& r) {
   c.stick_out_mm = std::max(c.usable_length_mm, c.maximum_depth_of_cut_mm) + kClearOfHolderMm;
 }
 
+/// Whether nobody sells a mill so long and thin: 10 x D is the longest of reach tools (amgcarbidetool.com,
+/// the relationship between end mill diameter and length), as the longest necks of the generic series.
+bool beyond_reach(const Cutter& c) {
+  constexpr double kLongest = 10.0;
+  return !model::has(c.cutter_class, CutterTrait::kAlongAxis) &&
+         c.usable_length_mm > kLongest * c.cutting_diameter_mm;
+}
+
 }  // namespace
 
 std::optional<model::Candidate> needed_cutter(const ToolRequirement& r, const model::WorkMaterial& material,
@@ -121,9 +129,12 @@ std::optional<model::Candidate> needed_cutter(const ToolRequirement& r, const mo
       *v = std::ceil(*v * 10.0 - 1e-6) / 10.0;
     c.functional_length_mm = gage + c.stick_out_mm;
     c.id = "needed " + std::string(model::to_text(c.cutter_class)) + " " + trimmed(c.cutting_diameter_mm, 4);
+    if (c.corner_radius_mm > 0.0 && !model::has(wanted, CutterTrait::kBall))
+      c.id += "r" + trimmed(c.corner_radius_mm, 4);
+    c.id += "x" + trimmed(c.usable_length_mm, 1);
     c.description = c.id;
     c.pocket = 0;
-    if (!faults_of(c).empty()) continue;
+    if (!faults_of(c).empty() || beyond_reach(c)) continue;
     auto fits = select(r, {c}, material, machine, preferences);
     if (!fits.ranked.empty()) return std::move(fits.ranked.front());
   }

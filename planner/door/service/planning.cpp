@@ -25,6 +25,8 @@
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/verify.h"
+#include "tooling/library/cutters/generic.h"
+#include "tooling/shop/machine/machine.h"
 
 namespace capstan::service {
 namespace {
@@ -101,6 +103,26 @@ Code code_of(const Diagnostic& fault, Code otherwise) {
 
 namespace {
 
+/// A machine that the part lies in as it is drawn, where the default one is too small for it.
+std::optional<Request::Suited> machine_for(const PartRead& part) {
+  if (part.shape == nullptr) return std::nullopt;
+  Job aside;
+  const auto usual = tooling::load_machine(std::string(tooling::kDefaultMachine), aside);
+  if (!usual) return std::nullopt;
+  const auto room = [](const auto& axis) { return axis.travel_max_mm - axis.travel_min_mm; };
+  const geometry::Vec3& size = part.size_mm;
+  if (size.x <= room(usual->axes[0]) && size.y <= room(usual->axes[1]) && size.z <= room(usual->axes[2]))
+    return std::nullopt;
+  return Request::Suited{std::string(tooling::kLargeMachine),
+                         "for the part is larger than '" + usual->id + "' travels"};
+}
+
+/// Inch sizes for a part that is drawn in inches.
+std::optional<Request::Suited> tools_for(const PartRead& part) {
+  if (part.unit != "inch") return std::nullopt;
+  return Request::Suited{std::string(tooling::kGenericInch), "for the part is drawn in inches"};
+}
+
 /// What `body` gives, an error if the job was stopped before its end.
 template <class Body>
 Outcome<Planned> to_its_end(const std::string& file, Job& job, Body body) {
@@ -130,7 +152,10 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
            .hint = "its features are in the file; " + request.sign + "bind none binds no decision of it"},
           Code::kUsage);
     }
-    auto inputs = gather(request, read_part->plan, job);
+    Request asked = request;
+    asked.machine_of_part = machine_for(*read_part);
+    asked.tools_of_part = tools_for(*read_part);
+    auto inputs = gather(asked, read_part->plan, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
     // The raw piece of a CAD part was made with the allowance; its features begin there.
     if (read_part->shape != nullptr) inputs->stock_allowance_mm.reset();

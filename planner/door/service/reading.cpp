@@ -13,6 +13,7 @@
 #include "planner/files/json/json.h"
 #include "planner/files/recognise/recognise.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
 
 namespace capstan::service {
@@ -106,6 +107,25 @@ std::shared_ptr<const verify::AskedShape> asked_shape(const exchange::Brep& shap
   return std::make_shared<const verify::AskedShape>(std::move(out));
 }
 
+/// The number of the one solid of a file that holds sheets, too: a sheet has no volume, so that it is help or
+/// reference. Nothing: there are no sheets, or it is not one solid.
+std::optional<std::string> the_solid(const exchange::Brep& shape, const std::string& name, Job& job) {
+  std::vector<std::size_t> solids;
+  for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+    if (shape.bodies[b].solid) solids.push_back(b);
+  }
+  if (solids.size() != 1 || shape.bodies.size() == 1) return std::nullopt;
+  job.report(
+      {.code = "CAD-SHEETS",
+       .severity = Severity::kWarning,
+       .message = "beside the one solid the file holds " +
+                  counted(shape.bodies.size() - 1, "sheet", "sheets") +
+                  ", without volume: the solid is planned; there are: " + exchange::bodies_in_words(shape),
+       .file = name,
+       .hint = "save the part alone, or name a body by its number or name (--body)"});
+  return std::to_string(solids.front() + 1);
+}
+
 }  // namespace
 
 Result<model::Plan> read_plan(std::string bytes, const std::string& path, Job& job, bool strict) {
@@ -135,13 +155,17 @@ Result<PartRead> read_part(std::string bytes, const std::string& name, const fro
   }
   auto shape = exchange::read_brep_bytes(std::move(bytes), name, {}, job);
   if (!shape) return tl::unexpected(shape.error());
-  if (body) {
-    shape = exchange::one_body(*shape, *body, name);
+  const auto asked = body ? body : the_solid(*shape, name, job);
+  if (asked) {
+    shape = exchange::one_body(*shape, *asked, name);
     if (!shape) return tl::unexpected(shape.error());
   }
   auto plan = from_cad::plan_of_part(*shape, name, stated, job);
   if (!plan) return tl::unexpected(plan.error());
-  return PartRead{*std::move(plan), asked_shape(from_cad::straightened(*std::move(shape)), name)};
+  std::string of_lengths = shape->unit;
+  const geometry::Vec3 size = shape->box.size();
+  return PartRead{*std::move(plan), asked_shape(from_cad::straightened(*std::move(shape)), name),
+                  std::move(of_lengths), size};
 }
 
 Result<model::Plan> load_plan(const std::string& path, Job& job, bool strict,

@@ -21,6 +21,11 @@ namespace capstan::service {
 /// The caller's choices beside the part: every option of `plan`, `bind` and `check` (options.h has the
 /// table). Unset or empty means the built-in default.
 struct Request {
+  /// What suits the part where the caller names none, and why.
+  struct Suited {
+    std::string name, why;
+  };
+  std::optional<Suited> machine_of_part, tools_of_part;
   std::optional<std::string> machine, control, tools, material, rules, cases, cache;
   std::optional<geometry::Box3> stock;
   std::optional<double> stock_allowance_mm;

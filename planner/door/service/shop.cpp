@@ -152,6 +152,11 @@ void choices(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
   p.push_back({"solver", optimise::word_of(in.solver), o.solver ? option(o, "solver") : kDefault});
 }
 
+/// Why something is taken that nobody named.
+std::string by_default(const std::optional<Request::Suited>& suited) {
+  return suited ? kDefault + (", " + suited->why) : kDefault;
+}
+
 Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& in, Job& job) {
   const auto shipped = tooling::shipped_machines();
   const bool known = std::find(shipped.begin(), shipped.end(), plan.machine.id) != shipped.end();
@@ -170,17 +175,18 @@ Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& i
         "the plan was made for it and does not hold its data: name one with " + o.sign + "machine; " + d.hint;
     return fail(std::move(d));
   }
-  auto machine = tooling::load_machine(o.machine ? *o.machine
-                                       : named   ? plan.machine.id
-                                                 : std::string(tooling::kDefaultMachine),
+  auto machine = tooling::load_machine(o.machine           ? *o.machine
+                                       : named             ? plan.machine.id
+                                       : o.machine_of_part ? o.machine_of_part->name
+                                                           : std::string(tooling::kDefaultMachine),
                                        job);
   if (!machine) return tl::unexpected(machine.error());
   in.machine = *std::move(machine);
   if (named && before != nullptr) {
     in.provenance.push_back(*before);
   } else {
-    in.provenance.push_back(
-        {"machine", in.machine.id, o.machine ? option(o, "machine " + *o.machine) : kDefault});
+    in.provenance.push_back({"machine", in.machine.id,
+                             o.machine ? option(o, "machine " + *o.machine) : by_default(o.machine_of_part)});
   }
   return {};
 }
@@ -192,7 +198,7 @@ void take_control(const Request& o, pipeline::Inputs& in, Job& job) {
   in.provenance.push_back({"control", *o.control, option(o, "control")});
   // Travels, speeds and feeds in the program are those of whichever machine this is.
   const auto named_by_nobody = [](const model::Provenance& p) {
-    return p.what == "machine" && p.source == kDefault;
+    return p.what == "machine" && p.source.starts_with(kDefault);
   };
   if (std::any_of(in.provenance.begin(), in.provenance.end(), named_by_nobody))
     job.note("SHOP-MACHINE", "no machine is named: the program for " + *o.control + " is made for machine '" +
@@ -314,14 +320,16 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   take_state(o.state, o.sign, in.machine, in.provenance, job);
 
   poll();
+  const std::string tools = o.tools           ? *o.tools
+                            : o.tools_of_part ? o.tools_of_part->name
+                                              : std::string(tooling::kGeneric);
   auto library = tooling::load_library(
-      o.tools.value_or("generic"), job,
+      tools, job,
       {.mm_per_unit = {}, .offsets_against_reference = in.machine.control.offsets_against_reference});
   if (!library) return tl::unexpected(library.error());
   in.library = *std::move(library);
-  in.provenance.push_back(
-      {"tools", o.tools.value_or("generic") + ", " + std::to_string(in.library.size()) + " cutters",
-       o.tools ? option(o, "tools " + *o.tools) : kDefault});
+  in.provenance.push_back({"tools", tools + ", " + std::to_string(in.library.size()) + " cutters",
+                           o.tools ? option(o, "tools " + *o.tools) : by_default(o.tools_of_part)});
 
   poll();
   auto materials = tooling::shipped_materials();

@@ -374,6 +374,7 @@ std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, 
       room.level_mm = level;
       room.top_mm = highest;
       room.through = level < lowest + kLevelMm;
+      room.no_floor = way.no_floor;
       room.raw = c.raw;
       room.area = c.rooms[i];
       room.blends = way.blends;

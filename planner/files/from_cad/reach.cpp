@@ -98,6 +98,7 @@ std::optional<Way> seen_along(const Part& part, const recognise::Feature& featur
   if (way.levels_mm.empty()) {
     if (!way.blends.empty() || walls.empty()) return std::nullopt;
     way.levels_mm.push_back(part.span(way.frame, walls).first);
+    way.no_floor = true;
   }
   std::sort(way.levels_mm.begin(), way.levels_mm.end());
   return way;

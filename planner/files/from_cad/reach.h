@@ -17,6 +17,7 @@ inline constexpr double kInFrontMm = 0.005;
 struct Way {
   geometry::Placement frame;          ///< at the origin of the workpiece, z from the material to the tool
   std::vector<double> levels_mm;      ///< along z of the frame, the lowest first
+  bool no_floor = false;              ///< the level is where the walls end
   std::vector<std::uint32_t> blends;  ///< faces of fillets between wall and floor, ascending
   double blend_radius_mm = 0.0;
   double slope_rad = 0.0;  ///< by which all walls lean outwards; 0: they are upright

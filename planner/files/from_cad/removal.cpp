@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "planner/files/from_cad/reach.h"
 
@@ -75,6 +79,46 @@ void put_on_edges(const Part& part, Removal& removal) {
   removal.on_edges = std::move(out);
 }
 
+/// Whether all that lies just below a room without a floor is cleared by others, so that a tool may run out
+/// there: through the thin floor of a cavity, cut from outside.
+bool opens_below(const Room& room, const std::vector<Room>& rooms) {
+  constexpr int kAcross = 12;
+  constexpr double kRunOutMm = 2.5;  // more than a tool runs out by
+  const geometry::Box2 box = geometry::bounds(room.area);
+  const Vec2 cell = (1.0 / kAcross) * (box.hi - box.lo);
+  bool seen = false;
+  for (int i = 0; i < kAcross * kAcross; ++i) {
+    const Vec2 p{box.lo.x + (i % kAcross + 0.5) * cell.x, box.lo.y + (i / kAcross + 0.5) * cell.y};
+    if (!geometry::contains(room.area, p)) continue;
+    seen = true;
+    for (const double below : {kLevelMm, kRunOutMm}) {
+      const Vec3 at = room.frame.to_parent({p.x, p.y, room.level_mm - below});
+      const bool cleared = std::any_of(rooms.begin(), rooms.end(),
+                                       [&](const Room& r) { return &r != &room && clears(r, at); });
+      if (!cleared) return false;
+    }
+  }
+  return seen;
+}
+
+/// How far a tool reaches below the raw piece's surface to clear rooms.
+double reach_of(const Part& part, const std::vector<Room>& rooms) {
+  double out = 0.0;
+  for (const Room& room : rooms) out = std::max(out, part.raw_span(room.frame).second - room.level_mm);
+  return out;
+}
+
+/// How deep mills that enter a feature's round corners commonly reach.
+double reached_mm(const Feature& f) {
+  // Reach tools go to 5 to 10 x D (amgcarbidetool.com, the relationship between end mill diameter and
+  // length).
+  constexpr double kOfDiameter = 8.0;
+  for (const recognise::Parameter& p : f.parameters) {
+    if (p.name == "orthogonal_radius") return kOfDiameter * 2.0 * p.value;
+  }
+  return std::numeric_limits<double>::max();
+}
+
 Removal once(const Part& part, const std::vector<Feature>& features) {
   Removal out;
   struct Wanted {
@@ -117,18 +161,51 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
   for (const Wanted& w : wanted) {
     if (w.ways.size() == 1 && !known(w.ways.front().frame.z)) used.push_back(w.ways.front().frame.z);
   }
+  std::vector<std::vector<Room>> made;
+  const auto along = [&](const Wanted& w, const Way& way) {
+    std::vector<Room> rooms = rooms_of(part, features[w.feature], way);
+    for (Room& room : rooms) room.recognised = {w.feature};
+    return rooms;
+  };
+  // Walls whose upper edge is broken are made from where that is.
+  const auto below_a_rim = [&](const Wanted& w, const geometry::Placement& frame) {
+    const double top = part.span(frame, features[w.feature].faces).second;
+    return std::any_of(out.on_edges.begin(), out.on_edges.end(), [&](const OnEdge& e) {
+      return e.rim.frame.z == frame.z && std::abs(e.rim.foot_mm - top) < kLevelMm;
+    });
+  };
   for (const Wanted& w : wanted) {
-    const auto best =
-        std::find_if(w.ways.begin(), w.ways.end(), [&](const Way& x) { return known(x.frame.z); });
+    auto best = std::find_if(w.ways.begin(), w.ways.end(),
+                             [&](const Way& x) { return known(x.frame.z) && below_a_rim(w, x.frame); });
+    if (best == w.ways.end())
+      best = std::find_if(w.ways.begin(), w.ways.end(), [&](const Way& x) { return known(x.frame.z); });
     const Way& way = best == w.ways.end() ? w.ways.front() : *best;
     if (!known(way.frame.z)) used.push_back(way.frame.z);
-    for (Room& room : rooms_of(part, features[w.feature], way)) {
-      room.recognised = {w.feature};
-      out.rooms.push_back(std::move(room));
+    made.push_back(along(w, way));
+    out.rooms.insert(out.rooms.end(), made.back().begin(), made.back().end());
+  }
+  // Of the directions that are there, the one along which a tool reaches least deep; one more set-up where no
+  // mill that enters the corners reaches so far.
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!made[i].empty() && below_a_rim(wanted[i], made[i].front().frame)) continue;
+    double least = reach_of(part, made[i]) - kLevelMm;
+    const double most = reached_mm(features[wanted[i].feature]);
+    for (const Way& way : wanted[i].ways) {
+      if (made[i].empty() || way.frame.z == made[i].front().frame.z) continue;
+      if (!known(way.frame.z) && least <= most) continue;
+      std::vector<Room> other = along(wanted[i], way);
+      const double reach = reach_of(part, other);
+      if (other.empty() || reach >= least || (!known(way.frame.z) && reach > most)) continue;
+      if (!known(way.frame.z)) used.push_back(way.frame.z);
+      least = reach - kLevelMm;
+      made[i] = std::move(other);
     }
   }
+  out.rooms.clear();
+  for (std::vector<Room>& rooms : made) std::move(rooms.begin(), rooms.end(), std::back_inserter(out.rooms));
   settle(out.rooms);
   join_contours(part, out.rooms);
+  for (Room& room : out.rooms) room.through = room.through || (room.no_floor && opens_below(room, out.rooms));
   for (Hole& h : out.holes) raise(part, out.rooms, h);
   end(part, out.rooms, out.holes);
   put_on_edges(part, out);

@@ -11,6 +11,7 @@
 #include "tests/support/corpus.h"
 #include "tooling/library/cutters/check.h"
 #include "tooling/library/cutters/complete.h"
+#include "tooling/library/library.h"
 #include "tooling/shop/data/data.h"
 #include "tooling/shop/material/material.h"
 
@@ -48,6 +49,26 @@ TEST(GenericLibrary, HasNoFaultAndNamesASourceForEverything) {
     for (const auto& p : c.presets) EXPECT_FALSE(p.source.empty()) << c.id;
     EXPECT_GT(c.usable_length_mm, 0.0) << c.id;
     EXPECT_GT(c.holder_diameter_mm, 0.0) << c.id;
+  }
+}
+
+TEST(GenericLibrary, HasInchSizesBesideTheMetricOnesWhereTheyAreAskedFor) {
+  Job job;
+  const auto both = load_library(std::string(kGenericInch), job).value();
+  EXPECT_GT(both.size(), library().size() + 300);
+  std::map<std::string, const Cutter*> by;
+  for (const Cutter& c : both) {
+    EXPECT_TRUE(by.emplace(c.id, &c).second) << c.id;
+    EXPECT_THAT(faults_of(c), ::testing::IsEmpty()) << c.id;
+  }
+  for (const Cutter& c : library()) EXPECT_EQ(by.count(c.id), 1U) << c.id;
+  // A number drill, a letter drill, a half inch mill, a quarter inch mill with a corner of .06.
+  for (const auto& [id, mm] : {std::pair("generic/drill_hss_inch/No7", 0.201 * 25.4),
+                               {"generic/drill_hss_inch/F", 0.257 * 25.4},
+                               {"generic/endmill_3f_inch/1-2in", 12.7},
+                               {"generic/bull_inch/1-4inr1.524", 6.35}}) {
+    ASSERT_EQ(by.count(id), 1U) << id;
+    EXPECT_NEAR(by[id]->cutting_diameter_mm, mm, 1e-4) << id;
   }
 }
 

@@ -93,7 +93,9 @@ TEST(Select, RefusesEveryToolThatIsTooShortAndSaysWhatWouldFit) {
   r.classes = {CutterClass::kEndmill};
   r.diameter_exact_mm = 6;
   r.reach_mm = 80;
-  const auto s = choose(r);
+  Preferences all;
+  all.most_rejected = library().size();
+  const auto s = choose(r, all);
   EXPECT_TRUE(s.ranked.empty());
   EXPECT_EQ(s.would_fit, "a 6 mm end mill with 80 mm reach");
   const auto it = std::find_if(s.rejected.begin(), s.rejected.end(),

@@ -446,12 +446,13 @@ Result<std::vector<Cutter>> expand_series(const std::vector<SeriesFile>& files,
   return out;
 }
 
-Result<std::vector<Cutter>> generic_library() {
+Result<std::vector<Cutter>> generic_library(Sizes sizes) {
   auto materials = shipped_materials();
   if (!materials) return fail(materials.error());
   std::vector<std::string> names{"cutters.yaml"};
   for (const std::string_view name : embedded_names())
-    if (name.starts_with("series/")) names.emplace_back(name);
+    if (name.starts_with("series/") || (sizes == Sizes::kMetricAndInch && name.starts_with("inch/")))
+      names.emplace_back(name);
   std::sort(names.begin() + 1, names.end());
   std::vector<SeriesFile> files;
   for (const std::string& name : names) {

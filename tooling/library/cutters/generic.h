@@ -16,8 +16,11 @@ namespace capstan::tooling {
 /// "generic/<series>/<size>".
 /// None can be bought by this name; every number says "default: ..." in Cutter::sources.
 /// Presets: one per shipped material, and one per ISO 513 group for materials of other tables.
-[[nodiscard]] Result<std::vector<model::Cutter>> generic_library();
-/// The same, made once.
+enum class Sizes { kMetric, kMetricAndInch };
+[[nodiscard]] Result<std::vector<model::Cutter>> generic_library(Sizes sizes = Sizes::kMetric);
+/// What a list of tools is named by that is the generic library, and that with inch sizes (data/inch/*.yaml).
+inline constexpr std::string_view kGeneric = "generic", kGenericInch = "generic-inch";
+/// The one of metric sizes, made once.
 [[nodiscard]] const Result<std::vector<model::Cutter>>& shared_generic_library();
 
 /// Name, in the source of a generic preset, of the speed of the material it is made for.

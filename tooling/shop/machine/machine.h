@@ -11,6 +11,8 @@
 namespace capstan::tooling {
 
 inline constexpr std::string_view kDefaultMachine = "generic_vmc";
+/// For parts that are too large for the default one.
+inline constexpr std::string_view kLargeMachine = "generic_vmc_large";
 
 /// Ids of the machines that come with the planner, sorted.
 [[nodiscard]] std::vector<std::string> shipped_machines();

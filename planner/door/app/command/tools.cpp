@@ -102,11 +102,12 @@ class Tools {
     } else {
       from_ = o.files.front();
     }
-    if (from_ != "generic") return tooling::import_library(from_, how, s_.job);
-    const auto cutters = tooling::generic_library();
+    if (from_ != tooling::kGeneric && from_ != tooling::kGenericInch)
+      return tooling::import_library(from_, how, s_.job);
+    const auto cutters = tooling::load_library(from_, s_.job);
     if (!cutters) return fail(cutters.error());
     tooling::Imported out;
-    out.library = tooling::library_of(*cutters, "generic");
+    out.library = tooling::library_of(*cutters, from_);
     out.report.tools = cutters->size();
     return out;
   }

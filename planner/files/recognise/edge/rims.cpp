@@ -7,11 +7,11 @@
 #include <optional>
 
 // A rim is found by its neighbours: each of its strips (an oblique plane, a cone about the direction; a
-// cylinder across it, a torus about it) meets a plane that looks along the direction at the upper end and
-// upright walls at the lower, by edges that are convex, or smooth where it is a round. Strips that meet end
-// to end are one rim: first those that go round; then chamfers of several strips that other features
-// interrupt. Rounds that do not go round are left to the other rules, for which they are corners of an
-// outline. Source: derived.
+// cylinder across it, a torus about it, a ball where corners are as round as the edge) meets a plane that
+// looks along the direction at the upper end and upright walls at the lower, by edges that are convex, or
+// smooth where it is a round. Strips that meet end to end are one rim: first those that go round; then
+// chamfers of several strips that other features interrupt. Rounds that do not go round are left to the other
+// rules, for which they are corners of an outline. Source: derived.
 
 namespace capstan::recognise {
 namespace {
@@ -53,6 +53,9 @@ std::optional<Strip> strip_of(const Context& context, std::uint32_t index, Direc
       break;
     case Carrier::kTorus:
       out.round = p.outward && parallel(p.axis, access);
+      break;
+    case Carrier::kSphere:
+      out.round = p.outward;
       break;
     default:
       return std::nullopt;
@@ -134,7 +137,8 @@ class Rims {
   [[nodiscard]] bool fits(std::uint32_t p, bool interrupted) const {
     const Strip& s = *strips_[p];
     const Convexity meets = s.round ? Convexity::kSmooth : Convexity::kConvex;
-    bool above = false;
+    // A ball at a corner meets the plane at its pole alone.
+    bool above = context_.graph.patches[p].carrier == Carrier::kSphere;
     bool below = false;
     std::size_t ends = 0;
     for (const std::uint32_t i : context_.graph.patches[p].joins) {

@@ -381,7 +381,7 @@ TEST_F(CommandTest, AnUnknownNameIsRefusedWithTheNearestOnesAndHowToListThem) {
           "capstan machines list");
   refused(plan + "--workholding vice_125", "unknown fixture 'vice_125'. Did you mean 'vise_125'",
           "capstan fixtures list");
-  refused(plan + "--tools genric", "unknown tool library 'genric'. Did you mean 'generic'?",
+  refused(plan + "--tools genric", "unknown tool library 'genric'. Did you mean 'generic' or 'generic-inch'?",
           "capstan tools list");
   refused("tools show generic/reamer_h7/88", "unknown cutter 'generic/reamer_h7/88'. Did you mean '",
           "capstan tools list");

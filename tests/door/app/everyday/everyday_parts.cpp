@@ -6,16 +6,21 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepFilletAPI_MakeChamfer.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Interface_Static.hxx>
 #include <STEPControl_Writer.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -157,6 +162,48 @@ const std::map<std::string, std::function<Shape()>>& parts() {
            return std::abs(m.Z()) < kNear && std::hypot(m.X() - 35, m.Y() - 40) < 10 + kNear;
          });
        }},
+      // Two bosses of one plate, one half as high as the other, with fillets at their feet.
+      {"plate_with_bosses_of_two_heights",
+       [] {
+         Shape s = box({0, 0, -20}, {120, 70, -12});
+         for (const double x : {35.0, 85.0}) s = fused(s, cylinder(x, 35, -13, 12, x < 50 ? 13 : 7));
+         return filleted(s, 2, [](const gp_Pnt&, const gp_Pnt&, const gp_Pnt& m) {
+           return std::abs(m.Z() + 12) < kNear && m.X() > 1 && m.X() < 119 && m.Y() > 1 && m.Y() < 69;
+         });
+       }},
+      // Hollow from below down to a thin top, which has a window with corners of 2 mm.
+      {"cover_with_window",
+       [] {
+         const Shape hollow = filleted(box({10, 10, -41}, {110, 70, -3}), 8, upright);
+         const Shape window = filleted(box({40, 30, -10}, {80, 50, 1}), 2, upright);
+         return cut(cut(box({0, 0, -40}, {120, 80, 0}), hollow), window);
+       }},
+      // Upright edges as round as the upper ones: balls at the corners.
+      {"block_with_round_corners",
+       [] {
+         return filleted(filleted(box({0, 0, -20}, {100, 70, 0}), 3, upright), 3, at_height(0));
+       }},
+      {"plate_and_sheet",
+       [] {
+         TopoDS_Compound both;
+         BRep_Builder build;
+         build.MakeCompound(both);
+         build.Add(both, pocketed(plate()));
+         build.Add(
+             both,
+             BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(50, 35, 30), gp_Dir(0, 0, 1)), -9, 9, -9, 9).Shape());
+         return Shape(both);
+       }},
+      // A pocket with corners of a quarter of an inch and fillets of .09 along its floor; saved in inches.
+      {"pocket_inch",
+       [] {
+         const Shape pocket = filleted(box({25.4, 25.4, -12.7}, {88.9, 63.5, 1}), 6.35, upright);
+         return cut(box({0, 0, -25.4}, {114.3, 88.9, 0}), filleted(pocket, 2.286, at_height(-12.7)));
+       }},
+      {"long_plate",
+       [] {
+         return cut(box({0, 0, -30}, {900, 300, 0}), cylinder(450, 150, -31, 6, 32));
+       }},
       // An edge that is broken along one side alone: no rim.
       {"block_with_one_bevel",
        [] {
@@ -185,6 +232,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   STEPControl_Writer writer;
-  writer.Transfer(part->second(), STEPControl_AsIs);
+  const bool inch = part->first.find("_inch") != std::string::npos;
+  if (inch) Interface_Static::SetCVal("write.step.unit", "INCH");
+  // The writer takes lengths for those of the file's unit.
+  gp_Trsf to_unit;
+  if (inch) to_unit.SetScale(gp_Pnt(0, 0, 0), 1.0 / 25.4);
+  writer.Transfer(BRepBuilderAPI_Transform(part->second(), to_unit).Shape(), STEPControl_AsIs);
   return writer.Write(argv[2]) == IFSelect_RetDone ? 0 : 1;
 }

@@ -110,6 +110,69 @@ TEST_F(EverydayParts, ASharpRibInTheSlotThatInterruptsAChamferStaysSharp) {
   EXPECT_THAT(run("explain part.json").out, Not(HasSubstr("chamfer mill")));
 }
 
+TEST_F(EverydayParts, TheToolGoesRoundATallBossWhileItFacesALowerOne) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_with_bosses_of_two_heights");
+  EXPECT_EQ(r.code, 0);
+  // Of a plate without walls the lattice counts the foot's fillets to a thousandth.
+  EXPECT_THAT(r.err + r.out,
+              AllOf(HasSubstr("8 of 8 plane faces"), HasSubstr("\nSafe: "), Not(HasSubstr("set-ups")),
+                    Not(HasSubstr("CHK-SHAPE-")), Not(HasSubstr("PIP-UNPLANNED"))));
+}
+
+TEST_F(EverydayParts, AWindowInAThinFloorIsCutFromOutside) {
+  NEEDS_PARTS();
+  // The hollow is 37 mm deep, the floor 3 mm thick: no mill of 4 mm reaches the window through the hollow.
+  const Ran r = planned("cover_with_window");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out,
+              AllOf(HasSubstr("2 features of"), HasSubstr("2 set-ups"), HasSubstr("100 % overlap"),
+                    HasSubstr("\nSafe: "), Not(HasSubstr("PIP-UNPLANNED"))));
+  const std::string part = slurp(folder_ / "part.p21");
+  EXPECT_THAT(part, HasSubstr("THROUGH_POCKET_BOTTOM_CONDITION"));
+  EXPECT_THAT(part, HasSubstr("(0.,0.,-3.)"));
+}
+
+TEST_F(EverydayParts, ARoundEdgeGoesRoundCornersThatAreAsRound) {
+  NEEDS_PARTS();
+  const Ran r = planned("block_with_round_corners");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+  EXPECT_THAT(run("explain part.json").out, HasSubstr("corner rounding mill"));
+}
+
+TEST_F(EverydayParts, ASheetBesideTheSolidIsToldAndLeft) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_and_sheet");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out,
+              AllOf(HasSubstr("beside the one solid the file holds 1 sheet, without volume: the solid "
+                              "is planned"),
+                    HasSubstr("[CAD-SHEETS]"), HasSubstr("\nSafe: ")));
+  EXPECT_THAT(run("plan plate_and_sheet.step --body 2 --material 6061 -o part.json").err,
+              HasSubstr("expected the number or the name of one solid"));
+}
+
+TEST_F(EverydayParts, APartDrawnInInchesIsOfferedInchTools) {
+  NEEDS_PARTS();
+  const Ran r = planned("pocket_inch");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, whole_in_one_setup());
+  EXPECT_THAT(slurp(folder_ / "part.json"), AllOf(HasSubstr("generic-inch, "), HasSubstr("drawn in inches")));
+  // No metric mill has the fillet of .09.
+  const Ran metric = run("plan pocket_inch.step --material 6061 --tools generic -o metric.json");
+  EXPECT_THAT(metric.err, HasSubstr("corner radius 2.286 mm"));
+}
+
+TEST_F(EverydayParts, APartThatIsTooLargeForTheUsualMachineGetsALargerOne) {
+  NEEDS_PARTS();
+  const Ran r = planned("long_plate");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, AllOf(HasSubstr("\nSafe: "), Not(HasSubstr("CHK-MACHINE-PIECE"))));
+  EXPECT_THAT(run("explain part.json").out,
+              HasSubstr("built-in default, for the part is larger than 'generic_vmc' travels"));
+}
+
 TEST_F(EverydayParts, OfTwoBossesOneGetsItsChamfer) {
   NEEDS_PARTS();
   const Ran r = planned("block_with_two_bosses");
