@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
+#include "planner/ground/vocabulary/unit_factors.h"
 #include "rules/strategy/action.h"
 
 // Holes: centre, drill, ream, bore, mill, counterbore. Cones are in cone.cpp.
@@ -32,9 +34,31 @@ struct Window {
   double lo, hi, best;
 };
 
+/// Whether drills of that diameter are in the inch sets: sixty-fourths of an inch to half an inch,
+/// thirty-seconds to one, numbers 1 to 52 and letters (ASME B94.11M; as tooling/data/inch/drills.yaml has
+/// them).
+bool is_inch_drill_size(double d) {
+  constexpr int kNumbersAndLetters[] = {
+      // ten thousandths of an inch
+      635,  670,  700,  730,  760,  785,  810,  820,  860,  890,  935,  960,  980,  995,  1015, 1040,
+      1065, 1100, 1110, 1130, 1160, 1200, 1285, 1360, 1405, 1440, 1470, 1495, 1520, 1540, 1570, 1590,
+      1610, 1660, 1695, 1730, 1770, 1800, 1820, 1850, 1890, 1910, 1935, 1960, 1990, 2010, 2040, 2055,
+      2090, 2130, 2210, 2280, 2340, 2380, 2420, 2460, 2500, 2570, 2610, 2660, 2720, 2770, 2810, 2900,
+      2950, 3020, 3160, 3230, 3320, 3390, 3480, 3580, 3680, 3770, 3860, 3970, 4040, 4130,
+  };
+  constexpr double kSame = 1e-3;  // mm
+  const double inches = d / kMmPerInch, parts = inches <= 0.5 ? 64.0 : 32.0;
+  if (inches > 1.0 / 16.0 - 1e-6 && inches < 1.0 + 1e-6 &&
+      std::abs(inches * parts - std::round(inches * parts)) / parts * kMmPerInch < kSame)
+    return true;
+  return std::any_of(std::begin(kNumbersAndLetters), std::end(kNumbersAndLetters),
+                     [&](int n) { return std::abs(1e-4 * n * kMmPerInch - d) < kSame; });
+}
+
 /// Twist drills as they are sold: by 0.1 mm to 14 mm, by 0.25 mm to 32 mm (DIN 338), by 0.5 mm beyond (DIN
 /// 345).
 bool is_drill_size(double d) {
+  if (is_inch_drill_size(d)) return true;
   const double step = d <= 14.0 ? 0.1 : d <= 32.0 ? 0.25 : 0.5;
   return std::abs(d / step - std::round(d / step)) * step < 1e-6;
 }

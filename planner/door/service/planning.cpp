@@ -103,24 +103,26 @@ Code code_of(const Diagnostic& fault, Code otherwise) {
 
 namespace {
 
-/// A machine that the part lies in as it is drawn, where the default one is too small for it.
+/// The larger machine for a raw piece that is too large for the usual one as it is drawn, if it fits that.
 std::optional<Request::Suited> machine_for(const PartRead& part) {
   if (part.shape == nullptr) return std::nullopt;
+  constexpr double kBesideMm = 25.0;  // a cutter leaves the piece on both sides; default, unsourced
+  const auto holds = [&](const model::Machine& m) {
+    const auto room = [&](std::size_t i) { return m.axes[i].travel_max_mm - m.axes[i].travel_min_mm; };
+    const geometry::Vec3& size = part.raw_mm;
+    return size.x + 2.0 * kBesideMm <= room(0) && size.y + 2.0 * kBesideMm <= room(1) && size.z <= room(2);
+  };
   Job aside;
   const auto usual = tooling::load_machine(std::string(tooling::kDefaultMachine), aside);
-  if (!usual) return std::nullopt;
-  const auto room = [](const auto& axis) { return axis.travel_max_mm - axis.travel_min_mm; };
-  const geometry::Vec3& size = part.size_mm;
-  if (size.x <= room(usual->axes[0]) && size.y <= room(usual->axes[1]) && size.z <= room(usual->axes[2]))
-    return std::nullopt;
-  return Request::Suited{std::string(tooling::kLargeMachine),
-                         "for the part is larger than '" + usual->id + "' travels"};
+  const auto large = tooling::load_machine(std::string(tooling::kLargeMachine), aside);
+  if (!usual || !large || holds(*usual) || !holds(*large)) return std::nullopt;
+  return Request::Suited{large->id, "the raw piece is too large for '" + usual->id + "'"};
 }
 
 /// Inch sizes for a part that is drawn in inches.
 std::optional<Request::Suited> tools_for(const PartRead& part) {
-  if (part.unit != "inch") return std::nullopt;
-  return Request::Suited{std::string(tooling::kGenericInch), "for the part is drawn in inches"};
+  if (part.unit != "inch" && part.unit != "inches" && part.unit != "in") return std::nullopt;
+  return Request::Suited{std::string(tooling::kGenericInch), "the part is drawn in inches"};
 }
 
 /// What `body` gives, an error if the job was stopped before its end.

@@ -115,6 +115,11 @@ std::optional<std::string> the_solid(const exchange::Brep& shape, const std::str
     if (shape.bodies[b].solid) solids.push_back(b);
   }
   if (solids.size() != 1 || shape.bodies.size() == 1) return std::nullopt;
+  // A sheet with more faces may be the part, not closed.
+  const std::uint32_t most = shape.bodies[solids.front()].face_count;
+  if (std::any_of(shape.bodies.begin(), shape.bodies.end(),
+                  [&](const auto& b) { return b.face_count > most; }))
+    return std::nullopt;
   job.report(
       {.code = "CAD-SHEETS",
        .severity = Severity::kWarning,
@@ -163,7 +168,9 @@ Result<PartRead> read_part(std::string bytes, const std::string& name, const fro
   auto plan = from_cad::plan_of_part(*shape, name, stated, job);
   if (!plan) return tl::unexpected(plan.error());
   std::string of_lengths = shape->unit;
-  const geometry::Vec3 size = shape->box.size();
+  const double more = 2.0 * stated.raw.allowance_mm;
+  const geometry::Vec3 size =
+      stated.raw.box ? stated.raw.box->size() : shape->box.size() + geometry::Vec3{more, more, more};
   return PartRead{*std::move(plan), asked_shape(from_cad::straightened(*std::move(shape)), name),
                   std::move(of_lengths), size};
 }

@@ -39,7 +39,7 @@ struct PartRead {
   model::Plan plan;
   std::shared_ptr<const verify::AskedShape> shape;  ///< null: the file is no CAD model
   std::string unit = {};                            ///< of a CAD model's lengths, as Brep::unit
-  geometry::Vec3 size_mm = {};                      ///< of a CAD model, along its own axes
+  geometry::Vec3 raw_mm = {};                       ///< size of a CAD model's raw piece, as it is drawn
 };
 /// As read_plan, of a part to be planned, which may be a CAD model, too (ISO 10303-203, -214, -242): its
 /// features are recognised, and made with what the caller states. `unit` is that of a mesh, where the

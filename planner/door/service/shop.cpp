@@ -182,6 +182,10 @@ Status machine_of(const Request& o, const model::Plan& plan, pipeline::Inputs& i
                                        job);
   if (!machine) return tl::unexpected(machine.error());
   in.machine = *std::move(machine);
+  if (!o.machine && !named && o.machine_of_part)
+    job.note("SHOP-MACHINE", "no machine is named, and " + o.machine_of_part->why +
+                                 ": the program is made for '" + in.machine.id + "'; name yours with " +
+                                 o.sign + "machine");
   if (named && before != nullptr) {
     in.provenance.push_back(*before);
   } else {
@@ -320,16 +324,25 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   take_state(o.state, o.sign, in.machine, in.provenance, job);
 
   poll();
+  // The sizes that a plan was made with are there when it is read again.
+  const auto* before = made_with(plan, "tools");
+  const bool inch_before = before != nullptr && before->value.starts_with(tooling::kGenericInch);
   const std::string tools = o.tools           ? *o.tools
                             : o.tools_of_part ? o.tools_of_part->name
+                            : inch_before     ? std::string(tooling::kGenericInch)
                                               : std::string(tooling::kGeneric);
+  if (!o.tools && o.tools_of_part)
+    job.note("SHOP-TOOLS", "no tools are named, and " + o.tools_of_part->why + ": taken is the library '" +
+                               tools + "'; name yours with " + o.sign + "tools");
   auto library = tooling::load_library(
       tools, job,
       {.mm_per_unit = {}, .offsets_against_reference = in.machine.control.offsets_against_reference});
   if (!library) return tl::unexpected(library.error());
   in.library = *std::move(library);
   in.provenance.push_back({"tools", tools + ", " + std::to_string(in.library.size()) + " cutters",
-                           o.tools ? option(o, "tools " + *o.tools) : by_default(o.tools_of_part)});
+                           o.tools                           ? option(o, "tools " + *o.tools)
+                           : inch_before && !o.tools_of_part ? before->source
+                                                             : by_default(o.tools_of_part)});
 
   poll();
   auto materials = tooling::shipped_materials();

@@ -39,10 +39,10 @@ std::vector<std::vector<Piece>> runs(const std::vector<Piece>& outer) {
   return out;
 }
 
-/// Through, and open all round, or beside one arc that bulges: the tool goes round what stands.
+/// Without a floor, and open all round, or beside one arc that bulges: the tool goes round what stands.
 bool is_contour(const Room& room, const Drawn& d) {
   if (room.contour) return true;
-  if (!room.through || d.outer.empty()) return false;
+  if ((!room.through && !room.no_floor) || d.outer.empty()) return false;
   if (std::all_of(d.outer.begin(), d.outer.end(), [](const Piece& p) { return p.open; })) return true;
   const auto sides = runs(d.outer);
   return sides.size() == 2 && sides[0].size() == 1 && sides[0][0].sweep_rad < 0.0;
@@ -54,7 +54,8 @@ class Maker {
       : room_(room), d_(d), m_(m), nouns_(m), piece_(piece), number_(std::move(number)) {}
 
   AnyRef make() {
-    if (is_contour(room_, d_)) return outside();
+    if (room_.contour) return outside();
+    if (!room_.stands.empty()) return face(over_all(), d_.islands);
     if (d_.outer.empty()) return {};
     const auto sides = runs(d_.outer);
     const bool walls = std::any_of(d_.outer.begin(), d_.outer.end(), [](const Piece& p) { return !p.open; });

@@ -21,6 +21,8 @@ struct Room {
   bool no_floor = false;       ///< its level is where its walls end
   bool contour = false;        ///< the whole contour of what stands beside its areas
   geometry::Region raw, area;  ///< in the frame's plane; holes are what stands in the area
+  /// Not empty: the outlines, filled, of what stands while all around is cleared, out over the raw piece.
+  std::vector<geometry::Loop> stands;
   std::vector<std::uint32_t> blends;
   double blend_radius_mm = 0.0;
   double slope_rad = 0.0;               ///< by which its walls lean outwards

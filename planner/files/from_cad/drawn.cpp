@@ -1,5 +1,6 @@
 #include "planner/files/from_cad/drawn.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace capstan::from_cad {
@@ -58,7 +59,16 @@ Drawn drawn(const Part& part, const Room& room) {
   for (const FlatWall& w : part.flat_walls(room.frame)) out.flats.push_back({w.from - middle, w.to - middle});
   // The mesh keeps its chord; where two meshes of a circle cross, corners lie a little beside it.
   out.chord_mm = 2.0 * part.brep().chord;
-  for (std::size_t i = 0; i < out.area.loops.size(); ++i) {
+  for (std::size_t i = 0; i < room.stands.size(); ++i) {
+    Region outline = shifted({{room.stands[i]}}, -1.0 * middle);
+    std::reverse(outline.loops.front().begin(), outline.loops.front().end());
+    auto pieces = pieces_of(outline.loops.front(), {}, out.walls, out.chord_mm, out.flats);
+    if (pieces.empty()) continue;
+    for (Piece& p : pieces) p.open = false;
+    out.islands.push_back(std::move(pieces));
+    out.island_loops.push_back(i);
+  }
+  for (std::size_t i = 0; room.stands.empty() && i < out.area.loops.size(); ++i) {
     auto pieces = pieces_of(out.area.loops[i], out.raw, out.walls, out.chord_mm, out.flats);
     if (pieces.empty()) continue;
     if (geometry::signed_area(out.area.loops[i]) > 0.0) {

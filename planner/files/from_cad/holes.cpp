@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "planner/ground/base/number.h"
 #include "planner/model/features/tip_angle.h"
@@ -160,6 +161,30 @@ bool free_above(const Part& part, const geometry::Placement& frame, Vec2 centre,
                      [&](Vec2 p) { return room_at(c, p) >= 0 || !geometry::contains(c.raw, p); });
 }
 
+/// Takes the cone at the far end of a hole that goes through, as it is where both mouths are chamfered. The
+/// bore above it goes on to the end.
+std::optional<Bore> take_far_cone(Sections& s) {
+  if (s.end != HoleEnd::kThrough || s.bores.size() < 2) return std::nullopt;
+  const Bore last = s.bores.back();
+  Bore& before = s.bores[s.bores.size() - 2];
+  if (!(last.bottom_radius_mm > last.top_radius_mm + kLevelMm) || before.cone() ||
+      !same(before.bottom_radius_mm, last.top_radius_mm))
+    return std::nullopt;
+  before.bottom_mm = last.bottom_mm;
+  s.bores.pop_back();
+  return last;
+}
+
+/// The cone at the far end of a hole, made from there over the hole that is there.
+Hole far_hole(const geometry::Placement& frame, Vec2 centre, const Bore& cone) {
+  Hole out;
+  out.frame = Part::frame_along(-1.0 * frame.z);
+  out.frame.origin = frame.to_parent({centre.x, centre.y, cone.bottom_mm});
+  out.bores = {{0.0, -cone.height_mm(), cone.bottom_radius_mm, cone.top_radius_mm}};
+  out.end = HoleEnd::kFlat;
+  return out;
+}
+
 /// Whether a hole removes a place of the workpiece.
 bool clears(const Hole& hole, Vec3 at) {
   const Vec3 p = hole.frame.to_local(at);
@@ -172,6 +197,8 @@ bool clears(const Hole& hole, Vec3 at) {
 
 bool Bore::cone() const { return std::abs(top_radius_mm - bottom_radius_mm) > kLevelMm; }
 
+double Bore::height_mm() const { return top_mm - bottom_mm; }
+
 std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature, std::string& why) {
   Vec3 on_axis;
   for (const std::uint32_t f : feature.faces) {
@@ -182,7 +209,7 @@ std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature,
   for (const Vec3 side : sides) {
     const geometry::Placement frame = Part::frame_along(side);
     std::string fault;
-    const auto s = sections_of(part, feature, frame, fault);
+    auto s = sections_of(part, feature, frame, fault);
     const auto say = [&why](const std::string& reason) {
       if (why.empty()) why = reason;  // that of the first side, which recognition chose
     };
@@ -191,6 +218,7 @@ std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature,
       continue;
     }
     const Vec2 centre = xy(frame.to_local(on_axis));
+    const auto far = take_far_cone(*s);
     bool narrows = true;
     bool free = true;
     for (std::size_t i = 0; i < s->bores.size(); ++i) {
@@ -227,7 +255,15 @@ std::optional<Hole> hole_of(const Part& part, const recognise::Feature& feature,
     out.end_radius_mm = s->end_radius_mm;
     out.lowest_mm = s->lowest_mm - mouth;
     out.faces = feature.faces;
-    return out;
+    if (!far) return out;
+    Hole cone = far_hole(frame, centre, *far);
+    cone.faces = feature.faces;
+    const geometry::Placement below = Part::frame_along(cone.frame.z);
+    const Vec3 end = below.to_local(cone.frame.origin);
+    const bool reached = free_above(part, below, xy(end), far->top_radius_mm, end.z - far->height_mm());
+    out.far = std::make_shared<const Hole>(std::move(cone));
+    if (reached) return out;
+    say("the part itself stands below the cone at its far end");
   }
   return std::nullopt;
 }
@@ -282,6 +318,16 @@ void end(const Part& part, const std::vector<Room>& rooms, std::vector<Hole>& ho
   }
 }
 
+namespace {
+
+model::AngleTaper taper_of(const Bore& cone) {
+  model::AngleTaper out;
+  out.angle = std::atan2(cone.top_radius_mm - cone.bottom_radius_mm, cone.height_mm());
+  return out;
+}
+
+}  // namespace
+
 AnyRef noun_of(const Hole& hole, model::Model& m, Ref<model::Workpiece> piece, const std::string& number) {
   Nouns nouns(m);
   const auto round = [&](const std::string& name, const geometry::Placement& at, double depth_mm,
@@ -328,6 +374,7 @@ AnyRef noun_of(const Hole& hole, model::Model& m, Ref<model::Workpiece> piece, c
   const std::string name = "HOLE " + number;
   if (hole.bores.size() == 1) {
     auto f = round(name, hole.frame, deepest, hole.bores.front().top_radius_mm);
+    if (sunk) f.change_in_diameter = m.add(taper_of(hole.bores.front()));
     last(f);
     return m.add(f);
   }
@@ -350,10 +397,12 @@ AnyRef noun_of(const Hole& hole, model::Model& m, Ref<model::Workpiece> piece, c
   if (sunk) {
     const Bore& b = hole.bores.front();
     auto f = round(name + "." + std::to_string(elements.size() + 1), {}, -b.bottom_mm, b.top_radius_mm);
-    model::AngleTaper taper;
-    taper.angle = std::atan2(b.top_radius_mm - b.bottom_radius_mm, -b.bottom_mm);
-    f.change_in_diameter = m.add(taper);
-    f.bottom_condition = m.add(model::ThroughBottomCondition{});
+    f.change_in_diameter = m.add(taper_of(b));
+    // Of a blind hole the cone ends in the bore: through, it would go on to the underside of the piece.
+    if (hole.end == HoleEnd::kThrough)
+      f.bottom_condition = m.add(model::ThroughBottomCondition{});
+    else
+      f.bottom_condition = m.add(model::FlatHoleBottom{});
     elements.push_back(Ref<model::Noun>(AnyRef(m.add(f))));
   }
   const auto compound = [&](auto f) -> AnyRef {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct Bore {
   double top_mm = 0.0, bottom_mm = 0.0;                ///< along z of the hole's frame
   double top_radius_mm = 0.0, bottom_radius_mm = 0.0;  ///< equal: a cylinder
   [[nodiscard]] bool cone() const;
+  [[nodiscard]] double height_mm() const;
 };
 
 enum class HoleEnd : std::uint8_t { kThrough, kFlat, kRounded, kConical, kSpherical };
@@ -26,6 +28,7 @@ struct Hole {
   double end_radius_mm = 0.0;  ///< spherical: of the ball; rounded: of the fillet
   double lowest_mm = 0.0;      ///< spherical: the lowest place
   std::vector<std::uint32_t> faces;
+  std::shared_ptr<const Hole> far;  ///< the cone at its far end, made from there
 };
 
 /// The hole that a feature of recognition is. Nothing, and `why` says it, for one that no tool reaches from

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -135,8 +136,13 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
     std::string why = not_written(f);
     if (why.empty() && is_hole(f)) {
       if (auto hole = hole_of(part, f, why)) {
+        const std::shared_ptr<const Hole> far = hole->far;
         out.holes.push_back(*std::move(hole));
         out.hole_of.push_back(i);
+        if (far != nullptr) {
+          out.holes.push_back(*far);
+          out.hole_of.push_back(i);
+        }
         continue;
       }
     }
@@ -179,13 +185,17 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
                              [&](const Way& x) { return known(x.frame.z) && below_a_rim(w, x.frame); });
     if (best == w.ways.end())
       best = std::find_if(w.ways.begin(), w.ways.end(), [&](const Way& x) { return known(x.frame.z); });
+    if (best == w.ways.end())
+      best =
+          std::find_if(w.ways.begin(), w.ways.end(), [&](const Way& x) { return below_a_rim(w, x.frame); });
     const Way& way = best == w.ways.end() ? w.ways.front() : *best;
     if (!known(way.frame.z)) used.push_back(way.frame.z);
     made.push_back(along(w, way));
     out.rooms.insert(out.rooms.end(), made.back().begin(), made.back().end());
   }
-  // Of the directions that are there, the one along which a tool reaches least deep; one more set-up where no
-  // mill that enters the corners reaches so far.
+  // Where no mill that enters the corners reaches, or half as deep will do, the direction along which a tool
+  // reaches least deep: of those that are there; one more set-up for corners alone.
+  constexpr double kMuchLess = 0.5;  // default, unsourced
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!made[i].empty() && below_a_rim(wanted[i], made[i].front().frame)) continue;
     double least = reach_of(part, made[i]) - kLevelMm;
@@ -196,6 +206,7 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
       std::vector<Room> other = along(wanted[i], way);
       const double reach = reach_of(part, other);
       if (other.empty() || reach >= least || (!known(way.frame.z) && reach > most)) continue;
+      if (least <= most && reach > kMuchLess * least) continue;
       if (!known(way.frame.z)) used.push_back(way.frame.z);
       least = reach - kLevelMm;
       made[i] = std::move(other);
@@ -204,8 +215,8 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
   out.rooms.clear();
   for (std::vector<Room>& rooms : made) std::move(rooms.begin(), rooms.end(), std::back_inserter(out.rooms));
   settle(out.rooms);
-  join_contours(part, out.rooms);
   for (Room& room : out.rooms) room.through = room.through || (room.no_floor && opens_below(room, out.rooms));
+  join_contours(part, out.rooms);
   for (Hole& h : out.holes) raise(part, out.rooms, h);
   end(part, out.rooms, out.holes);
   put_on_edges(part, out);

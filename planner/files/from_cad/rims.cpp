@@ -19,6 +19,9 @@ using geometry::Region;
 /// The widest bevel and the largest round that the shipped mills make, mm: cutters.yaml's chamfer mill of 20
 /// mm with a tip of 3 mm, half a millimetre below the bevel; its largest corner rounding mill.
 constexpr double kWidestMm = 8.0, kRoundestMm = 5.0;
+/// A chamfer mill's tip runs below the bevel, past the contour: so much deeper the contour is made. Default,
+/// unsourced.
+constexpr double kTipRoomMm = 1.0;
 /// Slopes that one cutter of 90 degrees makes, rad. Default, unsourced: a drawing's half a degree.
 constexpr double kSameSlopeRad = 0.5 * std::numbers::pi / 180.0;
 /// Of what is free half way up a rim so much is looked at: default, unsourced; the chord of the band's arcs,
@@ -67,19 +70,53 @@ bool closed(const Part& part, const Room& room) {
 /// upper edges of what stands in a contour, of an area's islands, and of its walls where these are closed.
 std::optional<std::size_t> loop_of(const Part& part, const Rim& rim, const Room& room) {
   const double near = 2.0 * part.brep().chord + kLevelMm;
-  const Region all = room.contour ? geometry::subtract(room.raw, room.area) : room.area;
+  Region all = room.contour ? geometry::subtract(room.raw, room.area) : room.area;
+  if (!room.stands.empty()) all.loops = room.stands;
   for (std::size_t i = 0; i < all.loops.size(); ++i) {
     geometry::Loop loop = all.loops[i];
     const bool outer = geometry::signed_area(loop) > 0.0;
     if (!outer) std::reverse(loop.begin(), loop.end());
     const Region filled{{loop}};
     if (off(rim, filled) >= near) continue;
-    if (room.contour ? !outer : outer && !closed(part, room)) continue;
+    const bool standing = room.contour || !room.stands.empty();
+    if (standing ? !outer : outer && !closed(part, room)) continue;
     // What stands in a contour lies within its outline, as islands do; a pocket's wall has it outside.
-    const bool within = outer == room.contour;
+    const bool within = outer == standing;
     if (broken_all_along(part, rim, filled, within)) return i;
   }
   return std::nullopt;
+}
+
+/// Below a rim at the raw piece's surface, what stands there, apart: where a slot runs between the halves of
+/// a plate, each has an edge that is broken all along. The room around them. Nothing: the rim is at the edge
+/// of none.
+std::optional<EdgeOf> edge_of_halves(const Part& part, const Rim& rim, const geometry::Box3& raw,
+                                     std::vector<Room>& rooms) {
+  Room room;
+  room.frame = rim.frame;
+  room.top_mm = rim.top_mm;
+  room.level_mm = std::max(raw.lo.z, rim.foot_mm - kTipRoomMm);
+  room.raw = geometry::rectangle(xy(raw.lo), xy(raw.hi));
+  Region cleared;
+  for (const Region& r : part.cleared(rim.frame, room.level_mm, {}).rooms)
+    cleared = geometry::unite(cleared, r);
+  room.area = room.raw;
+  for (const geometry::Loop& loop : geometry::subtract(room.raw, cleared).loops) {
+    if (!(geometry::signed_area(loop) > 0.0)) continue;
+    room.stands.push_back(loop);
+    room.area = geometry::subtract(room.area, {{loop}});
+  }
+  if (room.stands.empty() || room.area.empty()) return std::nullopt;
+  const auto loop = loop_of(part, rim, room);
+  if (!loop) return std::nullopt;
+  for (Room& other : rooms) {
+    const bool below = other.frame.z == room.frame.z && other.level_mm < room.level_mm - kLevelMm &&
+                       other.top_mm > room.level_mm + kLevelMm && !other.contour;
+    if (below && geometry::area(geometry::subtract(other.area, room.area)) < kSpeckMm2)
+      other.top_mm = room.level_mm;
+  }
+  rooms.push_back(std::move(room));
+  return EdgeOf{rooms.size() - 1, *loop};
 }
 
 }  // namespace
@@ -127,11 +164,13 @@ std::optional<EdgeOf> edge_of(const Part& part, const Rim& rim, std::vector<Room
   Room room;
   room.frame = rim.frame;
   room.top_mm = rim.top_mm;
-  room.level_mm = rim.foot_mm;
+  room.level_mm = std::max(raw.lo.z, rim.foot_mm - kTipRoomMm);
   room.contour = true;
   room.raw = geometry::rectangle(xy(raw.lo), xy(raw.hi));
+  for (const Region& beside : part.cleared(rim.frame, raw.lo.z, {}).rooms)
+    room.area = geometry::unite(room.area, beside);
   const auto loop = loop_of(part, rim, room);
-  if (!loop) return std::nullopt;
+  if (!loop) return edge_of_halves(part, rim, raw, rooms);
   rooms.push_back(std::move(room));
   return EdgeOf{rooms.size() - 1, *loop};
 }

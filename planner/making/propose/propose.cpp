@@ -62,6 +62,11 @@ std::vector<AnyRef> wanted(const Model& m, const std::vector<StepDraft>& steps) 
   }
   std::stable_sort(out.begin(), out.end(),
                    [&](AnyRef a, AnyRef b) { return m.origin(a).instance < m.origin(b).instance; });
+  // A cone may be the mouth of another feature's hole, which is to be known before it.
+  std::stable_partition(out.begin(), out.end(), [&](AnyRef r) {
+    const auto* hole = m.get<model::RoundHole>(r);
+    return hole == nullptr || !hole->change_in_diameter.set();
+  });
   return out;
 }
 

@@ -12,11 +12,12 @@
 
 namespace capstan::tooling {
 
-/// The generic library: tooling/data/cutters.yaml and series/*.yaml there expanded, some 900 sizes, ids
-/// "generic/<series>/<size>".
-/// None can be bought by this name; every number says "default: ..." in Cutter::sources.
-/// Presets: one per shipped material, and one per ISO 513 group for materials of other tables.
 enum class Sizes { kMetric, kMetricAndInch };
+
+/// The generic library: tooling/data/cutters.yaml and series/*.yaml there expanded, some 1000 sizes, with
+/// inch/*.yaml 360 more, ids "generic/<series>/<size>". None can be bought by this name; every number says
+/// "default: ..." in Cutter::sources. Presets: one per shipped material, and one per ISO 513 group for
+/// materials of other tables.
 [[nodiscard]] Result<std::vector<model::Cutter>> generic_library(Sizes sizes = Sizes::kMetric);
 /// What a list of tools is named by that is the generic library, and that with inch sizes (data/inch/*.yaml).
 inline constexpr std::string_view kGeneric = "generic", kGenericInch = "generic-inch";

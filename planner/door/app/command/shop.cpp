@@ -7,6 +7,7 @@
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "rules/rules.h"
+#include "tooling/library/cutters/generic.h"
 #include "tooling/library/library.h"
 #include "tooling/shop/fixtures/fixtures.h"
 #include "tooling/shop/machine/machine.h"
@@ -120,7 +121,8 @@ std::string rules_text(const rules::RuleBase& base) {
 }  // namespace
 
 int run_tools(Session& s) {
-  const auto library = tooling::load_library(s.options.inputs.tools.value_or("generic"), s.job);
+  const auto library =
+      tooling::load_library(s.options.inputs.tools.value_or(std::string(tooling::kGeneric)), s.job);
   if (!library) return s.end(library.error(), kUnreadable);
   const std::string word = s.options.words.empty() ? "" : s.options.words.front();
   if (s.options.command == Command::kToolsList) return print(list_text(*library, word)) ? kDone : kImpossible;

@@ -97,7 +97,7 @@ class Tools {
     const auto& o = s_.options;
     FormatOptions how = formats_;
     if (o.command == Command::kToolsExport) {
-      from_ = o.inputs.tools.value_or("generic");
+      from_ = o.inputs.tools.value_or(std::string(tooling::kGeneric));
       how.column_map.clear();  // it is for what is written
     } else {
       from_ = o.files.front();

@@ -138,7 +138,8 @@ class Rims {
     const Strip& s = *strips_[p];
     const Convexity meets = s.round ? Convexity::kSmooth : Convexity::kConvex;
     // A ball at a corner meets the plane at its pole alone.
-    bool above = context_.graph.patches[p].carrier == Carrier::kSphere;
+    const bool ball = context_.graph.patches[p].carrier == Carrier::kSphere;
+    bool above = ball;
     bool below = false;
     std::size_t ends = 0;
     for (const std::uint32_t i : context_.graph.patches[p].joins) {
@@ -164,7 +165,7 @@ class Rims {
         return false;
       }
     }
-    return above && below && (interrupted ? !s.round : ends == 2 || ends == 0);
+    return above && below && (interrupted ? !s.round : ends == 2 || (ends == 0 && !ball));
   }
 
   const Context& context_;

@@ -137,14 +137,13 @@ bool its_own(const Model& m, const FeatureShape& s, const std::vector<AnyRef>& b
   return norm(there.origin - at.origin) < kLower && norm(there.x - at.x) < kLower;
 }
 
-/// The island of what is cut, as high as the feature, on which a boss stands. Passes over the islands' tops
-/// must go round the boss.
-const Island* island_below(const FeatureShape& s, const geometry::Region& boss) {
-  const auto carries = [&](const Island& i) {
-    return std::abs(i.top_z_mm) <= kLower && geometry::area(geometry::subtract(boss, i.area)) <= kSpeck;
-  };
-  const auto at = std::find_if(s.islands.begin(), s.islands.end(), carries);
-  return at == s.islands.end() ? nullptr : &*at;
+/// The tops of the islands of what is cut that are as high as the feature: a boss stands on them.
+geometry::Region tops_of_islands(const FeatureShape& s) {
+  geometry::Region out;
+  for (const Island& i : s.islands) {
+    if (std::abs(i.top_z_mm) <= kLower) out = geometry::unite(out, i.area);
+  }
+  return out;
 }
 
 void spare(FeatureShape& s, const Standing& boss, const geometry::Placement& at, const std::string& name) {
@@ -154,8 +153,12 @@ void spare(FeatureShape& s, const Standing& boss, const geometry::Placement& at,
   if (top <= -s.depth_mm + kLower) return;
   const geometry::Region drawn = moved(rel, boss.area), stays = moved(rel, boss.widest);
   if (foot >= -kLower) {
-    const Island* below = foot <= kLower ? island_below(s, drawn) : nullptr;
-    if (below != nullptr) s.islands.push_back({stays, top, below->foot_radius_mm});
+    // Passes over the islands' tops, and over what stands on them, go round it and round its fillet. A
+    // contour's tops are not passed over.
+    if (s.kind == ShapeKind::kOutside || s.islands.empty()) return;
+    const geometry::Region on =
+        geometry::intersect(geometry::offset(stays, boss.foot_mm.value_or(0.0)), tops_of_islands(s));
+    if (geometry::area(on) > kSpeck) s.islands.push_back({on, top, s.islands.front().foot_radius_mm});
     return;
   }
   if (!stands_in(s, drawn)) return;

@@ -178,6 +178,25 @@ const std::map<std::string, std::function<Shape()>>& parts() {
          const Shape window = filleted(box({40, 30, -10}, {80, 50, 1}), 2, upright);
          return cut(cut(box({0, 0, -40}, {120, 80, 0}), hollow), window);
        }},
+      // A hole through it and one with a flat bottom, their mouths and the outline chamfered.
+      {"plate_with_chamfered_holes",
+       [] {
+         const Shape s = cut(plate(), cylinder(25, 35, -21, 5, 22));
+         return chamfered(cut(s, cylinder(75, 35, -10, 8, 11)), 0.5, at_height(0));
+       }},
+      // All edges of the top are chamfered, also those of the slot, and of the open pocket.
+      {"plate_with_slot_all_chamfered", [] { return chamfered(slotted(plate()), 0.5, at_height(0)); }},
+      {"plate_with_slot_all_rounded", [] { return filleted(slotted(plate()), 1, at_height(0)); }},
+      {"plate_with_open_pocket_all_chamfered",
+       [] { return chamfered(cut(plate(), open_pocket()), 0.5, at_height(0)); }},
+      // All edges of top and underside, also of the hole.
+      {"plate_chamfered_on_both_sides",
+       [] {
+         return chamfered(cut(plate(), cylinder(25, 35, -21, 5, 22)), 0.5,
+                          [](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& m) {
+                            return at_height(0)(a, b, m) || at_height(-20)(a, b, m);
+                          });
+       }},
       // Upright edges as round as the upper ones: balls at the corners.
       {"block_with_round_corners",
        [] {
@@ -199,6 +218,21 @@ const std::map<std::string, std::function<Shape()>>& parts() {
        [] {
          const Shape pocket = filleted(box({25.4, 25.4, -12.7}, {88.9, 63.5, 1}), 6.35, upright);
          return cut(box({0, 0, -25.4}, {114.3, 88.9, 0}), filleted(pocket, 2.286, at_height(-12.7)));
+       }},
+      // A hole of a quarter of an inch, and one of drill number 7.
+      {"holes_inch",
+       [] {
+         const Shape s = cut(box({0, 0, -12.7}, {76.2, 50.8, 0}), cylinder(25.4, 25.4, -13, 3.175, 14));
+         return cut(s, cylinder(50.8, 25.4, -13, 0.5 * 0.201 * 25.4, 14));
+       }},
+      // Three bosses on one another in a pocket.
+      {"pocket_with_stack",
+       [] {
+         Shape s =
+             cut(box({0, 0, -30}, {120, 80, 0}), filleted(box({10, 10, -18}, {110, 70, 1}), 8, upright));
+         s = fused(s, cylinder(60, 40, -19, 22, 6));
+         s = fused(s, cylinder(60, 40, -14, 14, 6));
+         return fused(s, cylinder(60, 40, -9, 6, 9));
        }},
       {"long_plate",
        [] {

@@ -141,6 +141,35 @@ TEST_F(EverydayParts, ARoundEdgeGoesRoundCornersThatAreAsRound) {
   EXPECT_THAT(run("explain part.json").out, HasSubstr("corner rounding mill"));
 }
 
+TEST_F(EverydayParts, EdgesOfASlotAndOfAnOpenPocketAreBrokenFromAbove) {
+  NEEDS_PARTS();
+  for (const char* part : {"plate_with_slot_all_chamfered", "plate_with_slot_all_rounded",
+                           "plate_with_open_pocket_all_chamfered"}) {
+    const Ran r = planned(part);
+    EXPECT_EQ(r.code, 0) << part;
+    EXPECT_THAT(r.err + r.out, whole_in_one_setup()) << part;
+  }
+}
+
+TEST_F(EverydayParts, EdgesOfBothSidesAreBrokenInTwoSetUps) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_chamfered_on_both_sides");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out,
+              AllOf(HasSubstr("no face and no volume is left over"), HasSubstr("14 of 14 plane faces"),
+                    HasSubstr("2 set-ups"), HasSubstr("\nSafe: "), Not(HasSubstr("PIP-UNPLANNED"))));
+  // The far mouth of the hole, from below.
+  EXPECT_THAT(run("explain part.json").out, HasSubstr("HOLE 4 countersink"));
+}
+
+TEST_F(EverydayParts, ABlindHoleWithAFlatBottomGetsTheChamferOfItsMouth) {
+  NEEDS_PARTS();
+  const Ran r = planned("plate_with_chamfered_holes");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out, AllOf(HasSubstr("11 of 11 plane faces"), HasSubstr("\nSafe: "),
+                                   Not(HasSubstr("set-ups")), Not(HasSubstr("PIP-UNPLANNED"))));
+}
+
 TEST_F(EverydayParts, ASheetBesideTheSolidIsToldAndLeft) {
   NEEDS_PARTS();
   const Ran r = planned("plate_and_sheet");
@@ -164,13 +193,28 @@ TEST_F(EverydayParts, APartDrawnInInchesIsOfferedInchTools) {
   EXPECT_THAT(metric.err, HasSubstr("corner radius 2.286 mm"));
 }
 
+TEST_F(EverydayParts, AHoleOfAnInchDrillsSizeIsDrilledByThatDrill) {
+  NEEDS_PARTS();
+  EXPECT_EQ(planned("holes_inch").code, 0);
+  EXPECT_THAT(run("explain part.json").out,
+              AllOf(HasSubstr("6.35 mm twist drill"), HasSubstr("5.105 mm twist drill")));
+}
+
+TEST_F(EverydayParts, BossesStandOnBossesOnBosses) {
+  NEEDS_PARTS();
+  const Ran r = planned("pocket_with_stack");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out,
+              AllOf(Not(HasSubstr("CHK-GOUGE")), HasSubstr("\nSafe: "), Not(HasSubstr("PIP-UNPLANNED"))));
+}
+
 TEST_F(EverydayParts, APartThatIsTooLargeForTheUsualMachineGetsALargerOne) {
   NEEDS_PARTS();
   const Ran r = planned("long_plate");
   EXPECT_EQ(r.code, 0);
   EXPECT_THAT(r.err + r.out, AllOf(HasSubstr("\nSafe: "), Not(HasSubstr("CHK-MACHINE-PIECE"))));
   EXPECT_THAT(run("explain part.json").out,
-              HasSubstr("built-in default, for the part is larger than 'generic_vmc' travels"));
+              HasSubstr("built-in default, the raw piece is too large for 'generic_vmc'"));
 }
 
 TEST_F(EverydayParts, OfTwoBossesOneGetsItsChamfer) {
