@@ -12,8 +12,8 @@ namespace capstan::service {
 
 /// Opens a shop: machine, tool library, materials, rules, fixtures' files and cases as the request names
 /// them; else the machine of the plan; else the built-in ones. Each stands in Inputs::provenance, a default
-/// as "built-in default". A session that binds many plans opens its shop once. `shipped`: the rules without
-/// a shop's own, where the caller has read them; null: they are read.
+/// as "built-in default", with the reason where the part is why. A session that binds many plans opens its
+/// shop once. `shipped`: the rules without a shop's own, where the caller has read them; null: they are read.
 ///
 /// Warns  of what a shop's own rule tables lack or say twice: planning goes on, for the rows that do decide
 ///        are sound.

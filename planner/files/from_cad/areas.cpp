@@ -39,10 +39,10 @@ std::vector<std::vector<Piece>> runs(const std::vector<Piece>& outer) {
   return out;
 }
 
-/// Without a floor, and open all round, or beside one arc that bulges: the tool goes round what stands.
+/// Sheer, and open all round, or beside one arc that bulges: the tool goes round what stands.
 bool is_contour(const Room& room, const Drawn& d) {
   if (room.contour) return true;
-  if ((!room.through && !room.no_floor) || d.outer.empty()) return false;
+  if ((!room.through && !room.sheer) || d.outer.empty()) return false;
   if (std::all_of(d.outer.begin(), d.outer.end(), [](const Piece& p) { return p.open; })) return true;
   const auto sides = runs(d.outer);
   return sides.size() == 2 && sides[0].size() == 1 && sides[0][0].sweep_rad < 0.0;
@@ -350,6 +350,12 @@ void take(Room& to, const Room& from) {
   to.blend_radius_mm = std::max(to.blend_radius_mm, from.blend_radius_mm);
 }
 
+double cleared_mm2(const Cleared& c) {
+  double out = 0.0;
+  for (const Region& r : c.rooms) out += geometry::area(r);
+  return out;
+}
+
 }  // namespace
 
 std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, const Way& way) {
@@ -376,6 +382,8 @@ std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, 
       room.top_mm = highest;
       room.through = level < lowest + kLevelMm;
       room.no_floor = way.no_floor;
+      room.sheer =
+          way.no_floor && cleared_mm2(c) - cleared_mm2(part.cleared(way.frame, lowest, {})) < kSpeckMm2;
       room.raw = c.raw;
       room.area = c.rooms[i];
       room.blends = way.blends;

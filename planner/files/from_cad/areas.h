@@ -17,8 +17,9 @@ struct Room {
   geometry::Placement frame;   ///< at the origin of the workpiece, z from the material to the tool
   double level_mm = 0.0;       ///< along z of the frame
   double top_mm = 0.0;         ///< what lies above it is cleared by another room, or is outside the raw piece
-  bool through = false;        ///< down to the underside of the raw piece, or into what others clear
+  bool through = false;        ///< down to the underside of the raw piece, or into a hollow below
   bool no_floor = false;       ///< its level is where its walls end
+  bool sheer = false;          ///< and nothing of the part is wider below
   bool contour = false;        ///< the whole contour of what stands beside its areas
   geometry::Region raw, area;  ///< in the frame's plane; holes are what stands in the area
   /// Not empty: the outlines, filled, of what stands while all around is cleared, out over the raw piece.

@@ -80,26 +80,20 @@ void put_on_edges(const Part& part, Removal& removal) {
   removal.on_edges = std::move(out);
 }
 
-/// Whether all that lies just below a room without a floor is cleared by others, so that a tool may run out
-/// there: through the thin floor of a cavity, cut from outside.
-bool opens_below(const Room& room, const std::vector<Room>& rooms) {
-  constexpr int kAcross = 12;
-  constexpr double kRunOutMm = 2.5;  // more than a tool runs out by
-  const geometry::Box2 box = geometry::bounds(room.area);
-  const Vec2 cell = (1.0 / kAcross) * (box.hi - box.lo);
-  bool seen = false;
-  for (int i = 0; i < kAcross * kAcross; ++i) {
-    const Vec2 p{box.lo.x + (i % kAcross + 0.5) * cell.x, box.lo.y + (i / kAcross + 0.5) * cell.y};
-    if (!geometry::contains(room.area, p)) continue;
-    seen = true;
-    for (const double below : {kLevelMm, kRunOutMm}) {
-      const Vec3 at = room.frame.to_parent({p.x, p.y, room.level_mm - below});
-      const bool cleared = std::any_of(rooms.begin(), rooms.end(),
-                                       [&](const Room& r) { return &r != &room && clears(r, at); });
-      if (!cleared) return false;
+/// Whether nothing of the part lies below a room without a floor, down to the underside, so that a tool may
+/// run out there: through the thin top of a hollow, cut from outside.
+bool opens_below(const Part& part, const Room& room) {
+  const geometry::Placement below = Part::frame_along(-1.0 * room.frame.z);
+  geometry::Region open;
+  for (const geometry::Region& seen : part.cleared(below, -room.level_mm, {}).rooms) {
+    geometry::Region here = seen;
+    for (geometry::Loop& loop : here.loops) {
+      for (Vec2& p : loop) p = xy(room.frame.to_local(below.to_parent({p.x, p.y, 0.0})));
+      std::reverse(loop.begin(), loop.end());  // seen from the other side
     }
+    open = geometry::unite(open, here);
   }
-  return seen;
+  return geometry::area(geometry::subtract(room.area, open)) < kSpeckMm2;
 }
 
 /// How far a tool reaches below the raw piece's surface to clear rooms.
@@ -215,7 +209,7 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
   out.rooms.clear();
   for (std::vector<Room>& rooms : made) std::move(rooms.begin(), rooms.end(), std::back_inserter(out.rooms));
   settle(out.rooms);
-  for (Room& room : out.rooms) room.through = room.through || (room.no_floor && opens_below(room, out.rooms));
+  for (Room& room : out.rooms) room.through = room.through || (room.no_floor && opens_below(part, room));
   join_contours(part, out.rooms);
   for (Hole& h : out.holes) raise(part, out.rooms, h);
   end(part, out.rooms, out.holes);

@@ -22,6 +22,9 @@ constexpr double kWidestMm = 8.0, kRoundestMm = 5.0;
 /// A chamfer mill's tip runs below the bevel, past the contour: so much deeper the contour is made. Default,
 /// unsourced.
 constexpr double kTipRoomMm = 1.0;
+/// Tips of the chamfer mills of cutters.yaml are 3 mm wide at most; chords of rounds turn less. Default,
+/// unsourced.
+constexpr double kTipDiameterMm = 3.0, kSharpTurnRad = 30.0 * std::numbers::pi / 180.0;
 /// Slopes that one cutter of 90 degrees makes, rad. Default, unsourced: a drawing's half a degree.
 constexpr double kSameSlopeRad = 0.5 * std::numbers::pi / 180.0;
 /// Of what is free half way up a rim so much is looked at: default, unsourced; the chord of the band's arcs,
@@ -87,6 +90,27 @@ std::optional<std::size_t> loop_of(const Part& part, const Rim& rim, const Room&
   return std::nullopt;
 }
 
+/// Whether an outline has a sharp corner that a mill going round it does not reach.
+bool has_sharp_inner_corner(const geometry::Loop& loop) {
+  for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+    const Vec2 a = loop[(i + 1) % n] - loop[i], b = loop[(i + 2) % n] - loop[(i + 1) % n];
+    if (std::atan2(cross(a, b), dot(a, b)) < -kSharpTurnRad) return true;
+  }
+  return false;
+}
+
+/// Whether outlines stand so near one another that the arc on which a mill comes to one runs over the other:
+/// four widths of the bevel, and its tip.
+bool too_near(const std::vector<geometry::Loop>& stands, double width_mm) {
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    const Region around = geometry::offset({{stands[i]}}, 4.0 * width_mm + kTipDiameterMm, kArcMm);
+    for (std::size_t k = i + 1; k < stands.size(); ++k) {
+      if (geometry::area(geometry::intersect(around, {{stands[k]}})) > kSpeckMm2) return true;
+    }
+  }
+  return false;
+}
+
 /// Below a rim at the raw piece's surface, what stands there, apart: where a slot runs between the halves of
 /// a plate, each has an edge that is broken all along. The room around them. Nothing: the rim is at the edge
 /// of none.
@@ -106,7 +130,9 @@ std::optional<EdgeOf> edge_of_halves(const Part& part, const Rim& rim, const geo
     room.stands.push_back(loop);
     room.area = geometry::subtract(room.area, {{loop}});
   }
-  if (room.stands.empty() || room.area.empty()) return std::nullopt;
+  if (room.stands.empty() || room.area.empty() || too_near(room.stands, rim.width_mm()) ||
+      std::any_of(room.stands.begin(), room.stands.end(), has_sharp_inner_corner))
+    return std::nullopt;
   const auto loop = loop_of(part, rim, room);
   if (!loop) return std::nullopt;
   for (Room& other : rooms) {

@@ -274,11 +274,11 @@ class CommandLine {
     auto* tools = app_.add_subcommand("tools", "the tool library");
     tools->require_subcommand(1);
     auto* list = command(*tools, "list", "a line per cutter", Command::kToolsList);
-    option(list, "tools", "tool library: a file, or `generic`");
+    option(list, "tools", "tool library: a file, `generic`, or `generic-inch`");
     option(list, "shop", "the shop's settings: a file, or none");
     list->add_option("filter", out_.words, "only cutters whose id or class contains this");
     auto* one = command(*tools, "show", "all that is known of a cutter, with sources", Command::kToolsShow);
-    option(one, "tools", "tool library: a file, or `generic`");
+    option(one, "tools", "tool library: a file, `generic`, or `generic-inch`");
     option(one, "shop", "the shop's settings: a file, or none");
     one->add_option("id", out_.words, "the cutter's id")->required();
     tool_files(*tools);
@@ -327,7 +327,7 @@ class CommandLine {
     auto* convert = command(tools, "convert", "write a library in another format", Command::kToolsConvert);
     file(convert, "library", "a file or folder");
     auto* out = command(tools, "export", "write the library that planning uses", Command::kToolsExport);
-    option(out, "tools", "tool library: a file, a folder, or `generic`");
+    option(out, "tools", "tool library: a file, a folder, `generic`, or `generic-inch`");
     option(out, "shop", "the shop's settings: a file, or none");
     for (auto* sub : {import, convert, out}) {
       auto* o = sub->add_option("-o,--output", out_.outputs,
