@@ -59,7 +59,8 @@ def plan(command, path, seconds):
                               "-o", folder + "/part.ngc"], preexec_fn=limit, capture_output=True, text=True, cwd=folder)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    over = run.returncode < 0 and cpu >= seconds - 1
+    # The limit ends the command with a signal, or it stops at it in order.
+    over = (run.returncode < 0 and cpu >= seconds - 1) or "\nStopped: " in "\n" + run.stderr + run.stdout
     return None if over else run.returncode, run.stderr + run.stdout, cpu
 
 
