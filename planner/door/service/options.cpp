@@ -197,9 +197,8 @@ std::vector<Option> table() {
        control_words()},
       {"tools",
        Value::kText,
-       {"tool library: a file, `generic` (the default), or `generic-inch`, which has inch sizes, too (the "
-        "default "
-        "of CAD parts drawn in inches)",
+       {"tool library: a file, `generic` (the default), or `generic-inch`, which has inch sizes, too "
+        "(the default of CAD parts drawn in inches)",
         "the loaded tools: a tool table or library; without it the plan's own, in its tool numbers",
         "tool library with the programs' tools"},
        [](Request& r, Text t) { return r.tools = t, std::string(); },

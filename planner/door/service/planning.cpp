@@ -114,8 +114,9 @@ std::optional<Request::Suited> machine_for(const PartRead& part) {
   };
   Job aside;
   const auto usual = tooling::load_machine(std::string(tooling::kDefaultMachine), aside);
+  if (!usual || holds(*usual)) return std::nullopt;
   const auto large = tooling::load_machine(std::string(tooling::kLargeMachine), aside);
-  if (!usual || !large || holds(*usual) || !holds(*large)) return std::nullopt;
+  if (!large || !holds(*large)) return std::nullopt;
   return Request::Suited{large->id, "the raw piece is too large for '" + usual->id + "'"};
 }
 

@@ -350,12 +350,6 @@ void take(Room& to, const Room& from) {
   to.blend_radius_mm = std::max(to.blend_radius_mm, from.blend_radius_mm);
 }
 
-double cleared_mm2(const Cleared& c) {
-  double out = 0.0;
-  for (const Region& r : c.rooms) out += geometry::area(r);
-  return out;
-}
-
 }  // namespace
 
 std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, const Way& way) {
@@ -383,7 +377,8 @@ std::vector<Room> rooms_of(const Part& part, const recognise::Feature& feature, 
       room.through = level < lowest + kLevelMm;
       room.no_floor = way.no_floor;
       room.sheer =
-          way.no_floor && cleared_mm2(c) - cleared_mm2(part.cleared(way.frame, lowest, {})) < kSpeckMm2;
+          way.no_floor &&
+          geometry::area(all_of(c)) - geometry::area(all_of(part.cleared(way.frame, lowest, {}))) < kSpeckMm2;
       room.raw = c.raw;
       room.area = c.rooms[i];
       room.blends = way.blends;

@@ -84,14 +84,10 @@ void put_on_edges(const Part& part, Removal& removal) {
 /// run out there: through the thin top of a hollow, cut from outside.
 bool opens_below(const Part& part, const Room& room) {
   const geometry::Placement below = Part::frame_along(-1.0 * room.frame.z);
-  geometry::Region open;
-  for (const geometry::Region& seen : part.cleared(below, -room.level_mm, {}).rooms) {
-    geometry::Region here = seen;
-    for (geometry::Loop& loop : here.loops) {
-      for (Vec2& p : loop) p = xy(room.frame.to_local(below.to_parent({p.x, p.y, 0.0})));
-      std::reverse(loop.begin(), loop.end());  // seen from the other side
-    }
-    open = geometry::unite(open, here);
+  geometry::Region open = all_of(part.cleared(below, -room.level_mm, {}));
+  for (geometry::Loop& loop : open.loops) {
+    for (Vec2& p : loop) p = xy(room.frame.to_local(below.to_parent({p.x, p.y, 0.0})));
+    std::reverse(loop.begin(), loop.end());  // seen from the other side
   }
   return geometry::area(geometry::subtract(room.area, open)) < kSpeckMm2;
 }
@@ -175,14 +171,9 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
     });
   };
   for (const Wanted& w : wanted) {
-    auto best = std::find_if(w.ways.begin(), w.ways.end(),
-                             [&](const Way& x) { return known(x.frame.z) && below_a_rim(w, x.frame); });
-    if (best == w.ways.end())
-      best = std::find_if(w.ways.begin(), w.ways.end(), [&](const Way& x) { return known(x.frame.z); });
-    if (best == w.ways.end())
-      best =
-          std::find_if(w.ways.begin(), w.ways.end(), [&](const Way& x) { return below_a_rim(w, x.frame); });
-    const Way& way = best == w.ways.end() ? w.ways.front() : *best;
+    const auto worth = [&](const Way& x) { return 2 * known(x.frame.z) + below_a_rim(w, x.frame); };
+    const Way& way = *std::max_element(w.ways.begin(), w.ways.end(),
+                                       [&](const Way& a, const Way& b) { return worth(a) < worth(b); });
     if (!known(way.frame.z)) used.push_back(way.frame.z);
     made.push_back(along(w, way));
     out.rooms.insert(out.rooms.end(), made.back().begin(), made.back().end());

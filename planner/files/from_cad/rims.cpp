@@ -121,9 +121,7 @@ std::optional<EdgeOf> edge_of_halves(const Part& part, const Rim& rim, const geo
   room.top_mm = rim.top_mm;
   room.level_mm = std::max(raw.lo.z, rim.foot_mm - kTipRoomMm);
   room.raw = geometry::rectangle(xy(raw.lo), xy(raw.hi));
-  Region cleared;
-  for (const Region& r : part.cleared(rim.frame, room.level_mm, {}).rooms)
-    cleared = geometry::unite(cleared, r);
+  const Region cleared = all_of(part.cleared(rim.frame, room.level_mm, {}));
   room.area = room.raw;
   for (const geometry::Loop& loop : geometry::subtract(room.raw, cleared).loops) {
     if (!(geometry::signed_area(loop) > 0.0)) continue;
@@ -193,8 +191,7 @@ std::optional<EdgeOf> edge_of(const Part& part, const Rim& rim, std::vector<Room
   room.level_mm = std::max(raw.lo.z, rim.foot_mm - kTipRoomMm);
   room.contour = true;
   room.raw = geometry::rectangle(xy(raw.lo), xy(raw.hi));
-  for (const Region& beside : part.cleared(rim.frame, raw.lo.z, {}).rooms)
-    room.area = geometry::unite(room.area, beside);
+  room.area = all_of(part.cleared(rim.frame, raw.lo.z, {}));
   const auto loop = loop_of(part, rim, room);
   if (!loop) return edge_of_halves(part, rim, raw, rooms);
   rooms.push_back(std::move(room));

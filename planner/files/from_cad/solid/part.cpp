@@ -139,6 +139,12 @@ std::vector<Part::Spot> Part::spots(std::uint32_t f) const {
 
 Vec3 normal_of(const exchange::Face& face) { return face.same_sense ? face.axis : -1.0 * face.axis; }
 
+geometry::Region all_of(const Cleared& cleared) {
+  geometry::Region out;
+  for (const geometry::Region& r : cleared.rooms) out = geometry::unite(out, r);
+  return out;
+}
+
 int room_at(const Cleared& cleared, Vec2 p) {
   for (std::size_t i = 0; i < cleared.rooms.size(); ++i) {
     if (geometry::contains(cleared.rooms[i], p)) return static_cast<int>(i);

@@ -72,6 +72,9 @@ class Part {
 /// A plane normal of a face, out of the material.
 [[nodiscard]] Vec3 normal_of(const exchange::Face& face);
 
+/// All areas as one region.
+[[nodiscard]] geometry::Region all_of(const Cleared& cleared);
+
 /// The area in which a point lies; -1: in none. A point on a boundary counts as inside.
 [[nodiscard]] int room_at(const Cleared& cleared, Vec2 p);
 
