@@ -20,6 +20,12 @@ using geometry::Region;
 /// needs more than the most. Default, unsourced.
 constexpr double kLeastPastMm = 1.0;
 constexpr double kMostPastMm = 16.0;
+/// A round wall that ends along the raw piece's side (of this cosine at least) goes on along it and then
+/// leads away at this angle. A mill of radius kMostPastMm that keeps off there touches the wall up to its
+/// end: so far the corner between the two keeps it off. Derived.
+constexpr double kAlongSide = 0.9998;
+constexpr double kAwayRad = 10.0 * std::numbers::pi / 180.0;
+const double kOnAlongMm = kMostPastMm * std::tan(0.5 * kAwayRad), kAwayMm = kMostPastMm * std::tan(kAwayRad);
 
 Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
 Vec2 right_of(Vec2 d) { return {d.y, -d.x}; }
@@ -146,35 +152,65 @@ class Maker {
     return p.sweep_rad > 0.0 ? Vec2{-out.y, out.x} : Vec2{out.y, -out.x};
   }
 
-  /// An open side so far outside the raw piece: its corners in order. `before` and `after` are the walls that
-  /// meet it: where one leans over it, the side's end goes on in the wall's line, so that a mill makes the
-  /// wall to its end.
-  static std::vector<Vec2> past(const std::vector<Piece>& run, double mm, const Piece& before,
-                                const Piece& after) {
+  /// An open side so far outside the raw piece: its corners in order, and what leads to the first from the
+  /// wall before it and from the last to the wall behind it.
+  struct Past {
+    std::vector<Vec2> leads_out, corners, leads_in;
+  };
+  /// Whether a wall that leaves an area goes on along the side that it ends at, away from the area's mouth
+  /// there.
+  static bool runs_along(Vec2 wall, Vec2 inwards) { return dot(wall, inwards) < -kAlongSide; }
+
+  /// `before` and `after` are the walls that meet it: where one leans over it, the side's end goes on in the
+  /// wall's line, so that a mill makes the wall to its end; where a round wall ends along the raw piece's
+  /// side, it goes on along that and then away from it, so that a mill rolls round the wall to its end and
+  /// does not run along the side.
+  static Past past(const std::vector<Piece>& run, double mm, const Piece& before, const Piece& after) {
     const std::size_t n = run.size();
     const auto along = [&](std::size_t i) { return unit(run[i].to - run[i].from); };
-    const auto end = [&](Vec2 wall, Vec2 side, Vec2 inwards) {
-      const double sine = dot(wall, right_of(side));
+    const auto end = [&](Vec2 from, Vec2 wall, Vec2 side, Vec2 inwards) {
+      const Vec2 outwards = right_of(side);
+      const double sine = dot(wall, outwards);
       const bool leans = dot(wall, inwards) < -recognise::kSameAngleRad && sine > model::shape::kLeastMouthSine;
-      return leans ? (mm / sine) * wall : mm * right_of(side);
+      if (!runs_along(wall, inwards))
+        return std::vector<Vec2>{from + (leans ? (mm / sine) * wall : mm * outwards)};
+      const Vec2 on = -1.0 * inwards, first = from + kOnAlongMm * on;
+      std::vector<Vec2> out{first, first + kMostPastMm * on + kAwayMm * outwards};
+      if (mm > kAwayMm) out.push_back(first + kMostPastMm * on + mm * outwards);
+      return out;
     };
-    std::vector<Vec2> out{run[0].from + end(heading(before, true), along(0), along(0))};
+    Past out;
+    out.leads_out = end(run[0].from, heading(before, true), along(0), along(0));
+    out.leads_in = end(run[n - 1].to, -1.0 * heading(after, false), along(n - 1), -1.0 * along(n - 1));
+    std::reverse(out.leads_in.begin(), out.leads_in.end());
+    out.corners.push_back(out.leads_out.back());
+    out.leads_out.pop_back();
     for (std::size_t i = 1; i < n; ++i) {
       const Vec2 a = right_of(along(i - 1)), b = right_of(along(i));
-      out.push_back(run[i].from + (mm / std::max(0.5, 1.0 + dot(a, b))) * (a + b));
+      out.corners.push_back(run[i].from + (mm / std::max(0.5, 1.0 + dot(a, b))) * (a + b));
     }
-    out.push_back(run[n - 1].to + end(-1.0 * heading(after, false), along(n - 1), -1.0 * along(n - 1)));
+    out.corners.push_back(out.leads_in.front());
+    out.leads_in.erase(out.leads_in.begin());
     return out;
   }
 
   AnyRef open_pocket(const std::vector<Piece>& wall, const std::vector<Piece>& mouth) {
     auto f = feature<model::OpenPocket>("OPEN POCKET");
     // A side that ends on the raw piece's would leave a film by rounding: it goes on past it.
-    const std::vector<Vec2> beyond = past(mouth, kLeastPastMm, wall.back(), wall.front());
+    const Past sides = past(mouth, kLeastPastMm, wall.back(), wall.front());
+    const std::vector<Vec2>& beyond = sides.corners;
     const auto line = [](Vec2 from, Vec2 to) { return Piece{from, to, {}, 0.0, 0.0, false}; };
-    std::vector<Piece> walls{line(beyond.back(), wall.front().from)};
+    std::vector<Piece> walls;
+    const auto go = [&](Vec2 from, const std::vector<Vec2>& by, Vec2 to) {
+      for (const Vec2 p : by) {
+        walls.push_back(line(from, p));
+        from = p;
+      }
+      walls.push_back(line(from, to));
+    };
+    go(beyond.back(), sides.leads_in, wall.front().from);
     walls.insert(walls.end(), wall.begin(), wall.end());
-    walls.push_back(line(wall.back().to, beyond.front()));
+    go(wall.back().to, sides.leads_out, beyond.front());
     std::vector<Piece> open;
     for (std::size_t i = 0; i + 1 < beyond.size(); ++i) open.push_back(line(beyond[i], beyond[i + 1]));
     f.open_boundary = nouns_.open_profile(walls);
@@ -301,8 +337,14 @@ class Maker {
       const std::size_t at = (mouth + k) % sides.size();
       const Piece& before = sides[(at + sides.size() - 1) % sides.size()].back();
       const Piece& after = sides[(at + 1) % sides.size()].front();
-      const double mm = std::min(kMostPastMm, 0.5 * width(run) + kLeastPastMm);
-      for (const Vec2 corner : past(run, mm, before, after)) go(corner);
+      double mm = std::min(kMostPastMm, 0.5 * width(run) + kLeastPastMm);
+      // The strip behind what leads away is as wide as any mill.
+      if (runs_along(heading(before, true), unit(run.front().to - run.front().from)) ||
+          runs_along(-1.0 * heading(after, false), unit(run.back().from - run.back().to)))
+        mm = kAwayMm + 2.0 * kMostPastMm;
+      const Past over = past(run, mm, before, after);
+      for (const auto* points : {&over.leads_out, &over.corners, &over.leads_in})
+        for (const Vec2 p : *points) go(p);
       go(run.back().to);
     }
     return open_pocket(wall, sides[mouth]);

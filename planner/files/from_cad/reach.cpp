@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/ground/base/number.h"
+#include "planner/ground/geometry/region.h"
 
 namespace capstan::from_cad {
 namespace {
@@ -104,12 +105,21 @@ std::optional<Way> seen_along(const Part& part, const recognise::Feature& featur
   return way;
 }
 
-/// Whether fillets meet in a sharp edge, as CAD systems make them round a sharp corner of a boss.
-bool creased(const Part& part, const std::vector<std::uint32_t>& blends) {
-  const auto is_blend = [&](std::uint32_t f) { return std::binary_search(blends.begin(), blends.end(), f); };
-  const auto& edges = part.brep().edges;
-  return !blends.empty() && std::any_of(edges.begin(), edges.end(), [&](const exchange::Edge& e) {
-    return e.convexity == exchange::Convexity::kConvex && is_blend(e.face[0]) && is_blend(e.face[1]);
+/// Whether fillets meet in a sharp edge that is no mitre of two straight walls, with a corner of 60 degrees
+/// or more between them: what a cutter leaves that goes straight past the corner.
+bool creased(const Part& part, const Way& way) {
+  const auto& faces = part.brep().faces;
+  const auto is_blend = [&](std::uint32_t f) {
+    return std::binary_search(way.blends.begin(), way.blends.end(), f);
+  };
+  return std::any_of(part.brep().edges.begin(), part.brep().edges.end(), [&](const exchange::Edge& e) {
+    if (e.convexity != exchange::Convexity::kConvex || !is_blend(e.face[0]) || !is_blend(e.face[1]))
+      return false;
+    const bool straight = std::all_of(e.face.begin(), e.face.end(), [&](std::uint32_t f) {
+      return faces[f].carrier == Carrier::kCylinder && across(faces[f].axis, way.frame.z);
+    });
+    const Vec3 run = way.frame.to_local(e.end) - way.frame.to_local(e.start);
+    return !straight || norm(xy(run)) > geometry::kMitreLimit * way.blend_radius_mm + kLevelMm;
   });
 }
 
@@ -177,11 +187,12 @@ std::vector<Way> ways_of(const Part& part, const recognise::Feature& feature, st
   for (const Vec3 d : directions(part, feature)) {
     auto way = seen_along(part, feature, d);
     if (!way) continue;
-    if (creased(part, way->blends)) {
+    if (creased(part, *way)) {
       if (why.empty())
         why =
-            "the fillets at its floor meet in sharp creases at corners of what stands; a mill rolls round "
-            "these";
+            "the fillets at its floor meet in sharp creases that are no mitres of straight walls with a "
+            "corner "
+            "of 60 degrees or more; a mill rolls round these";
       continue;
     }
     const auto [missed, all] = out_of_reach(part, feature, *way);

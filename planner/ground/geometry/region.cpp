@@ -170,7 +170,7 @@ Region offset_paths(Paths paths, double delta_mm, ClipperLib::JoinType join, Cli
     question += bytes_of(paths);
   };
   return made_or_kept(place, ask, [&](Paths& solution) {
-    ClipperLib::ClipperOffset clipper(2.0, arc_tolerance_mm * kScale);
+    ClipperLib::ClipperOffset clipper(kMitreLimit, arc_tolerance_mm * kScale);
     clipper.AddPaths(paths, join, end);
     clipper.Execute(solution, delta_mm * kScale);
   });
@@ -340,6 +340,47 @@ double distance_to_boundary(const Region& a, Vec2 p) {
     }
   }
   return best;
+}
+
+double mitred_distance(const Loop& loop, Vec2 p) {
+  double best = 1e300;
+  const std::size_t n = loop.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 before = loop[(i + n - 1) % n], here = loop[i], next = loop[(i + 1) % n];
+    const Vec2 in = here - before, out = next - here;
+    const double length2 = dot(out, out);
+    if (!(length2 > 0.0)) continue;
+    const double t = dot(p - here, out) / length2;
+    if (t >= 0.0 && t <= 1.0) {
+      best = std::min(best, std::abs(cross(out, p - here)) / std::sqrt(length2));
+    } else if (t < 0.0) {
+      const double whole = norm(p - here), run = norm(in);
+      if (!(run > 0.0)) continue;
+      const bool beyond_both = dot(p - here, in) >= 0.0;
+      const double sides =
+          std::max(std::abs(cross(in, p - here)) / run, std::abs(cross(out, p - here)) / std::sqrt(length2));
+      best = std::min(best, beyond_both && sides * kMitreLimit >= whole ? sides : whole);
+    }
+  }
+  return best;
+}
+
+double mitred_distance(const Region& a, Vec2 p) {
+  double best = 1e300;
+  for (const Loop& loop : a.loops) best = std::min(best, mitred_distance(loop, p));
+  return best;
+}
+
+bool has_sharp_inner_corner(const Region& a) {
+  // Chords of 0.5 um turn by less from a radius of 0.1 mm on.
+  constexpr double kLeastTurn = 0.25;
+  for (const Loop& loop : a.loops) {
+    for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
+      const Vec2 in = loop[i] - loop[(i + n - 1) % n], out = loop[(i + 1) % n] - loop[i];
+      if (std::atan2(cross(in, out), dot(in, out)) < -kLeastTurn) return true;
+    }
+  }
+  return false;
 }
 
 Box2 bounds(const Region& a) {

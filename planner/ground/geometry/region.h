@@ -30,8 +30,10 @@ inline constexpr double kRegionLimit = 1e6;
 /// away from it by up to arc_tolerance_mm; of 500 vertices and more, in steps and by up to 1.5 times that
 /// (offset/raw_offset.h).
 [[nodiscard]] Region offset(const Region& a, double delta_mm, double arc_tolerance_mm = 0.001);
-/// As `offset`, corners kept sharp (mitred) when growing; limit 2.
+/// As `offset`, with the corners kept sharp (mitred) that the boundary would go round: outer corners when
+/// growing, inner ones when shrinking; not beyond kMitreLimit times delta from a vertex.
 [[nodiscard]] Region offset_sharp(const Region& a, double delta_mm);
+inline constexpr double kMitreLimit = 2.0;
 /// The separate pieces: one outer loop with its holes each, ordered by (area descending, position).
 [[nodiscard]] std::vector<Region> pieces(const Region& a);
 
@@ -40,6 +42,13 @@ inline constexpr double kRegionLimit = 1e6;
 [[nodiscard]] bool contains(const Region& a, Vec2 p);  ///< boundary counts as inside
 /// Distance from p to the nearest boundary point, mm; 1e300 for an empty region.
 [[nodiscard]] double distance_to_boundary(const Region& a, Vec2 p);
+/// How far the boundary would have to be moved with sharp corners (`offset_sharp`) to come to p, which is
+/// beside the area: the distance to a side, and about a corner to the farther one of its two sides' lines.
+[[nodiscard]] double mitred_distance(const Loop& loop, Vec2 p);
+[[nodiscard]] double mitred_distance(const Region& a, Vec2 p);
+/// Whether the boundary turns away from the area somewhere by more than what chords of an arc do: a corner
+/// that `offset` goes round when it shrinks the area.
+[[nodiscard]] bool has_sharp_inner_corner(const Region& a);
 struct Box2 {
   Vec2 lo{1e300, 1e300};
   Vec2 hi{-1e300, -1e300};

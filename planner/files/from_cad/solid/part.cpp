@@ -22,6 +22,15 @@ Vec3 clean(Vec3 d) {
   return {snap(d.x), snap(d.y), snap(d.z)};
 }
 
+/// Whether a loop is a sliver between two meshes of one round wall, each of which leaves it by up to a
+/// chord's height.
+bool sliver(const geometry::Loop& loop, double chord_mm) {
+  double round = 0.0;
+  for (std::size_t i = 0, n = loop.size(); i < n; ++i) round += norm(loop[(i + 1) % n] - loop[i]);
+  // Of a triangle as high as that over a long side, the area is so much of what goes round it.
+  return std::abs(geometry::signed_area(loop)) < 0.25 * (2.0 * chord_mm) * round;
+}
+
 }  // namespace
 
 Part::Part(const Brep& brep, std::size_t body, const geometry::Box3& raw)
@@ -77,7 +86,11 @@ const Cleared& Part::cleared(const geometry::Placement& frame, double z_mm,
   c.raw = shadow_above(raw_mesh_, {}, frame, z_mm + kLevelMm);
   const geometry::Region part = shadow_above(mesh_, out, frame, z_mm + kLevelMm);
   for (geometry::Region& room : geometry::pieces(geometry::subtract(c.raw, part))) {
-    if (geometry::area(room) > kSpeckMm2) c.rooms.push_back(std::move(room));
+    if (geometry::area(room) <= kSpeckMm2) continue;
+    std::erase_if(room.loops, [&](const geometry::Loop& loop) {
+      return geometry::signed_area(loop) < 0.0 && sliver(loop, brep_.chord);
+    });
+    c.rooms.push_back(std::move(room));
   }
   known_.emplace_back(Key{frame.z, z_mm, but}, std::move(c));
   return known_.back().second;

@@ -157,7 +157,7 @@ void spare(FeatureShape& s, const Standing& boss, const geometry::Placement& at,
     // contour's tops are not passed over.
     if (s.kind == ShapeKind::kOutside || s.islands.empty()) return;
     const geometry::Region on =
-        geometry::intersect(geometry::offset(stays, boss.foot_mm.value_or(0.0)), tops_of_islands(s));
+        geometry::intersect(geometry::offset_sharp(stays, boss.foot_mm.value_or(0.0)), tops_of_islands(s));
     if (geometry::area(on) > kSpeck) s.islands.push_back({on, top, s.islands.front().foot_radius_mm});
     return;
   }

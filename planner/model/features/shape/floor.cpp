@@ -52,25 +52,21 @@ std::optional<double> slot_floor(const FeatureShape& s, Vec2 p) {
   return -s.depth_mm;
 }
 
-double distance_to(const geometry::Loop& loop, Vec2 p) {
-  return std::min(geometry::distance_to_line(loop, p),
-                  geometry::distance_to_line({loop.back(), loop.front()}, p));
-}
-
-/// How far the floor rises in the fillets beside the walls and islands about p.
+/// How far the floor rises in the fillets beside the walls and islands about p. Past a sharp corner of what
+/// stands the fillets of both walls run straight on and meet in a mitre, as CAD systems draw them.
 double fillet_rise(const FeatureShape& s, Vec2 p) {
   double out = 0.0;
   if (s.bottom_radius_mm > 0.0) {
     // An open area's reach ends at its walls; its holes are the islands.
     for (const geometry::Loop& loop : (s.open ? s.reach : s.area).loops) {
       if (geometry::signed_area(loop) > 0.0)
-        out = std::max(out, rise(s.bottom_radius_mm, distance_to(loop, p)));
+        out = std::max(out, rise(s.bottom_radius_mm, geometry::mitred_distance(loop, p)));
     }
   }
   for (const Island& i : s.islands) {
     if (!(i.foot_radius_mm > 0.0)) continue;
     const double height = std::max(0.0, i.top_z_mm + s.depth_mm);
-    const double foot = rise(i.foot_radius_mm, geometry::distance_to_boundary(i.area, p));
+    const double foot = rise(i.foot_radius_mm, geometry::mitred_distance(i.area, p));
     out = std::max(out, std::min(height, foot));
   }
   return out;

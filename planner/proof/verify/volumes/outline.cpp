@@ -130,6 +130,32 @@ Near nearest(const Outline& o, Vec2 p, bool walls_only) {
   return out;
 }
 
+double mitred(const Outline& o, Vec2 p, bool walls_only) {
+  /// A mitre is at most so many times as far from its corner as from the walls.
+  constexpr double kMostOut = 2.0;
+  double out = 1e300;
+  const std::size_t n = o.edges.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Edge& e = o.edges[i];
+    if (walls_only && e.open) continue;
+    double share = 0.0;
+    double d = part_of(e, p, share);
+    if (share <= 0.0 || share >= 1.0) {
+      const bool begin = share <= 0.0;
+      const Edge& other = o.edges[begin ? (i + n - 1) % n : (i + 1) % n];
+      const Vec2 corner = e.at(share), off = p - corner;
+      const Vec2 into = (begin ? other : e).along(1.0), from = (begin ? e : other).along(0.0);
+      const bool wall = !(walls_only && other.open);
+      if (wall && dot(off, into) >= 0.0 && dot(off, from) <= 0.0) {
+        const double sides = std::max(std::abs(cross(into, off)), std::abs(cross(from, off)));
+        if (sides * kMostOut >= d) d = sides;
+      }
+    }
+    out = std::min(out, d);
+  }
+  return out;
+}
+
 namespace {
 
 /// What one edge adds to the turns about p. `b` is where the next edge begins: it ends this one, so that no

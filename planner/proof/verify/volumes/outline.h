@@ -59,6 +59,11 @@ struct Near {
 };
 [[nodiscard]] Near nearest(const Outline& o, geometry::Vec2 p, bool walls_only = false);
 
+/// How far walls that run straight past their corners, to meet there in a mitre, would have to be moved to
+/// come to p, which is beside them, mm: the distance to a wall; about a corner of 60 degrees or more to the
+/// farther one of its two walls' lines.
+[[nodiscard]] double mitred(const Outline& o, geometry::Vec2 p, bool walls_only = false);
+
 /// How often a closed outline runs round p, counter-clockwise positive; 0: p is outside.
 [[nodiscard]] int turns_around(const Outline& o, geometry::Vec2 p);
 [[nodiscard]] inline bool inside(const Outline& o, geometry::Vec2 p) {

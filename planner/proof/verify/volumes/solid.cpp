@@ -50,13 +50,13 @@ PointState in_area(const Area& a, const Solid& s, Vec3 p) {
       return taken ? PointState::kNotStated : a.around ? PointState::kNotStated : PointState::kStays;
     if (a.leaning_mm > 0.0 && near.distance_mm < a.leaning_mm) return PointState::kNotStated;
     if (!taken) return PointState::kStays;
-    if (radiused && near.distance_mm < fillet(a.foot_radius_mm, height)) return PointState::kStays;
+    if (radiused && mitred(a.outline, q, true) < fillet(a.foot_radius_mm, height)) return PointState::kStays;
   }
   for (const Standing& b : a.standing) {
     if (p.z > b.top_mm) continue;
     if (inside(b.outline, q)) return PointState::kStays;
     const double open = std::max(b.leaning_mm, height < b.foot_radius_mm ? b.foot_radius_mm : 0.0);
-    if (open > 0.0 && nearest(b.outline, q).distance_mm < open) return PointState::kNotStated;
+    if (open > 0.0 && mitred(b.outline, q) < open) return PointState::kNotStated;
   }
   if (p.z > 0.0) return a.overhead ? PointState::kNotStated : PointState::kStays;
   return PointState::kRemoved;

@@ -100,6 +100,15 @@ Shape with_boss() {
   return chamfered(s, 1, at_height(0));
 }
 
+/// A plate of 100 x 70 mm, 8 mm thick, with a block of 40 x 30 mm, 12 mm high, its upright edges sharp: at
+/// its foot fillets of 3 mm, which meet in mitres.
+Shape with_sharp_block() {
+  const Shape s = fused(box({0, 0, -20}, {100, 70, -12}), box({30, 20, -13}, {70, 50, 0}));
+  return filleted(s, 3, [](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& m) {
+    return at_height(-12)(a, b, m) && m.X() > 29 && m.X() < 71 && m.Y() > 19 && m.Y() < 51;
+  });
+}
+
 /// A shoulder of 30 x 10 mm with a fillet of 2 mm at the foot of its wall.
 Shape shoulder(double x, double y0, double y1) {
   return filleted(box({-1, y0, -10}, {x, y1, 1}), 2, [x](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& m) {
@@ -134,6 +143,28 @@ const std::map<std::string, std::function<Shape()>>& parts() {
       {"plate_with_chamfers_and_slot", [] { return slotted(chamfered(plate(), 1, at_height(0))); }},
       {"plate_with_rounds", [] { return filleted(plate(), 2, at_height(0)); }},
       {"plate_with_boss", [] { return with_boss(); }},
+      {"plate_with_sharp_block", [] { return with_sharp_block(); }},
+      // Two corners stand that are round where they end at the sides.
+      {"block_with_round_corners_standing",
+       [] {
+         const auto corner = [](const gp_Pnt& lo, const gp_Pnt& hi, double x, double y) {
+           return filleted(box(lo, hi), 8, [=](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& m) {
+             return upright(a, b, m) && (std::abs(m.X() - x) < kNear) != (std::abs(m.Y() - y) < kNear);
+           });
+         };
+         const Shape s = fused(box({0, 0, -20}, {100, 70, -12}), corner({0, 0, -13}, {40, 30, 0}, 40, 30));
+         return fused(s, corner({60, 40, -13}, {100, 70, 0}, 60, 40));
+       }},
+      // Two corners stand; at the feet of their inner walls fillets of 3 mm, which meet in mitres.
+      {"block_with_corners_standing",
+       [] {
+         Shape s = box({0, 0, -20}, {100, 70, -12});
+         s = fused(s, box({0, 0, -13}, {25, 20, 0}));
+         s = fused(s, box({75, 50, -13}, {100, 70, 0}));
+         return filleted(s, 3, [](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& m) {
+           return at_height(-12)(a, b, m) && m.X() > 1 && m.X() < 99 && m.Y() > 1 && m.Y() < 69;
+         });
+       }},
       {"block_with_shoulder",
        [] {
          return cut(box({0, 0, -20}, {100, 70, 0}), shoulder(30, -1, 71));

@@ -85,6 +85,24 @@ TEST_F(EverydayParts, ABossKeepsTheFilletAtItsFootAndGetsItsChamfer) {
   EXPECT_THAT(r.err + r.out, whole_in_one_setup());
 }
 
+TEST_F(EverydayParts, FilletsThatMeetInMitresAtSharpCornersAreMade) {
+  NEEDS_PARTS();
+  for (const char* part : {"plate_with_sharp_block", "block_with_corners_standing"}) {
+    const Ran r = planned(part);
+    EXPECT_EQ(r.code, 0) << part;
+    EXPECT_THAT(r.err + r.out, whole_in_one_setup()) << part;
+  }
+}
+
+TEST_F(EverydayParts, WallsThatEndAlongTheSidesOfTheRawPieceAreMadeToTheirEnds) {
+  NEEDS_PARTS();
+  const Ran r = planned("block_with_round_corners_standing");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err + r.out,
+              AllOf(HasSubstr("no face and no volume is left over"), HasSubstr("12 of 12 plane faces"),
+                    HasSubstr("\nSafe: 2 steps"), Not(HasSubstr("CHK-SHAPE-"))));
+}
+
 TEST_F(EverydayParts, FilletsAtTheFloorsOfOpenShapesAreMade) {
   NEEDS_PARTS();
   for (const char* part : {"block_with_shoulder", "block_with_round_slot", "block_with_open_pocket"}) {

@@ -65,11 +65,18 @@ Result<WorkArea> work_area(const PathJob& task) {
   return w;
 }
 
-Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_mm, double allowance_mm,
-                  double allowance_bottom_mm) {
-  const double radius = 0.5 * cutter.cutting_diameter_mm;
+namespace {
+
+/// How far a cutter's centre keeps from what stands: in all, and of it what goes straight past sharp corners.
+struct Distances {
+  double all_mm = 0.0, foot_mm = 0.0;
+};
+
+// Past a sharp corner of what stands the fillets at its foot meet in a mitre. The foot's outline, with sharp
+// corners, is what the rest of the cutter goes round: so it makes the mitre, and nothing is left at the wall
+// above, for what is gone round at one distance from a sharp corner leaves it sharp.
+Distances distances(const WorkArea& w, const model::Cutter& cutter, double tip_z_mm, double allowance_mm) {
   const double above = std::max(0.0, tip_z_mm - w.bottom_z_mm);
-  const double run = above * std::tan(w.slope_rad);
   // In the fillet between wall and bottom the cutter's own corner must stay inside the larger radius.
   double fillet = 0.0;
   const double spare = w.bottom_radius_mm - cutter.corner_radius_mm;
@@ -77,6 +84,15 @@ Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_m
     const double rise = spare - above;
     fillet = spare - std::sqrt((spare - rise) * (spare + rise));
   }
+  return {0.5 * cutter.cutting_diameter_mm + allowance_mm + fillet,
+          fillet + std::min(cutter.corner_radius_mm, w.bottom_radius_mm)};
+}
+
+}  // namespace
+
+Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_mm, double allowance_mm,
+                  double allowance_bottom_mm) {
+  const double run = std::max(0.0, tip_z_mm - w.bottom_z_mm) * std::tan(w.slope_rad);
   Region keep = w.reach;
   if (w.open) {
     // Beyond an open side a cutter needs room to leave the material, not more.
@@ -90,7 +106,21 @@ Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_m
     keep = geometry::subtract(keep, run > 0.0 ? inset(i.area, run, kWallChord) : i.area);
   }
   if (!w.avoid.empty()) keep = geometry::subtract(keep, w.avoid);
-  return inset(keep, radius + allowance_mm + fillet, kWallChord);
+  const Distances d = distances(w, cutter, tip_z_mm, allowance_mm);
+  if (d.foot_mm > 0.0 && geometry::has_sharp_inner_corner(keep))
+    return inset(geometry::offset_sharp(keep, -d.foot_mm), d.all_mm - d.foot_mm, kWallChord);
+  return inset(keep, d.all_mm, kWallChord);
+}
+
+Region kept_off(const WorkArea& w, const Region& islands, const model::Cutter& cutter, double tip_z_mm,
+                double allowance_mm) {
+  if (islands.empty()) return islands;
+  const Distances d = distances(w, cutter, tip_z_mm, allowance_mm);
+  Region beside = islands;
+  for (geometry::Loop& loop : beside.loops) std::reverse(loop.begin(), loop.end());
+  if (d.foot_mm > 0.0 && geometry::has_sharp_inner_corner(beside))
+    return inset(geometry::offset_sharp(islands, d.foot_mm), -(d.all_mm - d.foot_mm), kWallChord);
+  return inset(islands, -d.all_mm, kWallChord);
 }
 
 std::vector<double> levels(const WorkArea& w, double start_z_mm, double end_z_mm, double step_mm,

@@ -40,6 +40,10 @@ inline constexpr double kLeastTurn = 0.125;
 [[nodiscard]] geometry::Region centres_at(const WorkArea& w, const model::Cutter& cutter, double tip_z_mm,
                                           double allowance_mm, double allowance_bottom_mm);
 
+/// What the cutter's centre keeps off beside what stands in `islands`, with its foot: as `centres_at`.
+[[nodiscard]] geometry::Region kept_off(const WorkArea& w, const geometry::Region& islands,
+                                        const model::Cutter& cutter, double tip_z_mm, double allowance_mm);
+
 /// Heights of the tip, from above: equal steps of at most `step` between start and end, with every island's
 /// top (plus the bottom allowance) among them. step 0: at once.
 [[nodiscard]] std::vector<double> levels(const WorkArea& w, double start_z_mm, double end_z_mm,

@@ -72,12 +72,15 @@ class Face {
  private:
   /// Areas higher than the level, which must not be touched, grown by the cutter.
   [[nodiscard]] Region obstacles(double z, double more) const {
-    Region r;
+    Region stand;
     for (const auto& i : w_.islands) {
-      if (i.top_z_mm + task_.allowance_bottom_mm > z + 1e-6) r = geometry::unite(r, i.area);
+      if (i.top_z_mm + task_.allowance_bottom_mm > z + 1e-6) stand = geometry::unite(stand, i.area);
     }
-    r = geometry::unite(r, w_.avoid);
-    return r.empty() ? r : inset(r, -(radius_ + more), kWallChord);
+    // Where nothing is rounded at its foot, what stands and what is avoided are gone round as one.
+    if (!(w_.bottom_radius_mm > 0.0)) stand = geometry::unite(stand, w_.avoid);
+    const Region r = kept_off(w_, stand, task_.cutter, z, more);
+    if (!(w_.bottom_radius_mm > 0.0) || w_.avoid.empty()) return r;
+    return geometry::unite(r, inset(w_.avoid, -(radius_ + more), kWallChord));
   }
 
   /// How much of the face a cutter clears whose centre may be in `centres` without `but`, mm2.
@@ -226,6 +229,7 @@ class Face {
     open.reach = geometry::offset_sharp(w_.area, 3.0 * radius_);
     open.open = true;
     LevelCutter c(task_, open, writer_, job_);
+    c.step_mm = std::min(c.step_mm, flat_of(task_.cutter));
     Level level(task_, open, z, from, task_.allowance_side_mm);
     // Along the passes beyond the edge; across, the first and the last pass are as wide as the others.
     const Vec2 first = all.front().from;

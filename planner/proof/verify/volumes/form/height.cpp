@@ -57,10 +57,10 @@ std::optional<double> floor_of(const Area& a, const Form& f, Vec2 q) {
     return up < depth ? std::optional<double>(-depth + up) : std::nullopt;
   }
   double up = 0.0;
-  if (a.foot_radius_mm > 0.0) up = rise(a.foot_radius_mm, nearest(a.outline, q, true).distance_mm);
+  if (a.foot_radius_mm > 0.0) up = rise(a.foot_radius_mm, mitred(a.outline, q, true));
   for (const Standing& s : a.standing) {
     if (!(s.foot_radius_mm > 0.0)) continue;
-    const double foot = rise(s.foot_radius_mm, nearest(s.outline, q).distance_mm);
+    const double foot = rise(s.foot_radius_mm, mitred(s.outline, q));
     up = std::max(up, std::clamp(foot, 0.0, std::max(0.0, s.top_mm + depth)));
   }
   return -depth + up;
@@ -118,9 +118,9 @@ bool level_about(const Form& f, Vec2 q, double distance_mm) {
   const auto* a = std::get_if<Area>(&f.solid.form);
   if (a == nullptr || f.area.empty() || f.slope_rad > 0.0) return false;
   const double apart = distance_mm + kHair;
-  if (nearest(a->outline, q).distance_mm <= apart + a->foot_radius_mm) return false;
+  if (mitred(a->outline, q) <= apart + a->foot_radius_mm) return false;
   return std::all_of(a->standing.begin(), a->standing.end(), [&](const Standing& s) {
-    return nearest(s.outline, q).distance_mm > apart + std::max(s.leaning_mm, s.foot_radius_mm);
+    return mitred(s.outline, q) > apart + std::max(s.leaning_mm, s.foot_radius_mm);
   });
 }
 
