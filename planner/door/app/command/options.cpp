@@ -122,8 +122,10 @@ class CommandLine {
     } catch (const CLI::ParseError& e) {
       std::ostringstream text;
       const int code = app_.exit(e, text, text);
-      if (code == 0) return {std::nullopt, {kDone, text.str(), {}}};
-      return wrong_usage(e.what(), argc, argv);
+      if (code != 0) return wrong_usage(e.what(), argc, argv);
+      // Help of a command that is none would be that of another.
+      if (auto d = mistyped(command_reference(), behind_name(argc, argv))) return refused(*std::move(d));
+      return {std::nullopt, {kDone, text.str(), {}}};
     }
     std::string wrong = empty_value(app_);
     if (wrong.empty()) wrong = understand(raw_, out_);
@@ -155,9 +157,11 @@ class CommandLine {
     }
     return "`" + called + " --help` shows how";
   }
+  static std::span<const char* const> behind_name(int argc, const char* const* argv) {
+    return {argv + std::min(argc, 1), argv + argc};
+  }
   Parsed wrong_usage(std::string said, int argc, const char* const* argv) {
-    const std::span<const char* const> words{argv + std::min(argc, 1), argv + argc};
-    if (auto d = mistyped(command_reference(), words)) return refused(*std::move(d));
+    if (auto d = mistyped(command_reference(), behind_name(argc, argv))) return refused(*std::move(d));
     if (const auto end = said.find('\n'); end != std::string::npos) said.resize(end);
     return refused({.code = "USAGE", .message = std::move(said), .hint = see_help()});
   }
@@ -500,7 +504,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   // `capstan help plan` is `capstan plan --help`.
   std::vector<const char*> words(argv, argv + argc);
   if (argc > 1 && std::string_view(words[1]) == "help") {
-    words.erase(words.begin() + 1);
+    while (words.size() > 1 && std::string_view(words[1]) == "help") words.erase(words.begin() + 1);
     words.push_back("--help");
   }
   return CommandLine().parse(static_cast<int>(words.size()), words.data());

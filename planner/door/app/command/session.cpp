@@ -105,20 +105,17 @@ int Session::end(const Diagnostic& d, int code) {
 void print_diagnostics(Session& s, int code) {
   end_progress();
   const std::vector<Diagnostic> said = without_repeats(s.job.diagnostics());
-  if (s.options.json_diagnostics) {
-    for (const Diagnostic& d : said) std::fprintf(stderr, "%s\n", diagnostic_json(d).c_str());
-  } else {
-    const bool colour = in_colour();
-    for (const Diagnostic& d : s.options.verbose ? said : folded_diagnostics(said)) {
-      if (s.options.quiet && d.severity != Severity::kError) continue;
-      std::fprintf(stderr, "%s\n", line_of(d, colour).c_str());
-    }
+  const bool json = s.options.json_diagnostics;
+  const bool colour = !json && in_colour();
+  for (const Diagnostic& d : json || s.options.verbose ? said : folded_diagnostics(said)) {
+    if (s.options.quiet && d.severity != Severity::kError) continue;
+    std::fprintf(stderr, "%s\n", (json ? diagnostic_json(d) : line_of(d, colour)).c_str());
   }
   const bool shows = !prints(s.options.command);
   if (!shows && code <= kFindings) return;  // the requested text is on standard output
   if (s.options.quiet && code == kDone) return;
   const std::string line = summary_line(s, said, code);
-  if (s.options.json_diagnostics) {
+  if (json) {
     std::fprintf(stderr, "%s\n",
                  diagnostic_json({.code = "SUMMARY", .severity = Severity::kNote, .message = line}).c_str());
   } else {
