@@ -25,6 +25,7 @@
 #include "planner/files/exchange/toolpaths/curves.h"
 #include "planner/files/p21/read/parse.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/foreign/foreign_file.h"
 #include "planner/ground/base/stopping.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/decision/contradicted.h"
@@ -257,6 +258,19 @@ class Check {
     return std::nullopt;
   }
 
+  /// A drawing or the like, which is read as a program else.
+  static std::optional<Diagnostic> neither_plan_nor_program(const Input& in) {
+    const auto foreign = in.content == Content::kProgram ? foreign_file(in.bytes) : std::nullopt;
+    if (!foreign || foreign->program) return std::nullopt;
+    return Diagnostic{
+        .code = "READ-FOREIGN",
+        .message = "this is " + std::string(foreign->what) + ", which is no plan and no program",
+        .file = in.path,
+        .expected =
+            "a plan, the program of a control (" + endings_of(Holds::kProgram) + "), or its tool table",
+        .hint = "name the plan or program that was written for the part"};
+  }
+
   /// Content of no other kind is a program. A file whose ending belongs to another kind is no program.
   static std::optional<Diagnostic> not_what_it_is_called(const Input& in) {
     const Format* format = format_of_ending(std::filesystem::path(in.path).extension().string());
@@ -278,6 +292,7 @@ class Check {
       if (!bytes) return bytes.error();
       const Content content = content_of(*bytes);
       inputs_.push_back({source.name, *std::move(bytes), content});
+      if (const auto d = neither_plan_nor_program(inputs_.back())) return d;
       if (const auto d = not_what_it_is_called(inputs_.back())) return d;
       if (content == Content::kToolTable) shop_.tool_table = inputs_.back().bytes;
     }

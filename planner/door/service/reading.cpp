@@ -4,7 +4,7 @@
 #include <cctype>
 #include <utility>
 
-#include "planner/door/service/foreign/foreign_file.h"
+#include "planner/controls/controls.h"
 #include "planner/door/service/formats.h"
 #include "planner/files/exchange/brep/one_body.h"
 #include "planner/files/exchange/brep/read_brep.h"
@@ -13,8 +13,10 @@
 #include "planner/files/json/json.h"
 #include "planner/files/recognise/recognise.h"
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/foreign/foreign_file.h"
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/unit_factors.h"
+#include "planner/proof/verify/program_signs.h"
 
 namespace capstan::service {
 namespace {
@@ -66,6 +68,29 @@ bool is_cad_model(std::string_view bytes) {
 
 namespace {
 
+/// What a file is that is no part and no plan; nothing: it may be one.
+std::optional<Diagnostic> no_plan(std::string_view bytes, const std::string& path) {
+  std::string what, hint;
+  if (const auto foreign = foreign_file(bytes)) {
+    what = foreign->what;
+    hint = foreign->hint;
+  } else if (content_of(bytes) == Content::kProgram) {
+    const auto sign = verify::dialect_sign(bytes.substr(0, std::min<std::size_t>(bytes.size(), 1 << 16)));
+    if (!sign) return std::nullopt;
+    const controls::Dialect* control = controls::find_dialect(sign->dialects.front());
+    what = "a program" + (control == nullptr ? "" : " for " + std::string(control->name)) + " (" +
+           sign->text + ", in line " + std::to_string(sign->line) + ")";
+    hint = kPlanItsPart;
+  } else {
+    return std::nullopt;
+  }
+  return Diagnostic{.code = "READ-FOREIGN",
+                    .message = "this is " + what + ", which is no part and no plan",
+                    .file = path,
+                    .expected = read_text(),
+                    .hint = hint};
+}
+
 Result<model::Plan> read_with(std::string bytes, const std::string& path, Job& job, bool strict,
                               const std::optional<exchange::MeshUnit>& unit) {
   if (unit && !exchange::looks_like_stl(bytes))
@@ -78,12 +103,7 @@ Result<model::Plan> read_with(std::string bytes, const std::string& path, Job& j
     if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
     return json::read_json(std::move(bytes), path, job);
   }
-  if (const auto foreign = foreign_file(bytes))
-    return fail({.code = "READ-FOREIGN",
-                 .message = "this is " + std::string(foreign->what) + ", which is no part and no plan",
-                 .file = path,
-                 .expected = read_text(),
-                 .hint = std::string(foreign->hint)});
+  if (auto d = no_plan(bytes, path)) return fail(*std::move(d));
   exchange::ReadOptions options;
   options.strict = strict;
   options.mesh_unit = unit;

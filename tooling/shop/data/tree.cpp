@@ -9,6 +9,7 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "planner/ground/base/foreign/foreign_file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/no_number.h"
 #include "planner/ground/base/number.h"
@@ -136,6 +137,12 @@ std::string like(std::string_view name, const std::vector<std::string>& known) {
 }  // namespace
 
 Result<Node> parse_tree(std::string_view text, const std::string& file) {
+  if (const auto foreign = foreign_file(text))
+    return fail({.code = "DATA-FOREIGN",
+                 .message = "this is " + std::string(foreign->what) + ", not the data that were named",
+                 .file = file,
+                 .expected = "a text in YAML or JSON",
+                 .hint = "was another file meant?"});
   auto documents = read(text, file, Documents::kFirst);
   if (!documents) return fail(documents.error());
   return documents->empty() ? Node{} : std::move(documents->front());

@@ -19,7 +19,8 @@ inline constexpr int kDataDepthCap = 64;                            ///< nesting
 using Node = DataNode;
 
 /// One document.
-/// Fails  DATA-SYNTAX (also aliases, tags aside, and nesting past kDataDepthCap), DATA-DUPLICATE for a key
+/// Fails  DATA-FOREIGN for a drawing, a picture, a program or the like; DATA-SYNTAX (also aliases, tags
+/// aside, and nesting past kDataDepthCap), DATA-DUPLICATE for a key
 ///        given twice, FILE-TOO-LARGE; each with file and line.
 [[nodiscard]] Result<Node> parse_tree(std::string_view text, const std::string& file);
 

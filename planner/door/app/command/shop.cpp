@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 
 #include "planner/controls/controls.h"
@@ -24,6 +25,7 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string n(double v) { return trimmed(v, 4); }
 
+/// The cutters whose id or class contains the filter, a line each; empty: there is none.
 std::string list_text(const std::vector<model::Cutter>& library, const std::string& filter) {
   Rows rows = {{"id", "class", "D", "R", "flutes", "reach", "teeth", "T"}};
   for (const auto& c : library) {
@@ -34,7 +36,7 @@ std::string list_text(const std::vector<model::Cutter>& library, const std::stri
                     n(c.usable_length_mm), std::to_string(c.teeth),
                     c.pocket > 0 ? std::to_string(c.pocket) : std::string("-")});
   }
-  return table(rows, "");
+  return rows.size() == 1 ? std::string() : table(rows, "");
 }
 
 std::string cutter_page(const model::Cutter& c) {
@@ -118,6 +120,17 @@ std::string rules_text(const rules::RuleBase& base) {
   return out;
 }
 
+/// A filter that no cutter fits may have been meant for a library.
+Diagnostic no_such_cutter(const std::string& filter) {
+  std::error_code error;
+  const bool file = std::filesystem::exists(filter, error);
+  return {.code = "TOOLS-NONE",
+          .message = filter.empty() ? "there is no cutter in the library"
+                                    : "no cutter of the library has '" + filter + "' in its id or class",
+          .hint = file ? "name a library's file by its option: capstan tools list --tools " + filter
+                       : "`capstan tools list` shows all"};
+}
+
 }  // namespace
 
 int run_tools(Session& s) {
@@ -125,7 +138,11 @@ int run_tools(Session& s) {
       tooling::load_library(s.options.inputs.tools.value_or(std::string(tooling::kGeneric)), s.job);
   if (!library) return s.end(library.error(), kUnreadable);
   const std::string word = s.options.words.empty() ? "" : s.options.words.front();
-  if (s.options.command == Command::kToolsList) return print(list_text(*library, word)) ? kDone : kImpossible;
+  if (s.options.command == Command::kToolsList) {
+    const std::string text = list_text(*library, word);
+    if (text.empty()) return s.end(no_such_cutter(word), kUsage);
+    return print(text) ? kDone : kImpossible;
+  }
   for (const auto& c : *library) {
     if (c.id == word) return print(cutter_page(c)) ? kDone : kImpossible;
   }

@@ -63,6 +63,19 @@ TEST_F(CommandTest, HelpOfACommandIsItsHelp) {
   EXPECT_EQ(run("help").code, 0);
 }
 
+TEST_F(CommandTest, HelpOfACommandThatIsNoneIsAnErrorWithWhatItMayMean) {
+  for (const char* line : {"help plna", "plna --help"}) {
+    const Ran r = run(line);
+    EXPECT_EQ(r.code, 2) << line;
+    EXPECT_THAT(r.out, IsEmpty()) << line;
+    EXPECT_THAT(r.err, HasSubstr("unknown command 'plna'. Did you mean 'plan'")) << line;
+  }
+  EXPECT_EQ(run("help tools lisst").code, 2);
+  EXPECT_EQ(run("help nonsense").code, 2);
+  EXPECT_EQ(run("help help").out, run("--help").out);
+  EXPECT_EQ(run("--version").code, 0);
+}
+
 /// Every command by the words that call it.
 void each(const CommandText& c, const std::string& called,
           const std::function<void(const CommandText&, const std::string&)>& f) {
@@ -111,6 +124,11 @@ TEST_F(CommandTest, QuietTellsErrorsAlone) {
   const Ran failed = run("-q inspect missing.p21");
   EXPECT_EQ(failed.code, 3);
   EXPECT_THAT(failed.err, HasSubstr("error:"));
+  const Ran json = run("-q --diagnostics json convert plate.p21 -o third.stpnc");
+  EXPECT_EQ(json.code, 0);
+  EXPECT_THAT(json.err, IsEmpty());
+  const Ran failed_json = run("-q --diagnostics json inspect missing.p21");
+  EXPECT_THAT(failed_json.err, HasSubstr("\"error\""));
   EXPECT_EQ(run("-q -v inspect plate.p21").code, 2) << "they exclude each other";
 }
 
@@ -165,19 +183,60 @@ TEST_F(CommandTest, AReaderThatHasEnoughIsNoError) {
   }
 }
 
+constexpr const char* kDrawing = "  0\nSECTION\n  2\nHEADER\n  0\nENDSEC\n";
+
 TEST_F(CommandTest, AFileGivenByMistakeIsToldForWhatItIs) {
-  put("part.dxf", "  0\nSECTION\n  2\nHEADER\n");
+  put("part.dxf", kDrawing);
   put("part.pdf", "%PDF-1.7\n");
   put("part.sldprt", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1....");
   put("part.ngc", "G21 G90\nG0 X0 Y0\nG1 Z-1 F100\nM2\n");
-  for (const auto& [name, word] : {std::pair("part.dxf", "DXF drawing"), std::pair("part.pdf", "PDF"),
-                                   std::pair("part.sldprt", "SolidWorks"), std::pair("part.ngc", "G-code")}) {
+  put("part.sat",
+      "400 30 1 0\n16 Autodesk AutoCAD 8 ACIS 4.0 24 Mon Jan 01 00:00:00 2001\n1 9.9e-07 1e-10\n");
+  put("part.txt", "%\nO1000\nG21\n");
+  put("part.h", "0 BEGIN PGM PART MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n2 TOOL CALL 1 Z S2000\n");
+  put("part.mpf", ";PART\nG17 G40 G90 G94 G710\nMCALL\nT=\"MILL\" M6\nG0 SUPA Z0 D0\n");
+  const std::vector<std::string> given = files();
+  for (const auto& [name, word] :
+       {std::pair("part.dxf", "DXF drawing"), std::pair("part.pdf", "PDF"),
+        std::pair("part.sldprt", "SolidWorks"), std::pair("part.ngc", "G-code"),
+        std::pair("part.sat", "ACIS"), std::pair("part.txt", "a program"),
+        std::pair("part.h", "a program for Heidenhain"), std::pair("part.mpf", "a program")}) {
     const Ran r = run(std::string("plan ") + name + " -o a.json");
     EXPECT_EQ(r.code, 3) << name;
     EXPECT_THAT(r.err, HasSubstr(word)) << name;
+    EXPECT_THAT(r.err, HasSubstr("READ-FOREIGN")) << name;
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 2) << r.err;  // the fault, and the last line
   }
-  EXPECT_EQ(files(), (std::vector<std::string>{"part.dxf", "part.ngc", "part.pdf", "part.sldprt"}));
+  EXPECT_EQ(files(), given);
+}
+
+TEST_F(CommandTest, ADrawingIsNoProgramAndNoDataOfTheShop) {
+  put("plate.p21", testing::drilled_plate());
+  put("part.dxf", kDrawing);
+  put("part.png", std::string("\x89PNG\r\n\x1A\n\0\0", 10));
+  put("part.fcstd", "PK\x03\x04....");
+  for (const auto& [arguments, word] :
+       {std::pair("check part.dxf", "DXF drawing"), std::pair("check part.png", "PNG picture"),
+        std::pair("check part.fcstd", "ZIP archive"),
+        std::pair("plan plate.p21 --machine part.dxf -o a.json", "DXF drawing"),
+        std::pair("plan plate.p21 --tools part.dxf -o a.json", "DXF drawing"),
+        std::pair("tools list --tools part.dxf", "DXF drawing"),
+        std::pair("tools import part.dxf", "DXF drawing")}) {
+    const Ran r = run(arguments);
+    EXPECT_THAT(r.code, ::testing::AnyOf(2, 3)) << arguments;
+    EXPECT_THAT(r.err, HasSubstr(word)) << arguments;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 2) << r.err;  // the fault, and the last line
+  }
+}
+
+TEST_F(CommandTest, AFilterThatNoCutterFitsIsAnErrorThatNamesTheOptionForAFile) {
+  put("part.dxf", kDrawing);
+  const Ran file = run("tools list part.dxf");
+  EXPECT_EQ(file.code, 2);
+  EXPECT_THAT(file.out, IsEmpty());
+  EXPECT_THAT(file.err, HasSubstr("--tools part.dxf"));
+  EXPECT_EQ(run("tools list nonesuch").code, 2);
+  EXPECT_EQ(run("tools list drill").code, 0);
 }
 
 TEST_F(CommandTest, ShopInitWritesAFileOnceAndShowSaysWhatHolds) {

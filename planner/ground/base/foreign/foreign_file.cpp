@@ -1,11 +1,11 @@
-#include "planner/door/service/foreign/foreign_file.h"
+#include "planner/ground/base/foreign/foreign_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <string>
 
-namespace capstan::service {
+namespace capstan {
 namespace {
 
 using namespace std::string_view_literals;
@@ -30,6 +30,8 @@ constexpr std::array kSignatures = {
     Signature{"**ABCDEFGHIJKLMNOPQRSTUVWXYZ"sv, {"a Parasolid file (text)", kSaveAsStep}},
     Signature{"PS\0"sv, {"a Parasolid file (binary)", kSaveAsStep}},
     Signature{"3D Geometry File Format "sv, {"a native CAD file of Rhino", kSaveAsStep}},
+    Signature{"ACIS BinaryFile"sv, {"an ACIS file (binary)", kSaveAsStep}},
+    Signature{"ASM BinaryFile"sv, {"an ACIS file (binary)", kSaveAsStep}},
     Signature{"DBRep_DrawableShape"sv, {"a B-rep file of Open CASCADE", kSaveAsStep}},
     Signature{"glTF"sv, {"a glTF scene", kSaveAsStep}},
     Signature{"\x89PNG"sv, {"a PNG picture", kSaveAsStep}},
@@ -64,6 +66,25 @@ bool is_iges(std::string_view rest) {
   return line.size() == 80 && line[72] == 'S' && line.ends_with("1");
 }
 
+/// A line of four whole numbers (version, records, bodies, history); behind it the length of the product's
+/// name and that name.
+bool is_acis(std::string_view rest) {
+  std::string_view head = next_line(rest), product = next_line(rest);
+  const auto number = [](std::string_view& text) {
+    const auto end = std::min(text.find_first_not_of("0123456789"), text.size());
+    const bool any = end > 0;
+    text.remove_prefix(end);
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    return any;
+  };
+  for (int k = 0; k < 4; ++k) {
+    if (!number(head)) return false;
+  }
+  if (product.starts_with('@')) product.remove_prefix(1);
+  return head.empty() && number(product) && !product.empty() &&
+         std::isalpha(static_cast<unsigned char>(product.front())) != 0;
+}
+
 /// A line of a program: words of a letter and a number, comments aside; `words` counts those.
 bool is_program_line(std::string_view line, int& words) {
   for (std::size_t i = 0; i < line.size();) {
@@ -90,17 +111,19 @@ bool is_program_line(std::string_view line, int& words) {
   return true;
 }
 
-/// Every line that is looked at is one of a program, and some have G or M words.
+/// Of the lines that are looked at most are those of a program (a control's own words are in the others), and
+/// some have G or M words.
 bool is_gcode(std::string_view rest) {
   constexpr int kLines = 50, kWords = 3;
-  int words = 0, lines = 0;
+  int words = 0, lines = 0, of_program = 0;
   while (!rest.empty() && lines < kLines) {
     const std::string_view line = next_line(rest);
-    if (line.empty() || line == "%") continue;
-    if (!is_program_line(line, words)) return false;
+    const bool comment = line.starts_with(';') || (line.starts_with('(') && line.ends_with(')'));
+    if (line.empty() || line == "%" || comment) continue;
+    of_program += is_program_line(line, words) ? 1 : 0;
     ++lines;
   }
-  return words >= kWords;
+  return words >= kWords && 2 * of_program > lines;
 }
 
 }  // namespace
@@ -112,9 +135,8 @@ std::optional<ForeignFile> foreign_file(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.size(), 1 << 16));
   if (is_dxf(head)) return ForeignFile{"a DXF drawing", kNoSolid};
   if (is_iges(head)) return ForeignFile{"an IGES file", kSaveAsStep};
-  if (is_gcode(head))
-    return ForeignFile{"a program (G-code)",
-                       "plan the part that it was made of; `capstan check` judges programs"};
+  if (is_acis(head)) return ForeignFile{"an ACIS file (SAT)", kSaveAsStep};
+  if (is_gcode(head)) return ForeignFile{"a program (G-code)", kPlanItsPart, true};
   const auto first = head.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos &&
       (head.substr(first).starts_with("<?xml") || head.substr(first).starts_with("<html") ||
@@ -123,4 +145,4 @@ std::optional<ForeignFile> foreign_file(std::string_view bytes) {
   return std::nullopt;
 }
 
-}  // namespace capstan::service
+}  // namespace capstan
