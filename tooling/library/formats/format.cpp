@@ -1,9 +1,13 @@
 #include "tooling/library/formats/format.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <set>
 
 #include "planner/ground/base/file.h"
+#include "planner/ground/base/foreign/foreign_file.h"
+#include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
 #include "tooling/library/formats/all.h"
 #include "tooling/library/formats/byte_cap.h"
@@ -31,6 +35,13 @@ Diagnostic unknown_kind(const std::string& file, std::string message) {
           .file = file,
           .expected = names,
           .hint = "export the library in one of these formats"};
+}
+
+/// Of a file that no format recognises: what it is, where that is known.
+Diagnostic no_library(std::string_view bytes, const std::string& file) {
+  const auto foreign = foreign_file(bytes);
+  return unknown_kind(file, foreign ? "this is " + std::string(foreign->what) + ", which is no tool library"
+                                    : "this is no tool library that can be read");
 }
 
 const Format* format_of(std::string_view bytes, const std::string& file) {
@@ -96,39 +107,107 @@ void merge(Imported& into, Imported from, const std::string& file) {
   lines(report.dropped, from.report.dropped);
 }
 
-Result<Imported> import_folder(const std::string& folder, const FormatOptions& options, Job& job) {
-  const auto files = files_below(folder);
-  if (!files) return fail(files.error());
-  Imported out;
-  bool any = false;
-  std::size_t total = 0;
-  for (const std::string& file : *files) {
-    auto bytes = read_file(file, kLibraryBytesCap);
-    if (!bytes) return fail(bytes.error());
-    total += bytes->size();
-    if (total > kLibraryBytesCap)
+/// Endings that only tool libraries have: such a file that is none is damaged.
+constexpr std::array<std::string_view, 4> kOwnEndings = {".tools", ".fctl", ".fctb", ".tbl"};
+
+bool has_own_ending(const std::string& file) {
+  const std::string name = lower_text(file);
+  return std::ranges::any_of(kOwnEndings, [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
+/// Reads the libraries of a folder, file by file: one with a fault is left out and told, once.
+class FolderReader {
+ public:
+  FolderReader(const std::string& folder, const FormatOptions& options, Job& job)
+      : folder_(folder), options_(options), job_(job) {}
+
+  Result<Imported> read() {
+    const auto files = files_below(folder_);
+    if (!files) return fail(files.error());
+    for (const std::string& file : *files) {
+      if (Status s = read_one(file); !s) return fail(s.error());
+    }
+    if (libraries_ == 0) {
+      if (auto d = tell(std::move(faults_), job_)) return fail(*std::move(d));
+      return fail(unknown_kind(folder_, "there is no tool library in this folder"));
+    }
+    for (Diagnostic& d : faults_) {
+      out_.report.dropped.push_back({"", "", d.file + ": " + d.message});
+      d.severity = Severity::kWarning;
+      d.message += "; the file is left out";
+      job_.report(std::move(d));
+    }
+    out_.library.name = fs::path(folder_).filename().string();
+    out_.library.source = folder_;
+    out_.report.tools = out_.library.items.size();
+    return std::move(out_);
+  }
+
+ private:
+  /// Fails  only where the folder as a whole cannot be read.
+  Status read_one(const std::string& file) {
+    const auto bytes = read_file(file, kLibraryBytesCap);
+    if (!bytes) {
+      leave_out(file, {bytes.error()});
+      return {};
+    }
+    total_ += bytes->size();
+    if (total_ > kLibraryBytesCap)
       return fail(
           {.code = "FILE-TOO-LARGE",
            .message = "the folder's files are larger than " + std::to_string(kLibraryBytesCap) + " bytes",
-           .file = folder,
+           .file = folder_,
            .hint = "name the library's own folder"});
     const Format* format = format_of(*bytes, file);
     // A column of words in some file of a folder is no library: tables are named one by one.
     if (format == nullptr || format->read == nullptr || format->name == "csv") {
-      out.report.dropped.push_back({"", "", file + ": not a tool library of a known format"});
-      continue;
+      if (has_own_ending(file))
+        leave_out(file, {no_library(*bytes, file)});
+      else
+        out_.report.dropped.push_back({"", "", file + ": not a tool library of a known format"});
+      return {};
     }
-    auto one = format->read(*bytes, file, options, job);
-    if (!one) return fail(one.error());
-    merge(out, *std::move(one), file);
-    any = true;
+    Job of_file;
+    auto one = format->read(*bytes, file, options_, of_file);
+    std::vector<Diagnostic> faults;
+    for (Diagnostic& d : of_file.take_diagnostics()) {
+      if (d.severity == Severity::kError) {
+        faults.push_back(std::move(d));
+        continue;
+      }
+      // What a list says of a bit beside it, and what that bit's own reading says.
+      const bool of_other = !d.file.empty() && d.file != file;
+      if (one && (!of_other || told_.insert(d.file).second)) job_.report(std::move(d));
+    }
+    if (!one && std::ranges::find(faults, one.error()) == faults.end()) faults.push_back(one.error());
+    if (one) faults = check_library(one->library, file);
+    if (!faults.empty()) {
+      leave_out(file, std::move(faults));
+      return {};
+    }
+    merge(out_, *std::move(one), file);
+    ++libraries_;
+    return {};
   }
-  if (!any) return fail(unknown_kind(folder, "there is no tool library in this folder"));
-  out.library.name = fs::path(folder).filename().string();
-  out.library.source = folder;
-  out.report.tools = out.library.items.size();
-  return out;
-}
+
+  /// The first fault stands for the file; who imports the file alone sees all.
+  void leave_out(const std::string& file, std::vector<Diagnostic> faults) {
+    if (!told_.insert(file).second) return;
+    Diagnostic d = std::move(faults.front());
+    d.file = file;
+    if (faults.size() > 1)
+      d.message += ", and " + counted(faults.size() - 1, "more fault", "more faults") + " of this file";
+    faults_.push_back(std::move(d));
+  }
+
+  const std::string& folder_;
+  const FormatOptions& options_;
+  Job& job_;
+  Imported out_;
+  std::size_t libraries_ = 0, total_ = 0;
+  std::vector<Diagnostic> faults_;  ///< of files that are left out
+  std::set<std::string> told_;      ///< those files
+};
 
 }  // namespace
 
@@ -162,7 +241,7 @@ Result<Imported> import_bytes(std::string_view bytes, const std::string& file, c
                               Job& job) {
   // Who gives a column map says that it is a table.
   const Format* format = options.column_map.empty() ? format_of(bytes, file) : &csv_format();
-  if (format == nullptr) return fail(unknown_kind(file, "this is no tool library that can be read"));
+  if (format == nullptr) return fail(no_library(bytes, file));
   if (format->read == nullptr)
     return fail(unknown_kind(file, std::string(format->title) + " can be written, not read"));
   auto out = format->read(bytes, file, options, job);
@@ -174,7 +253,7 @@ Result<Imported> import_bytes(std::string_view bytes, const std::string& file, c
 Result<Imported> import_library(const std::string& path, const FormatOptions& options, Job& job) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    auto out = import_folder(path, options, job);
+    auto out = FolderReader(path, options, job).read();
     if (!out) return fail(out.error());
     if (auto d = tell(check_library(out->library, path), job)) return fail(*std::move(d));
     return out;

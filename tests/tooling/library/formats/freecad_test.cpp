@@ -267,6 +267,20 @@ TEST(Freecad, OneBadBitOfManyIsLeftOutAndTold) {
   EXPECT_THAT(r->report.dropped, Contains(Field(&LossReport::Line::tool, "b")));
 }
 
+TEST(Freecad, ABitThatIsCutOffOrNoneIsLeftOutOfManyToo) {
+  Job job;
+  const auto r = read_freecad({{"Bit/a.fctb", bit("Endmill", R"("Diameter": "6 mm")")},
+                               {"Bit/b.fctb", R"({"shape": "endmill.fcstd", "parameter": {"Dia)"},
+                               {"Bit/c.fctb", R"({"parameter": {}})"}},
+                              "lib.zip", {}, job);
+  ASSERT_TRUE(r) << to_text(r.error());
+  EXPECT_EQ(r->library.items.size(), 1U);
+  ASSERT_EQ(job.count(Severity::kWarning), 2U);
+  EXPECT_EQ(job.diagnostics()[0].code, "JSON-SYNTAX");
+  EXPECT_EQ(job.diagnostics()[0].file, "lib.zip (Bit/b.fctb)");
+  EXPECT_EQ(job.diagnostics()[1].code, "FREECAD-FORM");
+}
+
 TEST(Freecad, LengthsWithoutAUnitAreInTheUnitThatTheCallerNames) {
   const std::string text =
       bit("Endmill", R"("Diameter": "6.0000", "CuttingEdgeHeight": 20, "Length": "2.5 in", "Flutes": "3")");

@@ -53,13 +53,15 @@ std::string text_of(const Json* n) { return n == nullptr ? std::string() : n->te
 
 class BitReader {
  public:
-  BitReader(const std::string& file, const FormatOptions& options, ItemGatherer& gatherer, LossReport& report)
-      : file_(file), gatherer_(gatherer), report_(report) {
+  BitReader(const FormatOptions& options, ItemGatherer& gatherer, LossReport& report)
+      : gatherer_(gatherer), report_(report) {
     if (options.mm_per_unit) unit_ = *options.mm_per_unit == kMmPerInch ? "in" : "mm";
   }
 
-  void read(const Json& root, const std::string& id) {
+  /// `file`: to name in diagnostics.
+  void read(const Json& root, const std::string& id, const std::string& file) {
     item_ = {};
+    file_ = file;
     unit_taken_ = false;
     item_.id = id;
     const Json* name = root.find("name");
@@ -270,7 +272,7 @@ class BitReader {
     return std::nullopt;
   }
 
-  const std::string& file_;
+  std::string file_;
   ItemGatherer& gatherer_;
   LossReport& report_;
   CatalogueItem item_;
@@ -362,8 +364,9 @@ std::vector<FreecadFile> bits_of(std::string_view bytes, const std::string& file
     const std::string name = stem_of(path->text) + ".fctb";
     if (!names.insert(name).second) continue;
     for (const fs::path& place : {folder, folder / ".." / "Bit", folder / "Bit"}) {
-      if (auto bit = read_file((place / name).string(), kLibraryBytesCap)) {
-        out.push_back({"Bit/" + name, std::move(*bit)});
+      const std::string on_disk = (place / name).lexically_normal().string();
+      if (auto bit = read_file(on_disk, kLibraryBytesCap)) {
+        out.push_back({"Bit/" + name, std::move(*bit), on_disk});
         break;
       }
     }
@@ -398,7 +401,7 @@ Result<Imported> read(std::string_view bytes, const std::string& file, const For
   } else {
     const bool list = ends_with_folded(file, ".fctl") || bytes.find(".fctb\"") != std::string_view::npos;
     if (list) files = bits_of(bytes, file);
-    files.push_back({stem_of(file) + (list ? ".fctl" : ".fctb"), std::string(bytes)});
+    files.push_back({stem_of(file) + (list ? ".fctl" : ".fctb"), std::string(bytes), file});
   }
   return read_freecad(files, file, options, job);
 }
@@ -410,22 +413,31 @@ Result<Imported> read_freecad(const std::vector<FreecadFile>& files, const std::
   Imported out;
   out.library.source = file;
   ItemGatherer gatherer(out, file, "FREECAD-VALUE", job);
-  BitReader reader(file, options, gatherer, out.report);
+  BitReader reader(options, gatherer, out.report);
   for (const FreecadFile& f : files) {
-    const std::string name = files.size() == 1 ? file : file + " (" + f.path + ")";
-    auto root = parse_json(f.bytes, name);
-    if (!root) return fail(root.error());
+    const std::string name = files.size() == 1    ? file
+                             : !f.on_disk.empty() ? f.on_disk
+                                                  : file + " (" + f.path + ")";
+    const auto root = parse_json(f.bytes, name);
     if (ends_with_folded(f.path, ".fctl")) {
+      if (!root) return fail(root.error());
       if (Status s = read_list(*root, f.path, name, out); !s) return fail(s.error());
-    } else if (root->find("shape") == nullptr && root->find("shape-type") == nullptr) {
-      return fail({.code = "FREECAD-FORM",
-                   .message = "no tool bit: it has no shape",
-                   .file = name,
-                   .line = root->line,
-                   .expected = "\"shape\" and \"parameter\""});
-    } else {
-      reader.read(*root, stem_of(f.path));
+      continue;
     }
+    const std::string id = stem_of(f.path);
+    if (root && (root->find("shape") != nullptr || root->find("shape-type") != nullptr)) {
+      reader.read(*root, id, name);
+      continue;
+    }
+    gatherer.fault(root ? Diagnostic{.code = "FREECAD-FORM",
+                                     .message = "no tool bit: it has no shape",
+                                     .file = name,
+                                     .line = root->line,
+                                     .expected = "\"shape\" and \"parameter\""}
+                        : root.error());
+    CatalogueItem unread;
+    unread.id = id;
+    (void)gatherer.take(std::move(unread), {name, 0, {}});
   }
   if (Status s = gatherer.finish("tool bits (.fctb)"); !s) return fail(s.error());
   link_entries(out, job, file);
