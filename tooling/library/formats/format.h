@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "planner/ground/base/job.h"
@@ -22,6 +23,9 @@ struct FormatOptions {
   std::optional<double> mm_per_unit;
   /// CSV: column title -> symbol or field, as saved by an earlier import; a file's text.
   std::string column_map;
+  /// Of writing: the file's path, whose ending says which of a format's forms is wanted; empty: the usual
+  /// one.
+  std::string to = {};
 };
 
 struct Imported {
@@ -31,6 +35,8 @@ struct Imported {
 struct Exported {
   std::string bytes;
   LossReport report;
+  /// Files that belong to it: their paths from its folder, and bytes.
+  std::vector<std::pair<std::string, std::string>> beside = {};
 };
 
 /// A file format of tool libraries. `read` and `write` are null where the format is one-way.

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "planner/door/app/command/session.h"
 #include "planner/ground/base/file.h"
@@ -16,6 +17,7 @@
 namespace capstan::app {
 namespace {
 
+namespace fs = std::filesystem;
 using tooling::Format;
 using tooling::FormatOptions;
 using tooling::json_quoted;
@@ -162,6 +164,23 @@ class Tools {
     return kDone;
   }
 
+  /// Files that nobody named are written over none that is there and says something else.
+  int stage_beside(const std::string& path, const tooling::Exported& out) {
+    for (const auto& [name, bytes] : out.beside) {
+      const std::string file = (fs::path(path).parent_path() / name).lexically_normal().string();
+      const auto there = read_file(file);
+      if (there && *there != bytes && !s_.options.force)
+        return s_.end({.code = "OUT-THERE",
+                       .message = "this file of " + path + " is there already and holds something else",
+                       .file = file,
+                       .hint = "write into an empty folder, or --force to replace it"},
+                      kUsage);
+      if (there && *there == bytes) continue;
+      if (const int code = stage(file, bytes); code != kDone) return code;
+    }
+    return kDone;
+  }
+
   int write(const tooling::ToolLibrary& library, const std::string& path, LossReport& report) {
     const std::string& wanted = s_.options.tools.format;
     const Format* format = wanted.empty() ? tooling::format_of_ending(path) : tooling::find_format(wanted);
@@ -181,11 +200,21 @@ class Tools {
     }
     FormatOptions how = formats_;
     if (s_.options.command != Command::kToolsExport) how.column_map.clear();
+    how.to = path;
     auto out = format->write(library, how, s_.job);
-    if (!out) return s_.end(out.error(), kImpossible);
+    // One tool for a file of one is asked by the name that was given.
+    if (!out) return s_.end(out.error(), out.error().code == "FREECAD-ONE" ? kUsage : kImpossible);
     if (const int code = stage(path, out->bytes); code != kDone) return code;
+    if (const int code = stage_beside(path, *out); code != kDone) return code;
     told("written", path, out->report);
-    s_.summary += "; wrote " + path + ": " + sums(out->report);
+    s_.summary += "; wrote " + path;
+    if (!out->beside.empty()) {
+      const fs::path first = fs::path(path).parent_path() / out->beside.front().first;
+      const std::string folder = first.lexically_normal().parent_path().string();
+      s_.summary += " and " + counted(out->beside.size(), "file", "files") +
+                    (fs::path(folder) == fs::path(path).parent_path() ? " beside it" : " in " + folder);
+    }
+    s_.summary += ": " + sums(out->report);
     report = std::move(out->report);
     return kDone;
   }

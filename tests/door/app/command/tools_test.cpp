@@ -171,6 +171,81 @@ TEST_F(ToolsCommand, LossesOfSizesAreToldBeforeThoseOfAnotherSystemsBookkeeping)
   EXPECT_LT(sizes, paths);
 }
 
+TEST_F(ToolsCommand, LossesThatAMachinistMissesAreToldBeforeIdentifiers) {
+  put("fusion.json",
+      R"({"data": [{"type": "flat end mill", "unit": "millimeters", "guid": "g", "description": "8 flat",
+    "geometry": {"DC": 8, "LCF": 19, "LB": 25, "OAL": 63, "SFDM": 8, "NOF": 3, "HAND": true},
+    "post-process": {"number": 4, "length-offset": 9, "diameter-offset": 9},
+    "start-values": {"presets": [{"guid": "b", "name": "Steel", "n": 3000, "v_f": 300, "f_z": 0.03}]}}],
+    "version": 2})");
+  for (const char* name : {"a.zip", "a.yaml"}) {
+    EXPECT_EQ(run(std::string("convert fusion.json -o ") + name), 0) << err_;
+    const auto offsets = err_.find("post-process.length-offset, post-process.diameter-offset");
+    const auto guid = err_.find("presets.0.guid");
+    ASSERT_NE(offsets, std::string::npos) << err_;
+    ASSERT_NE(guid, std::string::npos) << err_;
+    EXPECT_LT(offsets, guid) << err_;
+    EXPECT_THAT(err_.substr(0, offsets), Not(HasSubstr("version"))) << name;
+  }
+}
+
+TEST_F(ToolsCommand, ABitOfFreecadIsJsonAndOneTool) {
+  EXPECT_EQ(run("convert mill.fctb -o one.fctb"), 0) << err_;
+  EXPECT_THAT(slurp("one.fctb"), ::testing::StartsWith("{"));
+  EXPECT_THAT(slurp("one.fctb"), HasSubstr("\"Diameter\": \"5 mm\""));
+  EXPECT_EQ(run("list --tools one.fctb"), 0) << err_;
+  EXPECT_EQ(run("convert own.yaml -o two.fctb"), 2);
+  EXPECT_THAT(err_, HasSubstr("a .fctb holds one tool, and there are 2"));
+  EXPECT_THAT(err_, HasSubstr(".fctl"));
+  EXPECT_THAT(err_, HasSubstr(".zip"));
+  EXPECT_FALSE(there("two.fctb"));
+}
+
+TEST_F(ToolsCommand, ALibraryOfFreecadIsJsonWithItsBitsBesideIt) {
+  fs::create_directories(folder_ / "lib");
+  EXPECT_EQ(run("convert own.yaml -o lib/shop.fctl"), 0) << err_;
+  EXPECT_THAT(err_, HasSubstr("wrote lib/shop.fctl and 2 files beside it"));
+  EXPECT_THAT(slurp("lib/shop.fctl"), HasSubstr("\"path\": \"em6.fctb\""));
+  EXPECT_THAT(slurp("lib/dr5.fctb"), HasSubstr("\"Diameter\": \"5 mm\""));
+  EXPECT_EQ(run("list --tools lib/shop.fctl"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("em6"));
+  EXPECT_THAT(out_, HasSubstr("dr5"));
+  // Again: the same. Over a bit that says something else: not without --force.
+  EXPECT_EQ(run("convert own.yaml -o lib/shop.fctl"), 0) << err_;
+  put("lib/em6.fctb", "mine");
+  put("lib/shop.fctl", "mine");
+  EXPECT_EQ(run("convert own.yaml -o lib/shop.fctl"), 2);
+  EXPECT_THAT(err_, HasSubstr("OUT-THERE"));
+  EXPECT_EQ(slurp("lib/em6.fctb"), "mine");
+  EXPECT_EQ(slurp("lib/shop.fctl"), "mine");
+  EXPECT_EQ(run("convert own.yaml -o lib/shop.fctl --force"), 0) << err_;
+  EXPECT_THAT(slurp("lib/em6.fctb"), ::testing::StartsWith("{"));
+}
+
+TEST_F(ToolsCommand, ALibraryInFreecadsOwnFolderHasItsBitsInTheFolderBit) {
+  fs::create_directories(folder_ / "Library");
+  fs::create_directories(folder_ / "Bit");
+  EXPECT_EQ(run("convert own.yaml -o Library/shop.fctl"), 0) << err_;
+  EXPECT_THAT(err_, HasSubstr("and 2 files in Bit"));
+  EXPECT_TRUE(there("Bit/em6.fctb"));
+  EXPECT_FALSE(there("Library/em6.fctb"));
+  EXPECT_EQ(run("list --tools Library/shop.fctl"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("dr5"));
+}
+
+TEST_F(ToolsCommand, OneBadFileOfAFolderIsToldAndTheRestIsRead) {
+  fs::create_directories(folder_ / "lib");
+  put("lib/good.fctb", slurp("mill.fctb"));
+  put("lib/bad.fctb", R"({"shape": "endmill.fcstd", "parameter": {"Diameter": "6"}})");
+  put("lib/cut.fctb", R"({"shape": "endm)");
+  EXPECT_EQ(run("import lib -o a.yaml"), 0) << err_;
+  EXPECT_THAT(err_, HasSubstr("lib/bad.fctb"));
+  EXPECT_THAT(err_, HasSubstr("lib/cut.fctb"));
+  EXPECT_THAT(err_, HasSubstr("read 1 tool from lib"));
+  EXPECT_THAT(err_, HasSubstr("no error, 2 warnings"));
+  EXPECT_TRUE(there("a.yaml"));
+}
+
 TEST_F(ToolsCommand, WrongUseEndsWithTwoAndWritesNothing) {
   EXPECT_EQ(run("import own.yaml --unit furlong -o a.csv"), 2);
   EXPECT_THAT(err_, HasSubstr("furlong"));

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
+#include "planner/ground/base/text.h"
 #include "tooling/library/formats/freecad/freecad.h"
 #include "tooling/library/formats/freecad/shapes.h"
 #include "tooling/library/formats/item/item.h"
@@ -12,6 +14,8 @@ namespace capstan::tooling {
 namespace {
 
 using freecad::Shape;
+
+constexpr std::string_view kBits = "Bit/";
 
 /// A name for a file on any system; FreeCAD knows a bit by it.
 std::string file_name(std::string_view id) {
@@ -213,7 +217,7 @@ std::vector<FreecadFile> freecad_files(const ToolLibrary& library, LossReport& r
     if (!text) continue;
     const std::string name = unique_id(file_name(item.id), taken) + ".fctb";
     bits.emplace(item.id, name);
-    out.push_back({"Bit/" + name, std::move(*text)});
+    out.push_back({std::string(kBits) + name, std::move(*text)});
     ++report.tools;
   }
   for (FreecadFile& f : lists_of(library, bits, report)) out.push_back(std::move(f));
@@ -229,16 +233,101 @@ std::vector<FreecadFile> freecad_files(const ToolLibrary& library, LossReport& r
   return out;
 }
 
-Result<Exported> write_freecad(const ToolLibrary& library, const FormatOptions& /*options*/, Job& /*job*/) {
+namespace {
+
+/// With a tool number for each tool that has none, which a list of FreeCAD asks for.
+ToolLibrary numbered(ToolLibrary library, LossReport& report) {
+  std::set<std::string> listed;
+  int last = 0;
+  for (const MachineEntry& e : library.entries) {
+    const auto assembly = std::ranges::find(library.assemblies, e.assembly, &ToolAssembly::id);
+    listed.insert(assembly == library.assemblies.end() ? e.assembly : assembly->item);
+    last = std::max(last, e.number);
+  }
+  const std::string carousel = library.entries.empty() ? std::string() : library.entries.front().carousel;
+  for (const CatalogueItem& item : library.items) {
+    if (listed.contains(item.id)) continue;
+    library.entries.push_back({.number = ++last,
+                               .pocket = {},
+                               .carousel = carousel,
+                               .assembly = item.id,
+                               .offsets = {},
+                               .comment = {}});
+    report.derived.push_back({item.id, "number", "it has none; in the list it is " + std::to_string(last)});
+  }
+  return library;
+}
+
+Diagnostic not_one(const FormatOptions& options, std::string message, std::string other) {
+  return {.code = "FREECAD-ONE",
+          .message = std::move(message),
+          .file = options.to,
+          .hint = "name a file that ends in " + std::move(other)};
+}
+
+Result<Exported> write_bit(const ToolLibrary& library, const FormatOptions& options) {
+  Exported out;
+  auto files = freecad_files(library, out.report);
+  std::erase_if(files, [](const FreecadFile& f) { return !f.path.starts_with(kBits); });
+  if (files.size() > 1)
+    return fail(not_one(
+        options, "a .fctb holds one tool, and there are " + std::to_string(files.size()) + " to be written",
+        ".fctl (a library, its bits beside it) or .zip (both folders of FreeCAD in one file)"));
+  if (!files.empty()) out.bytes = std::move(files.front().bytes);
+  if (!library.entries.empty())
+    out.report.dropped.push_back({"", "number", "a bit has no tool number; a library (.fctl) has"});
+  return out;
+}
+
+/// FreeCAD keeps its lists in the folder Library and their bits in Bit beside that.
+std::string folder_of_bits(const std::string& list) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(fs::path(list)).parent_path();
+  std::error_code error;
+  return folder.filename() == "Library" && fs::is_directory(folder / ".." / "Bit", error) ? "../Bit/" : "";
+}
+
+Result<Exported> write_list(const ToolLibrary& library, const FormatOptions& options) {
+  Exported out;
+  std::size_t lists = 0;
+  const std::string folder = folder_of_bits(options.to);
+  const ToolLibrary all = numbered(library, out.report);
+  for (FreecadFile& f : freecad_files(all, out.report)) {
+    if (f.path.starts_with(kBits)) {
+      out.beside.emplace_back(folder + f.path.substr(kBits.size()), std::move(f.bytes));
+    } else {
+      ++lists;
+      out.bytes = std::move(f.bytes);
+    }
+  }
+  if (lists > 1)
+    return fail(not_one(
+        options, "a .fctl holds one list of tool numbers, and the library has " + std::to_string(lists),
+        ".zip (all lists and their bits in one file)"));
+  return out;
+}
+
+Result<Exported> write_archive(const ToolLibrary& library) {
   Exported out;
   std::vector<ZipEntry> entries;
   for (FreecadFile& f : freecad_files(library, out.report))
     entries.push_back({std::move(f.path), std::move(f.bytes)});
-  if (out.report.tools == 0)
-    return fail({.code = "FREECAD-NONE", .message = "none of the tools has a shape in FreeCAD"});
+  if (out.report.tools == 0) return out;
   auto bytes = write_zip(entries);
   if (!bytes) return fail(bytes.error());
   out.bytes = *std::move(bytes);
+  return out;
+}
+
+}  // namespace
+
+Result<Exported> write_freecad(const ToolLibrary& library, const FormatOptions& options, Job& /*job*/) {
+  const std::string ending = lower_text(std::filesystem::path(options.to).extension().string());
+  auto out = ending == ".fctb"   ? write_bit(library, options)
+             : ending == ".fctl" ? write_list(library, options)
+                                 : write_archive(library);
+  if (out && out->report.tools == 0)
+    return fail({.code = "FREECAD-NONE", .message = "none of the tools has a shape in FreeCAD"});
   return out;
 }
 

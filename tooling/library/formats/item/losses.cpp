@@ -1,8 +1,10 @@
 #include "tooling/library/formats/item/losses.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -16,12 +18,26 @@ namespace {
 /// So many fields of one line are named, then their number: what a person still reads. Default, unsourced.
 constexpr std::size_t kFieldsShown = 6;
 
-enum class Rank { kSymbol, kOther, kPath };
+enum class Rank { kSymbol, kOther, kPath, kBookkeeping };
 
-/// "presets.0.guid", "parameter/Crest" is a place in the file of another system, which its readers keep
-/// whole.
+/// By which systems know their own records again, and when they wrote them: no machinist misses it.
+constexpr std::array<std::string_view, 4> kBookkeeping = {"guid", "version", "toolbit_id", "last_modified"};
+
+/// "presets.0.guid", "reference_guid", "fusion:read" (what a reader notes for the writer of its format).
+bool is_bookkeeping(std::string_view field) {
+  if (field.find(':') != std::string_view::npos) return true;
+  return std::ranges::any_of(kBookkeeping, [&](std::string_view name) {
+    if (!field.ends_with(name)) return false;
+    const std::string_view before = field.substr(0, field.size() - name.size());
+    return before.empty() || std::string_view("./_").find(before.back()) != std::string_view::npos;
+  });
+}
+
+/// "post-process.length-offset", "parameter/Crest" is a place in the file of another system, which its
+/// readers keep whole.
 Rank rank_of(const std::string& field) {
   if (symbol_fact(field) != nullptr || find_symbol(field) != nullptr) return Rank::kSymbol;
+  if (is_bookkeeping(field)) return Rank::kBookkeeping;
   return field.find_first_of("./") != std::string::npos ? Rank::kPath : Rank::kOther;
 }
 

@@ -12,8 +12,9 @@ namespace capstan::tooling {
 
 /// The lines for people, alike ones together: tools that lose the same field for the same reason are counted,
 /// fields that the same tools lose for the same reason stand in one line ("18 tools, LPR, HAND: the shape
-/// Ballend has no parameter for it"). Symbols of ISO 13399 and ours come first; last what only the system
-/// that wrote the file can read: its own paths, as "presets.0.guid". Else in the order of the report.
+/// Ballend has no parameter for it"). Symbols of ISO 13399 and ours come first, then names of ours, then the
+/// other system's own paths ("post-process.length-offset"), last its bookkeeping ("presets.0.guid"). Else in
+/// the order of the report.
 [[nodiscard]] std::vector<std::string> lines_together(const std::vector<LossReport::Line>& lines);
 
 }  // namespace capstan::tooling

@@ -17,14 +17,21 @@ TEST(Losses, WhatManyToolsLoseForOneReasonIsOneLine) {
   EXPECT_THAT(lines_together(lines), ElementsAre("3 tools, LPR, HAND: the shape has no parameter for it"));
 }
 
-TEST(Losses, SymbolsComeBeforeThePathsOfTheOtherSystem) {
+TEST(Losses, SymbolsComeBeforeThePathsOfTheOtherSystemAndItsBookkeepingLast) {
   const std::vector<LossReport::Line> lines{{"a", "presets.0.guid", kNoPlace},
+                                            {"", "version", kNoPlace},
+                                            {"", "fusion:read", kNoPlace},
+                                            {"a", "reference_guid", kNoPlace},
+                                            {"a", "post-process.length-offset", kNoPlace},
                                             {"a", "parameter/Crest", kNoPlace},
                                             {"", "holder", "no holders"},
                                             {"a", "LPR", kNoParameter}};
-  EXPECT_THAT(lines_together(lines),
-              ElementsAre("a, LPR: the shape has no parameter for it", "holder: no holders",
-                          "a, presets.0.guid, parameter/Crest: of another format, no place for it"));
+  EXPECT_THAT(
+      lines_together(lines),
+      ElementsAre("a, LPR: the shape has no parameter for it", "holder: no holders",
+                  "a, post-process.length-offset, parameter/Crest: of another format, no place for it",
+                  "a, presets.0.guid, reference_guid: of another format, no place for it",
+                  "version, fusion:read: of another format, no place for it"));
 }
 
 TEST(Losses, FieldsOfOtherToolsAreNotCountedAmongThem) {
