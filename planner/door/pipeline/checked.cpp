@@ -17,6 +17,7 @@
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/edit/provenance.h"
+#include "planner/model/plan/edit/step_names.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/proof/verify/verify.h"
 
@@ -45,7 +46,20 @@ constexpr int kBeforeLeavingOut = kMostReplannings - 2;  // tries after which fe
 struct Offence {
   MadeStep step;
   const Finding* finding = nullptr;
+  std::string orders = {};  ///< of the operator's that name the step, "; wanted is ..." each
 };
+
+/// An order that names a step may be what the check finds of it.
+std::string orders_of(const model::Plan& plan, AnyRef step, const MadeStep& made,
+                      const std::vector<model::Edit>& edits) {
+  std::string out;
+  const model::StepNames n = model::step_names(plan.model, step, made.member.feature);
+  for (const model::Edit& e : edits) {
+    if (e.kind == model::EditKind::kOrder && (model::names(e.where, n) || model::names(e.before, n)))
+      out += "; wanted is " + model::words_of(e);
+  }
+  return out;
+}
 
 bool is_error(const Finding& f) { return f.severity == Severity::kError; }
 
@@ -101,7 +115,7 @@ bool too_far_apart(const model::Plan& plan, const Finding& f, AnyRef step) {
 
 /// The first error of each proposed step that another way to make its feature may mend.
 std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Finding>& findings,
-                                 const Tries& tries) {
+                                 const Tries& tries, const std::vector<model::Edit>& edits) {
   std::map<std::string, AnyRef> step_of;
   const std::vector<std::string> ids = model::step_ids(plan);
   for (std::size_t i = 0; i < ids.size(); ++i) step_of.emplace(ids[i], plan.steps[i].step);
@@ -113,7 +127,8 @@ std::vector<Offence> offences_of(const model::Plan& plan, const std::vector<Find
     if (step == step_of.end()) continue;
     const auto made = tries.made.find(step->second);
     if (made == tries.made.end() || too_far_apart(plan, f, step->second)) continue;
-    if (seen.insert(step->second).second) out.push_back({made->second, &f});
+    if (seen.insert(step->second).second)
+      out.push_back({made->second, &f, orders_of(plan, step->second, made->second, edits)});
   }
   return out;
 }
@@ -127,7 +142,7 @@ class BansByCheck {
   std::vector<std::pair<MadeStep, std::string>> condemn(const std::vector<Offence>& offences, int tried) {
     std::vector<std::pair<MadeStep, std::string>> out;
     for (const Offence& o : offences) {
-      const std::string found = "the check found " + o.finding->code + ": " + o.finding->message;
+      const std::string found = "the check found " + o.finding->code + ": " + o.finding->message + o.orders;
       const MadeStep& s = o.step;
       const bool of_order = o.finding->property == 28;
       // Material outside the raw piece, or a feature read in two ways, remains so with every cutter and
@@ -226,12 +241,13 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
   }
   Checked best = policy.bind == Bind::kAll ? checked(*std::move(first), job, inputs.proofs.get(), cut_before)
                                            : Checked{*std::move(first), {}, 0, {}};
+  std::vector<std::pair<std::string, std::string>> replaced;
   best.needed = tries.needed;
   std::vector<std::string> said = tries.said;
   auto diagnostics = job.take_diagnostics();
   std::size_t least = errors_of(best.plan, best.findings);
   BansByCheck bans(tries);
-  std::vector<Offence> offences = offences_of(best.plan, best.findings, tries);
+  std::vector<Offence> offences = offences_of(best.plan, best.findings, tries, inputs.edits);
   std::vector<Finding> findings;  // of the last try, which `offences` point into
   for (int tried = 0; tried < kMostReplannings && least > 0 && !offences.empty(); ++tried) {
     if (policy.bind != Bind::kAll || job.stop_requested()) break;
@@ -243,11 +259,14 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     if (trial.stop_requested()) break;
     auto again = bind_within(plan, inputs, policy, tries, trial);
     if (!again) break;
-    for (const auto& [step, why] : condemned) tries.said.push_back(told(tries, step, why));
+    for (const auto& [step, why] : condemned) {
+      tries.said.push_back(told(tries, step, why));
+      replaced.emplace_back(step.name, why);
+    }
     Checked now_checked = checked(*std::move(again), trial, inputs.proofs.get(), cut_before);
     findings = now_checked.findings;
     if (trial.stop_requested()) break;  // not checked to its end: no better than what is there
-    offences = offences_of(now_checked.plan, findings, tries);
+    offences = offences_of(now_checked.plan, findings, tries, inputs.edits);
     auto now = trial.take_diagnostics();
     const std::size_t errors = errors_of(now_checked.plan, findings);
     const bool better =
@@ -257,6 +276,7 @@ Result<Checked> bind_anew(const model::Plan& plan, const Inputs& inputs, const P
     best = std::move(now_checked);
     best.replanned = tried + 1;
     best.needed = tries.needed;
+    best.replaced = replaced;
     said = tries.said;
     diagnostics.resize(read);
     diagnostics.insert(diagnostics.end(), std::make_move_iterator(now.begin()),
@@ -285,7 +305,7 @@ Result<Checked> bind_checked(const model::Plan& plan, const Inputs& inputs, cons
           auto again = bind_within(plan, with, policy, tries, trial);
           if (!again) return again;
           Checked found = checked(*std::move(again), trial);
-          for (const Offence& o : offences_of(found.plan, found.findings, tries))
+          for (const Offence& o : offences_of(found.plan, found.findings, tries, with.edits))
             found.plan.unplanned.push_back({.feature = o.step.member.feature, .reason = o.finding->message});
           // An error that is not of such a step: not all of the part is planned, though no feature is to
           // blame.

@@ -49,6 +49,22 @@ void tell_first(const std::vector<Diagnostic>& first, const model::Plan& plan, J
   for (Diagnostic& d : second) job.report(std::move(d));
 }
 
+/// An order may name a step that was planned, and that just this order made impossible.
+Diagnostic with_replaced(Diagnostic d, const std::vector<model::Edit>& edits,
+                         const std::vector<std::pair<std::string, std::string>>& replaced) {
+  if (d.code != "EDIT-NOTHING") return d;
+  for (const model::Edit& e : edits) {
+    if (e.kind != model::EditKind::kOrder || !d.message.starts_with(model::words_of(e))) continue;
+    for (const auto& [name, why] : replaced) {
+      if (!model::names(e.where, name) && !model::names(e.before, name)) continue;
+      d.message += "; the step '" + name + "' was planned, and is no longer, because " + why;
+      d.hint = "leave the order out, or turn it round";
+      return d;
+    }
+  }
+  return d;
+}
+
 }  // namespace
 
 Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const Policy& policy, Job& job,
@@ -59,7 +75,7 @@ Result<Checked> bind_edited(const model::Plan& plan, const Inputs& inputs, const
     model::Plan edited = out->plan;
     auto taken = given::take_edits(edited, inputs.edits, inputs.library, inputs.machine,
                                    model::edits_are_all(inputs.provenance), job);
-    if (!taken) return tl::unexpected(taken.error());
+    if (!taken) return tl::unexpected(with_replaced(taken.error(), inputs.edits, out->replaced));
     if (taken->opened && policy.bind == Bind::kAll) {
       const std::vector<Diagnostic> first = job.take_diagnostics();
       Policy again = policy;

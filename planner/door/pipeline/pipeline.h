@@ -140,6 +140,9 @@ struct Checked {
   bool budget_spent = true;  ///< false: planned with a larger evaluation budget it comes out the same
   std::vector<model::NeededTool> needed = {};  ///< what its unplanned features lack; not proved
   std::shared_ptr<const verify::ReadPart> part = nullptr;  ///< of just this plan, as it was checked
+  /// Steps of earlier tries that are made in another way or left out: names, and what the check found of
+  /// them.
+  std::vector<std::pair<std::string, std::string>> replaced = {};
 };
 
 /// A plan and what the check says of it. `proofs`: Inputs::proofs. `before`, where the plan's steps are a

@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "planner/door/app/command/finish.h"
@@ -22,6 +26,27 @@ int outputs_for(Session& s, std::vector<service::Output>& outputs) {
                kUsage);
 }
 
+/// A file of edits beside the part or an output, by its name, is told where nobody names it: what a plan is
+/// made with is what the call names.
+void tell_edits_beside(Session& s) {
+  const auto& o = s.options;
+  if (o.inputs.edits_file) return;
+  std::vector<std::string> names = {o.files[0]};
+  names.insert(names.end(), o.outputs.begin(), o.outputs.end());
+  std::set<std::string> seen(o.outputs.begin(), o.outputs.end());
+  for (const std::string& name : names) {
+    if (name == "-") continue;
+    const std::string beside = std::filesystem::path(name).replace_extension(".edits.yaml").string();
+    std::error_code error;
+    if (!seen.insert(beside).second || !std::filesystem::is_regular_file(beside, error)) continue;
+    s.job.report({.code = "EDIT-BESIDE",
+                  .severity = Severity::kNote,
+                  .message = "this file of edits lies beside " + name + " and is not used",
+                  .file = beside,
+                  .hint = "--edits " + beside + " plans with it"});
+  }
+}
+
 }  // namespace
 
 int run_plan(Session& s) {
@@ -29,6 +54,7 @@ int run_plan(Session& s) {
   if (const int code = outputs_for(s, outputs); code != kDone) return code;
   const auto planned = service::plan(s.options.inputs, {s.options.files[0]}, s.job);
   if (!planned) return s.end(planned.error());
+  tell_edits_beside(s);
   return finish(s, *planned, std::move(outputs));
 }
 

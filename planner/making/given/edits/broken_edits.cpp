@@ -97,13 +97,22 @@ std::vector<model::Finding> broken_edits(const model::Plan& plan, const std::vec
         break;
       }
     }
-    if (!any_first || !any_second)
-      out.push_back({.code = "EDIT-BROKEN",
-                     .severity = Severity::kWarning,
-                     .step = {},
-                     .message = model::words_of(e) +
-                                " orders nothing: no planned step is named by one of its patterns and not by "
-                                "both; name those that come first, and those that come later, apart"});
+    if (any_first && any_second) continue;
+    std::string without;
+    for (const model::Unplanned& u : plan.unplanned) {
+      const auto name = draft::feature_name(plan.model, u.feature);
+      if (!name.empty() && (model::names(e.where, name) || model::names(e.before, name)))
+        without += (without.empty() ? "" : ", ") + ("'" + std::string(name) + "'");
+    }
+    out.push_back({.code = "EDIT-BROKEN",
+                   .severity = Severity::kWarning,
+                   .step = {},
+                   .message = model::words_of(e) + " orders nothing: " +
+                              (without.empty()
+                                   ? "no planned step is named by one of its patterns and not by both; name "
+                                     "those that come first, and those that come later, apart"
+                                   : "it names " + without +
+                                         ", which is not planned; leave the order out, or turn it round")});
   }
   return out;
 }

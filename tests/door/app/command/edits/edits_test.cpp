@@ -142,6 +142,37 @@ TEST_F(Edits, AnOrderIsKept) {
   EXPECT_THAT(both.err, HasSubstr("order POCKET*<SLOT*"));
 }
 
+TEST_F(Edits, AFileOfThemBesideThePartOrAnOutputIsToldAndNotUsed) {
+  put("bracket.edits.yaml", "capstan_edits: 1\nedits:\n  - limit: \"feed<=1500\"\n");
+  put("a.edits.yaml", slurp(folder_ / "bracket.edits.yaml"));
+  const Ran r = run("plan bracket.p21 --bind none -o a.json");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(
+      r.err,
+      HasSubstr("bracket.edits.yaml: note: this file of edits lies beside bracket.p21 and is not used; "
+                "--edits bracket.edits.yaml plans with it [EDIT-BESIDE]"));
+  EXPECT_THAT(r.err, HasSubstr("a.edits.yaml: note:"));
+  EXPECT_THAT(slurp(folder_ / "a.json"), Not(HasSubstr("feed<=1500")));
+  const Ran named = run("plan bracket.p21 --edits a.edits.yaml --bind none -o b.json");
+  EXPECT_THAT(named.err, Not(HasSubstr("EDIT-BESIDE")));
+}
+
+TEST_F(Edits, AnOrderThatLeavesAFeatureOutIsNamedWithIt) {
+  const Ran r = plan("a", "--order 'M6<M6 CORE'");
+  EXPECT_EQ(r.code, 1) << r.err;
+  const std::regex unplanned(R"([^\n]*'M6'[^\n]*is not planned[^\n]*wanted is --order: order M6<M6 CORE)");
+  EXPECT_TRUE(std::regex_search(r.err, unplanned)) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("order M6<M6 CORE orders nothing: it names 'M6', which is not planned"));
+}
+
+TEST_F(Edits, AnOrderWhoseStepItMadeImpossibleSaysSo) {
+  const Ran r = plan("a", "--order 'M6 tap<M6 CORE'");
+  EXPECT_GT(r.code, 1);
+  EXPECT_THAT(r.err, HasSubstr("order M6 tap<M6 CORE: 'M6 tap' names no feature and no workingstep"));
+  EXPECT_THAT(r.err, HasSubstr("the step 'M6 tap' was planned, and is no longer, because the check found"));
+  EXPECT_THAT(r.err, HasSubstr("leave the order out, or turn it round"));
+}
+
 TEST_F(Edits, OneThatBreaksALimitIsNamedBesideItAndNoProgramIsWritten) {
   const Ran r = plan("a", "--set 'SLOT area_rough/feed=9000'");
   EXPECT_EQ(r.code, 1) << r.err;
