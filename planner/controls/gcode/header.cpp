@@ -7,6 +7,7 @@
 #include "planner/model/nouns/workpiece.h"
 #include "planner/model/plan/assumed_tool_material.h"
 #include "planner/model/plan/corner_rest.h"
+#include "planner/model/plan/resources/shop_texts.h"
 #include "planner/physics/motion/time.h"
 
 namespace capstan::controls::gcode {
@@ -103,6 +104,18 @@ const model::Cutter* next_tool(const model::Plan& plan, std::size_t step) {
     if (then->pocket != now) return then;
   }
   return nullptr;
+}
+
+Status write_texts(const model::Plan& plan, std::string_view what, Program& out) {
+  for (const std::string& text : model::shop_texts(plan, what)) {
+    // A plan that somebody wrote may hold any.
+    if (const std::string wrong = model::comment_fault(text); !wrong.empty())
+      return fail({.code = "OUT-TEXT",
+                   .message = "the " + std::string(what) + " '" + text + "' can be no comment: " + wrong,
+                   .hint = "change it among the shop's texts, and plan again"});
+    out.comment(text);
+  }
+  return {};
 }
 
 }  // namespace capstan::controls::gcode

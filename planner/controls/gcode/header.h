@@ -1,8 +1,10 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "planner/controls/gcode/program.h"
+#include "planner/ground/base/result.h"
 #include "planner/model/plan/decision/condemned.h"
 #include "planner/model/plan/plan.h"
 
@@ -14,6 +16,10 @@ namespace capstan::controls::gcode {
 /// The comments that a program begins with: what it is for, its set-ups and tools with their lengths (read
 /// back by the check), tools that are not measured, and why it must not be run.
 void write_header(const model::Plan& plan, const std::vector<model::Condemnation>& condemned, Program& out);
+
+/// The shop's own lines of comment of that kind (model/plan/resources/shop_texts.h).
+/// Fails  OUT-TEXT for one that can be no comment.
+[[nodiscard]] Status write_texts(const model::Plan& plan, std::string_view what, Program& out);
 
 /// The tool of the next step behind that one which has another; null: none has.
 [[nodiscard]] const model::Cutter* next_tool(const model::Plan& plan, std::size_t step);

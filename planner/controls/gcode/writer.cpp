@@ -26,6 +26,7 @@
 #include "planner/model/plan/edit/cycles.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/control_options.h"
+#include "planner/model/plan/resources/shop_texts.h"
 
 namespace capstan::controls::gcode {
 namespace {
@@ -55,6 +56,7 @@ class Writer {
   Result<std::string> run() {
     if (!words_.first.empty()) program_.line(words_.first);
     write_header(plan_, condemned_, program_);
+    if (auto ok = write_texts(plan_, model::kProgramHeader, program_); !ok) return tl::unexpected(ok.error());
     for (const auto& [tool, comment] : pockets_.tables) program_.marker(comment);
     write_setup(plan_, plan_.steps.front().setup, std::nullopt, program_);
     program_.blank();
@@ -83,6 +85,7 @@ class Writer {
     retract();
     stop();
     shop_blocks("end_blocks");
+    if (auto ok = write_texts(plan_, model::kProgramFooter, program_); !ok) return tl::unexpected(ok.error());
     program_.line(words_.last);
     if (auto ok = numbers_differ(plan_.machine, words_.first_subprogram, subprograms_.size()); !ok)
       return tl::unexpected(ok.error());

@@ -25,6 +25,7 @@
 #include "planner/physics/mechanics/loads/margin.h"
 #include "planner/proof/verify/verify.h"
 #include "rules/rules.h"
+#include "tooling/shop/fixtures/fixtures.h"
 
 namespace capstan::casebase {
 class CaseBase;
@@ -64,7 +65,8 @@ struct Inputs {
   std::string general_tolerance;  ///< "ISO 2768-m", "ISO 22081 0.2", "+-0.1"; empty: the file's, or none
   std::string
       workholding;  ///< ids or a file, see tooling/shop/fixtures; "auto"; empty or "none": not planned
-  int batch = 1;    ///< pieces
+  std::vector<tooling::Fixture> own_fixtures = {};  ///< of the shop, which `workholding` may name
+  int batch = 1;                                    ///< pieces
   double edge_break_mm = 0.0;                 ///< chamfer on edges that the part leaves sharp; 0: none
   std::vector<model::Provenance> provenance;  ///< origin of each input: named or default
   /// What the operator wants, in the order in which it was said. Restrictions hold while operations, tools

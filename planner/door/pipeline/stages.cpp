@@ -145,8 +145,9 @@ Result<workholding::Held> hold_workpieces(const model::Plan& plan, const Drafts&
   const bool asked_now = std::any_of(
       plan.provenance.begin(), plan.provenance.end(),
       [](const model::Provenance& p) { return p.what == "workholding" && p.source == "--workholding"; });
-  return workholding::hold(plan, drafts.setups, drafts.steps,
-                           {asked.inputs.workholding, asked_now, asked.recorded.holdings}, job);
+  return workholding::hold(
+      plan, drafts.setups, drafts.steps,
+      {asked.inputs.workholding, asked_now, asked.recorded.holdings, asked.inputs.own_fixtures}, job);
 }
 
 }  // namespace capstan::pipeline

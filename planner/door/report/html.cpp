@@ -6,6 +6,7 @@
 #include "planner/door/report/data.h"
 #include "planner/door/report/report.h"
 #include "planner/ground/base/text.h"
+#include "planner/model/plan/resources/shop_texts.h"
 
 namespace capstan::report {
 
@@ -40,7 +41,10 @@ std::string scripts() {
 
 /// `{{name}}` of the template.
 std::string part(std::string_view name, const model::Plan& plan, const About& about) {
-  if (name == "title") return xml_escaped(plan.file_name);
+  if (name == "title") {
+    const auto own = model::shop_texts(plan, model::kSheetTitle);
+    return xml_escaped(own.empty() ? plan.file_name : own.front() + ": " + plan.file_name);
+  }
   if (name == "judged") return std::string(class_of(about.judged));
   if (name == "verdict") return xml_escaped(about.verdict);
   if (name == "style") return std::string(embedded_file("style.css"));

@@ -15,6 +15,7 @@
 #include "planner/ground/geometry/vec.h"
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/model/plan/edit/edit.h"
+#include "planner/model/plan/plan.h"
 
 namespace capstan::service {
 
@@ -61,6 +62,8 @@ struct Request {
   std::optional<std::string> edits_file;              ///< more of them, which come first
   std::optional<std::string> shop;                    ///< a shop file (shop_file/shop_file.h)
   std::vector<std::string> materials = {};            ///< files of the shop's own, beside the shipped table
+  std::vector<std::string> fixtures = {};             ///< files of the shop's own, before the shipped ones
+  std::vector<model::Provenance> texts = {};          ///< the shop's own (model/plan/resources/shop_texts.h)
   std::set<std::string> given = {};                   ///< names of the options that were set
   std::map<std::string, std::string> from_shop = {};  ///< which of them came from which shop file
   unsigned threads = 1;

@@ -22,6 +22,7 @@
 #include "planner/model/plan/edit/deciding.h"
 #include "planner/model/plan/edit/provenance.h"
 #include "planner/model/plan/resources/by_cases.h"
+#include "planner/model/plan/resources/shop_texts.h"
 #include "rules/engine/check.h"
 #include "rules/rules.h"
 #include "tooling/library/cutters/generic.h"
@@ -253,9 +254,10 @@ std::optional<Diagnostic> edges_wrong(const Request& o, const pipeline::Inputs& 
 
 /// Reads what holds the piece before anything is planned: a file that cannot be read is no failure of
 /// planning.
-std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
+std::optional<Diagnostic> holding_wrong(const std::string& how, const std::vector<tooling::Fixture>& own,
+                                        Job& job) {
   if (how == "auto" || how == "none") return std::nullopt;
-  auto fixtures = tooling::shipped_fixtures(job);
+  auto fixtures = tooling::known_fixtures(own, job);
   if (!fixtures || tooling::find_fixture(*fixtures, how) != nullptr) return std::nullopt;
   auto text = read_file(how, tooling::kDataFileCap);
   if (!text && only_a_name(how))
@@ -265,12 +267,19 @@ std::optional<Diagnostic> holding_wrong(const std::string& how, Job& job) {
     return text.error();
   }
   Job silent;  // its diagnostics are reported when it is used
-  auto file = tooling::read_holding(*text, how, silent);
+  auto file = tooling::read_holding(*text, how, silent, own);
   if (file) return std::nullopt;
   for (const Diagnostic& d : silent.diagnostics()) {
     if (!(d == file.error())) job.report(d);
   }
   return file.error();
+}
+
+/// The shop's texts; where it has none now, those that the plan was made with.
+void take_texts(const Request& o, const model::Plan& plan, pipeline::Inputs& in) {
+  for (const model::Provenance& p : o.texts.empty() ? plan.provenance : o.texts) {
+    if (model::is_shop_text(p)) in.provenance.push_back(p);
+  }
 }
 
 /// The edits of this call: those of its file, then the others.
@@ -303,6 +312,23 @@ Result<std::vector<model::Edit>> edits_of(const Request& o, const model::Plan& p
 }
 
 }  // namespace
+
+Result<std::vector<tooling::Fixture>> own_fixtures(const std::vector<std::string>& files, Job& job) {
+  std::vector<tooling::Fixture> out;
+  for (const std::string& file : files) {
+    auto of_file = tooling::load_fixtures(file, job);
+    if (!of_file) return of_file;
+    for (tooling::Fixture& f : *of_file) {
+      if (tooling::find_fixture(out, f.id) != nullptr)
+        return fail({.code = "HOLD-TWICE",
+                     .message = "fixture '" + f.id + "' is in an earlier file of the shop's, too",
+                     .file = file,
+                     .hint = "give one of them another id"});
+      out.push_back(std::move(f));
+    }
+  }
+  return out;
+}
 
 bool has_data(const model::Machine& machine) { return !machine.axes[0].name.empty(); }
 
@@ -373,8 +399,11 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
   poll();
   if (o.rules) judge_rules(in.rules, job);
 
+  auto fixtures = own_fixtures(o.fixtures, job);
+  if (!fixtures) return tl::unexpected(fixtures.error());
+  in.own_fixtures = *std::move(fixtures);
   if (o.workholding) {
-    if (auto wrong = holding_wrong(*o.workholding, job)) return fail(*std::move(wrong));
+    if (auto wrong = holding_wrong(*o.workholding, in.own_fixtures, job)) return fail(*std::move(wrong));
   }
   if (o.cases) {
     auto base = casebase::CaseBase::open(*o.cases, job);
@@ -405,6 +434,7 @@ Status take_choices(const Request& o, const model::Plan& plan, pipeline::Inputs&
   choices(o, plan, in);
   if (auto wrong = edges_wrong(o, in)) return fail(*std::move(wrong));
   if (o.cases) in.provenance.push_back({"cases", casebase::name_of(*o.cases), "named by the caller"});
+  take_texts(o, plan, in);
   auto edits = edits_of(o, plan, in.library, job);
   if (!edits) return tl::unexpected(edits.error());
   in.edits = *std::move(edits);

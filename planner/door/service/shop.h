@@ -1,12 +1,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/service/request.h"
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 #include "planner/model/plan/plan.h"
+#include "tooling/shop/fixtures/fixtures.h"
 
 namespace capstan::service {
 
@@ -37,6 +39,11 @@ void take_tools_of_plan(const Request& request, const model::Plan& plan, pipelin
 /// which joins `in.materials` and gets start values in `in.library`; both are loaded before. Fails  as
 /// tooling::load_material.
 [[nodiscard]] Status name_material(pipeline::Inputs& in, const std::string& given, Job& job);
+
+/// The fixtures of files of the shop's own, in the order of the files.
+/// Fails  as tooling::load_fixtures; HOLD-TWICE for an id of two files.
+[[nodiscard]] Result<std::vector<tooling::Fixture>> own_fixtures(const std::vector<std::string>& files,
+                                                                 Job& job);
 
 /// Whether the machine's data are there, and not only its name (all that an ISO 14649 file holds).
 [[nodiscard]] bool has_data(const model::Machine& machine);

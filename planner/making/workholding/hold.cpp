@@ -287,7 +287,7 @@ std::vector<Workholding> chosen(const Clampings& c, const std::vector<Fixture>& 
 Result<std::optional<std::vector<Workholding>>> as_named(const Clampings& c, const Wish& wish, Job& job) {
   using Found = std::optional<std::vector<Workholding>>;
   const std::string& how = wish.how;
-  auto fixtures = tooling::shipped_fixtures(job);
+  auto fixtures = tooling::known_fixtures(wish.own, job);
   if (!fixtures) return tl::unexpected(fixtures.error());
   const Fixture* known = find_fixture(*fixtures, how);
   if (how == "auto" || (known != nullptr && known->kind != tooling::FixtureKind::kStrapClamp &&
@@ -309,7 +309,7 @@ Result<std::optional<std::vector<Workholding>>> as_named(const Clampings& c, con
     error.hint = "workholding is auto, none, the id of a fixture, or a file";
     return tl::unexpected(error);
   }
-  auto file = tooling::read_holding(*text, how, job);
+  auto file = tooling::read_holding(*text, how, job, wish.own);
   if (!file) return tl::unexpected(file.error());
   // A file of fixtures without set-ups leaves the choice open: its own fixtures are tried first.
   if (file->setups.empty()) return Found(chosen(c, file->fixtures, "auto", job));

@@ -9,6 +9,7 @@
 #include "planner/ground/base/result.h"
 #include "planner/making/draft/draft.h"
 #include "planner/model/plan/plan.h"
+#include "tooling/shop/fixtures/fixtures.h"
 
 // The fixture of each set-up, its place, and the set-up instructions for the operator.
 
@@ -20,6 +21,7 @@ struct Wish {
   bool asked_now = false;  ///< the caller asks for it now: the workholding in the plan does not count
   /// As the plan said when it was read.
   const std::vector<std::pair<model::Ref<model::Setup>, model::Workholding>>& recorded;
+  std::vector<tooling::Fixture> own = {};  ///< fixtures of the shop, which come before the shipped ones
 };
 
 /// Workholding of each set-up.

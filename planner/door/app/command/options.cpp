@@ -289,8 +289,9 @@ class CommandLine {
     known("materials", "the work materials that are known", Command::kMaterialsList, Command::kMaterialsShow,
           "its id or a name, or a file of --material");
     known("machines", "the built-in machines", Command::kMachinesList, Command::kMachinesShow, "its id");
-    known("fixtures", "the built-in fixtures and clamps", Command::kFixturesList, Command::kFixturesShow,
-          "its id");
+    for (auto* sub : known("fixtures", "the built-in fixtures and clamps, and the shop's own",
+                           Command::kFixturesList, Command::kFixturesShow, "its id"))
+      option(sub, "shop", "the shop's settings: a file, or none");
     known("controls", "the controls that programs are written for", Command::kControlsList,
           Command::kControlsShow, "its id");
     auto* own = app_.add_subcommand("shop", "the shop's own settings");
@@ -311,15 +312,16 @@ class CommandLine {
   }
 
   /// A list of what comes with the planner, and all of one.
-  void known(const std::string& name, const std::string& help, Command list, Command show,
-             const std::string& called) {
+  /// A group of commands that list what is known of a kind, and show one.
+  std::array<CLI::App*, 2> known(const std::string& name, const std::string& help, Command list, Command show,
+                                 const std::string& called) {
     auto* of = app_.add_subcommand(name, help);
     of->require_subcommand(1);
-    command(*of, "list", "a line each", list)
-        ->add_option("filter", out_.words, "only those whose line contains this");
-    command(*of, "show", "all that is known of one, with sources", show)
-        ->add_option("name", out_.words, called)
-        ->required();
+    auto* lists = command(*of, "list", "a line each", list);
+    lists->add_option("filter", out_.words, "only those whose line contains this");
+    auto* shows = command(*of, "show", "all that is known of one, with sources", show);
+    shows->add_option("name", out_.words, called)->required();
+    return {lists, shows};
   }
 
   void tool_files(CLI::App& tools) {

@@ -113,7 +113,9 @@ std::vector<std::string> read_by(const Options& o) {
                            in.edits_file, in.shop, in.profile}) {
     if (path) add_files(*path, out);
   }
-  for (const std::string& path : in.materials) add_files(path, out);
+  for (const auto* files : {&in.materials, &in.fixtures}) {
+    for (const std::string& path : *files) add_files(path, out);
+  }
   for (const std::string& path : {o.tools.column_map, o.log.plan, o.log.program, o.log.inspection}) {
     if (!path.empty()) out.push_back(path);
   }
@@ -131,6 +133,8 @@ int in_shop(Session& s) {
     case Command::kToolsList:
     case Command::kToolsShow:
     case Command::kToolsExport:
+    case Command::kFixturesList:
+    case Command::kFixturesShow:
     case Command::kShopShow:
     case Command::kServe:
       break;
@@ -149,10 +153,13 @@ int in_shop(Session& s) {
   auto with = service::with_shop(in, s.job);
   if (!with) return s.end(with.error(), kUsage);
   in = *std::move(with);
-  if (in.from_shop.empty() && in.materials.empty()) return kDone;
   std::string entries;
-  for (const auto& [name, file] : in.from_shop) entries += (entries.empty() ? "" : ", ") + name;
-  if (!in.materials.empty()) entries += (entries.empty() ? "" : ", ") + std::string("materials");
+  const auto add = [&](const std::string& name) { entries += (entries.empty() ? "" : ", ") + name; };
+  for (const auto& [name, file] : in.from_shop) add(name);
+  if (!in.materials.empty()) add("materials");
+  if (!in.fixtures.empty()) add("fixtures");
+  if (!in.texts.empty()) add("texts");
+  if (entries.empty()) return kDone;
   s.job.note("SHOP", "settings of " + *in.shop + ": " + entries + "; --shop none leaves them out");
   return kDone;
 }

@@ -5,6 +5,7 @@
 #include "planner/controls/controls.h"
 #include "planner/door/app/command/session.h"
 #include "planner/door/service/explain/values.h"
+#include "planner/door/service/shop.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
 #include "rules/rules.h"
@@ -163,7 +164,9 @@ int run_known(Session& s) {
     for (const controls::Dialect* d : controls::dialects())
       rows.push_back({std::string(d->id), std::string(d->name), std::string(d->program.ending)});
   } else {
-    const auto fixtures = tooling::shipped_fixtures(s.job);
+    auto own = service::own_fixtures(s.options.inputs.fixtures, s.job);
+    if (!own) return s.end(own.error(), kUnreadable);
+    const auto fixtures = tooling::known_fixtures(*std::move(own), s.job);
     if (!fixtures) return s.end(fixtures.error(), kUnreadable);
     for (const auto& f : *fixtures) rows.push_back({f.id, f.description});
   }

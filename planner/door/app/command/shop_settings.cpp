@@ -6,6 +6,7 @@
 
 #include "planner/controls/controls.h"
 #include "planner/door/app/command/session.h"
+#include "planner/door/service/shop.h"
 #include "planner/door/service/shop_file/shop_file.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
@@ -96,7 +97,15 @@ int run_shown(Session& s) {
       return s.end(unknown_name("machine", id, ids, "capstan machines list"), kUsage);
     return print(tooling::shipped_text("machines/" + id + ".yaml")) ? kDone : kImpossible;
   }
-  const auto fixtures = tooling::shipped_fixtures(s.job);
+  auto own = service::own_fixtures(s.options.inputs.fixtures, s.job);
+  if (!own) return s.end(own.error(), kUnreadable);
+  for (const std::string& file : s.options.inputs.fixtures) {
+    const auto text = read_file(file, tooling::kDataFileCap);
+    const auto tree = text ? tooling::parse_tree(*text, file) : tl::unexpected(text.error());
+    if (!tree) return s.end(tree.error(), kUnreadable);
+    if (const Node* found = with_id(*tree, id)) return print(yaml_of(*found, 0)) ? kDone : kImpossible;
+  }
+  const auto fixtures = tooling::known_fixtures(*std::move(own), s.job);
   if (!fixtures) return s.end(fixtures.error(), kUnreadable);
   const auto root = tooling::shipped_tree("fixtures.yaml");
   if (!root) return s.end(root.error(), kUnreadable);

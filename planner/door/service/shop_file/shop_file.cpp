@@ -15,6 +15,7 @@
 #include "planner/door/service/shop.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
+#include "planner/model/plan/resources/shop_texts.h"
 #include "tooling/shop/data/tree.h"
 #include "tooling/shop/material/material.h"
 
@@ -24,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using tooling::Node;
 
-constexpr std::string_view kVersionKey = "capstan_shop", kMaterials = "materials";
+constexpr std::string_view kVersionKey = "capstan_shop", kMaterials = "materials", kFixtures = "fixtures",
+                           kTexts = "texts";
 
 Diagnostic fault(const std::string& file, std::uint64_t line, std::string what) {
   return {.code = "SHOP-FILE",
@@ -39,7 +41,7 @@ std::vector<std::string> known_entries() {
   for (const Option& o : options()) {
     if (o.of_shop) out.emplace_back(o.name);
   }
-  out.emplace_back(kMaterials);
+  for (const std::string_view more : {kMaterials, kFixtures, kTexts}) out.emplace_back(more);
   return out;
 }
 
@@ -76,19 +78,55 @@ Result<Node> root_of(std::string_view text, const std::string& file) {
   return root;
 }
 
-Status take_materials(Request& r, const std::string& file, const Node& value) {
+Status take_files(std::vector<std::string>& into, const std::string& file, const std::string& key,
+                  const Node& value) {
   if (value.kind != Node::Kind::kList)
-    return fail(fault(file, value.line, "materials is not a list of files, e.g. [bronze.yaml]"));
+    return fail(fault(file, value.line, key + " is not a list of files, e.g. [ours.yaml]"));
   for (const Node& n : value.items) {
     if (n.kind != Node::Kind::kScalar || n.text.empty())
-      return fail(fault(file, n.line, "an entry of materials is not the name of a file"));
-    r.materials.push_back(placed(file, "material", n.text));
+      return fail(fault(file, n.line, "an entry of " + key + " is not the name of a file"));
+    into.push_back(placed(file, key, n.text));
+  }
+  return {};
+}
+
+/// A title, and lines of comment in each program.
+Status take_texts(Request& r, const std::string& file, const Node& value) {
+  if (value.kind != Node::Kind::kMap)
+    return fail(fault(file, value.line, "texts is not a map: {title: TEXT, header: [TEXT], footer: [TEXT]}"));
+  const auto add = [&](std::string_view what, const Node& n) -> Status {
+    if (n.kind != Node::Kind::kScalar || n.text.empty())
+      return fail(fault(file, n.line, "a text of texts is empty, or is none"));
+    const std::string wrong = what == model::kSheetTitle ? std::string() : model::comment_fault(n.text);
+    if (!wrong.empty())
+      return fail(fault(file, n.line, "'" + n.text + "' can be no comment of a program: " + wrong));
+    r.texts.push_back({std::string(what), n.text, file + ": texts"});
+    return {};
+  };
+  for (const auto& [key, own] : value.entries) {
+    if (key == "title") {
+      if (auto ok = add(model::kSheetTitle, own); !ok) return ok;
+      continue;
+    }
+    if (key != "header" && key != "footer") {
+      Diagnostic d = unknown_name("entry of texts", key, {"title", "header", "footer"}, "capstan shop init");
+      d.file = file;
+      d.line = own.line;
+      return fail(std::move(d));
+    }
+    if (own.kind != Node::Kind::kList)
+      return fail(fault(file, own.line, key + " of texts is not a list of lines, e.g. [\"ACME, CELL 3\"]"));
+    for (const Node& n : own.items) {
+      if (auto ok = add(key == "header" ? model::kProgramHeader : model::kProgramFooter, n); !ok) return ok;
+    }
   }
   return {};
 }
 
 Status take_entry(Request& r, const std::string& file, const std::string& key, const Node& value, Job& job) {
-  if (key == kMaterials) return take_materials(r, file, value);
+  if (key == kMaterials) return take_files(r.materials, file, key, value);
+  if (key == kFixtures) return take_files(r.fixtures, file, key, value);
+  if (key == kTexts) return take_texts(r, file, value);
   const Option* o = find_option(key);
   if (o == nullptr || !o->of_shop) {
     Diagnostic d = unknown_name("entry", key, known_entries(), "capstan shop init");
@@ -266,6 +304,11 @@ Result<std::string> shop_template(const std::vector<std::string>& given, const s
     entry(o.name, o.help_of(Verb::kPlan), at == kExamples.end() ? "..." : at->second);
   }
   entry(kMaterials, "files of materials of the shop's own, which parts may name", "[bronze.yaml]");
+  entry(kFixtures, "files of the shop's own fixtures (capstan_fixtures: 1), which workholding may name",
+        "[vises.yaml]");
+  entry(kTexts,
+        "the title of reports and set-up sheets, and lines of comment at head and end of each program",
+        "{title: \"ACME, cell 3\", header: [\"ACME, CELL 3\"], footer: [\"CLEAN THE VISE\"]}");
   if (!values.empty())
     return fail(unknown_name("entry", values.begin()->first, known_entries(), "capstan shop init"));
   Request asked;
@@ -282,6 +325,18 @@ Result<std::string> shop_template(const std::vector<std::string>& given, const s
   return fail(unwritten(*std::move(wrong)));
 }
 
+namespace {
+
+/// An entry's values with commas between; of a map with their names.
+std::string in_words(const Node& value) {
+  std::string out = value.text;
+  for (const Node& n : value.items) out += (out.empty() ? "" : ", ") + n.text;
+  for (const auto& [key, own] : value.entries) out += (out.empty() ? "" : "; ") + key + " " + in_words(own);
+  return out;
+}
+
+}  // namespace
+
 Result<std::string> shop_text(const Request& request, Job& job) {
   if (!request.shop || *request.shop == kNoShop)
     return std::string("no shop file: ") + kShopFile +
@@ -295,9 +350,7 @@ Result<std::string> shop_text(const Request& request, Job& job) {
   std::string out = *request.shop + "\n";
   for (const auto& [key, value] : root->entries) {
     if (key == kVersionKey) continue;
-    std::string text = value.text;
-    for (const Node& n : value.items) text += (text.empty() ? "" : ", ") + n.text;
-    out += "  " + key + ": " + text + "\n";
+    out += "  " + key + ": " + in_words(value) + "\n";
   }
   return out;
 }

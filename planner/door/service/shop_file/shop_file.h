@@ -15,6 +15,8 @@
 //     machine: mill.yaml        # any option of the table with Option::of_shop, by its name
 //     tools: tool.tbl
 //     materials: [our_bronze.yaml]
+//     fixtures: [our_vises.yaml]       # capstan_fixtures: 1; --workholding finds them by their ids
+//     texts: {title: "ACME, cell 3", header: ["ACME, CELL 3"], footer: ["CLEAN THE VISE"]}
 //
 // Paths count from the file's folder.
 

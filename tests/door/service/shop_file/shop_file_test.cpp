@@ -8,6 +8,7 @@
 
 #include "planner/door/service/options.h"
 #include "planner/door/service/shop.h"
+#include "planner/model/plan/resources/shop_texts.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::service {
@@ -89,6 +90,53 @@ TEST(ShopFile, WithFaultsReportsEachWithItsLine) {
   EXPECT_NE(said[0].message.find("'machine'"), std::string::npos) << said[0].message;
   EXPECT_EQ(said[1].code, "OPTION-VALUE");
   EXPECT_EQ(said[3].code, "NAME-UNKNOWN") << "an option of a call is none of the shop";
+}
+
+TEST(ShopFile, TextsAreRowsOfThePlansProvenance) {
+  Job job;
+  const auto r = with_shop_text(
+      asking("shop.yaml"),
+      "capstan_shop: 1\ntexts:\n  title: ACME\n  header: [one, two]\n  footer: [three]\n", job);
+  ASSERT_TRUE(r) << to_text(r.error());
+  const auto in = gather(*r, model::Plan{}, job);
+  ASSERT_TRUE(in) << to_text(in.error());
+  model::Plan plan;
+  plan.provenance = in->provenance;
+  EXPECT_EQ(model::shop_texts(plan, model::kSheetTitle), std::vector<std::string>{"ACME"});
+  EXPECT_EQ(model::shop_texts(plan, model::kProgramHeader), (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(model::shop_texts(plan, model::kProgramFooter), std::vector<std::string>{"three"});
+  // Planned again without a shop they stay; with other ones these hold.
+  const auto again = gather(Request{}, plan, job);
+  ASSERT_TRUE(again) << to_text(again.error());
+  plan.provenance = again->provenance;
+  EXPECT_EQ(model::shop_texts(plan, model::kProgramFooter), std::vector<std::string>{"three"});
+  const auto other = with_shop_text(asking("shop.yaml"), "capstan_shop: 1\ntexts: {title: Other}\n", job);
+  ASSERT_TRUE(other);
+  const auto changed = gather(*other, plan, job);
+  ASSERT_TRUE(changed);
+  plan.provenance = changed->provenance;
+  EXPECT_EQ(model::shop_texts(plan, model::kSheetTitle), std::vector<std::string>{"Other"});
+  EXPECT_TRUE(model::shop_texts(plan, model::kProgramFooter).empty());
+}
+
+TEST(ShopFile, TextsThatNoCommentHoldsAreRefusedWithTheirLine) {
+  for (const char* bad :
+       {"CAPSTAN STEP x", "capstan", "machine: mine", "MSG, hello", "LOGOPEN,/tmp/x", "probeclose",
+        "PROBEOPEN x", "set-up 1: zero", "Stock: ours", "a (b)", "a; b", "50 %", "", " blank first",
+        "gr\\u00fcn", "a line of more than the sixty characters that no control has to break"}) {
+    Job job;
+    const auto r = with_shop_text(
+        asking("shop.yaml"),
+        "capstan_shop: 1\ntexts:\n  header:\n    - fine\n    - \"" + std::string(bad) + "\"\n", job);
+    ASSERT_FALSE(r) << bad;
+    EXPECT_EQ(r.error().line, 5U) << bad;
+  }
+  for (const char* bad :
+       {"texts: ACME", "texts: {title: [a]}", "texts: {header: one}", "texts: {heder: [one]}"}) {
+    Job job;
+    EXPECT_FALSE(with_shop_text(asking("shop.yaml"), std::string("capstan_shop: 1\n") + bad + "\n", job))
+        << bad;
+  }
 }
 
 TEST(ShopFile, OfAnotherShapeOrVersionIsRefused) {
