@@ -2,26 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 
 #include "planner/ground/base/text.h"
 
 namespace capstan::casebase {
-namespace {
-
-/// What XML does not take: control characters, as blanks, and bytes that are no UTF-8.
-std::string escaped(std::string_view text) {
-  std::string plain = utf8_text(text);
-  std::replace_if(
-      plain.begin(), plain.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-  return xml_escaped(plain);
-}
-
-}  // namespace
 
 std::string svg_words(double x, double y, std::string_view text, std::string_view more) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, more, escaped(text));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, more, xml_text(text));
 }
 
 std::string svg_head(double width, double height) {

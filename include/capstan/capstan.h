@@ -85,6 +85,8 @@ struct PlanOptions {
   std::vector<std::string> tapped = {};  ///< of a CAD file: threads of its holes, "HOLE 3=M8:16"
   /// Of `bind_...`: a file of what became of the loaded tools, "T3 broken", "T5 wear 0.02 life-left 12.5".
   std::string tool_state = {};
+  /// The steps whose paths pictures ("svg", "png") draw, each by number or by a pattern; empty: all.
+  std::vector<std::string> draw = {};
 };
 
 /// A thing said about the input or the plan, as the command prints it.
@@ -111,7 +113,7 @@ struct PlanOutput {
   /// exceeded, features that are not planned and that others rest on.
   std::vector<PlanMessage> condemned;
   /// All forms by the name of their format, those above included: "iso14649", "ap238", "json", "linuxcnc",
-  /// "linuxcnc_tools", and what later versions add.
+  /// "linuxcnc_tools", "report", "svg" and "png" (pictures of the paths), and what later versions add.
   std::map<std::string, std::string> forms = {};
   bool late = false;  ///< the deadline was past when the plan was there
 };

@@ -36,6 +36,7 @@ constexpr std::array kListFields = {
     ListField{"set", &PlanOptions::set},     ListField{"pin", &PlanOptions::pin},
     ListField{"limit", &PlanOptions::limit}, ListField{"forbid", &PlanOptions::forbid},
     ListField{"order", &PlanOptions::order}, ListField{"tapped", &PlanOptions::tapped},
+    ListField{"draw", &PlanOptions::draw},
 };
 
 constexpr std::array kFields = {

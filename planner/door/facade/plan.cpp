@@ -47,7 +47,8 @@ class Work {
 
 /// The forms of the plan; one that cannot be made is an error among the diagnostics. A tool table goes with
 /// its program.
-std::vector<service::Output> forms_of(const service::Planned& planned, bool sections, Job& job) {
+std::vector<service::Output> forms_of(const service::Planned& planned, const service::Writing& how,
+                                      Job& job) {
   const model::Plan& plan = planned.plan;
   const bool runs = !plan.steps.empty() && !planned.open;  // what is left open has no program yet
   std::vector<service::Output> out;
@@ -58,9 +59,8 @@ std::vector<service::Output> forms_of(const service::Planned& planned, bool sect
     if (f.of_program() && (!runs || !f.is_read_by(plan.machine.control.dialect))) continue;
     if (without.count(f.control) != 0) continue;
     // Of a report that the check has a say in, `judge` makes the only one.
-    auto written = f.holds == service::Holds::kReport && !planned.open
-                       ? service::Written{}
-                       : service::write(plan, f, job, {.sections = sections});
+    auto written = f.holds == service::Holds::kReport && !planned.open ? service::Written{}
+                                                                       : service::write(plan, f, job, how);
     if (written) {
       out.push_back({f.holds == service::Holds::kProgram ? "program" : std::string(f.name), &f,
                      std::move(written->bytes), written->losses});
@@ -95,7 +95,7 @@ void finish(const service::Request& request, const service::Planned& planned, Pl
   out.late = planned.late;
   out.steps = plan.steps.size();
   out.unplanned = plan.unplanned.size();
-  auto made = forms_of(planned, request.sections, job);
+  auto made = forms_of(planned, service::writing_of(request), job);
   service::Verdict verdict;
   if (!planned.open) {
     if (auto judged = service::judge(request, planned, made, job)) {

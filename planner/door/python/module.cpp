@@ -120,6 +120,7 @@ void bind_options(py::module_& m) {
   CAPSTAN_FIELD(shop);
   CAPSTAN_FIELD(without);
   CAPSTAN_FIELD(tapped);
+  CAPSTAN_FIELD(draw);
   CAPSTAN_FIELD(body);
   CAPSTAN_FIELD(features_only);
   CAPSTAN_FIELD(axis_limits);

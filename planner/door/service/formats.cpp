@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/door/report/picture/picture.h"
 #include "planner/door/service/edits/edits_file.h"
 #include "planner/door/service/ending/reporting.h"
+#include "planner/door/service/request.h"
 #include "planner/files/exchange/exchange.h"
 #include "planner/files/json/json.h"
 #include "planner/model/plan/edit/provenance.h"
@@ -50,6 +52,13 @@ Result<Written> report(const Format& /*f*/, const model::Plan& plan, Job& /*job*
   return Written{report_of(plan), 0};
 }
 
+template <auto draw>
+Result<Written> picture(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Writing& how) {
+  auto bytes = draw(plan, how.draw);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return Written{*std::move(bytes), 0};
+}
+
 Result<Written> edits(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Writing& /*how*/) {
   return Written{edits_text(model::edits_of(plan)), 0};
 }
@@ -78,11 +87,18 @@ std::vector<Format> table() {
         {table_name, "tool table", {table_ending}, table_media, Holds::kToolTable, false, d, &tool_table});
   }
   out.push_back({"report", "report", {".html"}, "text/html", Holds::kReport, false, nullptr, &report});
+  namespace drawn = report::picture;
+  out.push_back(
+      {"svg", "picture", {".svg"}, "image/svg+xml", Holds::kPicture, false, nullptr, &picture<drawn::svg>});
+  out.push_back(
+      {"png", "picture", {".png"}, "image/png", Holds::kPicture, false, nullptr, &picture<drawn::png>});
   out.push_back({"edits", "edits", {".yaml"}, "application/yaml", Holds::kEdits, false, nullptr, &edits});
   return out;
 }
 
 }  // namespace
+
+Writing writing_of(const Request& request) { return {.sections = request.sections, .draw = request.draw}; }
 
 std::span<const Format> formats() {
   static const std::vector<Format> kFormats = table();

@@ -15,7 +15,7 @@
 namespace capstan::service {
 
 /// The content of a file of a format.
-enum class Holds : std::uint8_t { kPlan, kProgram, kToolTable, kReport, kEdits };
+enum class Holds : std::uint8_t { kPlan, kProgram, kToolTable, kReport, kPicture, kEdits };
 
 /// Result of a writer.
 struct Written {
@@ -27,7 +27,11 @@ struct Written {
 struct Writing {
   std::vector<model::Condemnation> condemned = {};  ///< for programs only (controls/controls.h)
   bool sections = true;  ///< plans with the cross sections along their paths; the peak of each step stays
+  std::vector<std::string> draw = {};  ///< steps that pictures show (report/picture/picture.h); empty: all
 };
+struct Request;
+/// As the caller asks for it.
+[[nodiscard]] Writing writing_of(const Request& request);
 
 /// A file format of parts, plans, programs or reports: a row of `formats`.
 struct Format {

@@ -347,6 +347,11 @@ std::vector<Option> table() {
        both("sections: plans are written without the cross sections along paths; each step's peak stays"),
        [](Request& r, Text /*t*/) { return r.sections = false, std::string(); },
        {"sections"}},
+      {.name = "draw",
+       .help = both("of pictures (.svg, .png): the steps whose paths are drawn, by number or by a pattern of "
+                    "their names or their features', instead of all"),
+       .set = [](Request& r, Text t) { return r.draw.push_back(t), std::string(); },
+       .repeatable = true},
       {"profile",
        Value::kText,
        {nullptr, profile_help(), profile_help()},

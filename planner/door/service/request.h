@@ -50,6 +50,7 @@ struct Request {
   bool strict = false;                                ///< nothing is given when there is a finding
   bool allow_findings = false;                        ///< a program even when the check condemns it
   bool sections = true;                               ///< plans are written with their cross sections
+  std::vector<std::string> draw = {};                 ///< steps that pictures show; empty: all
   std::optional<std::string> may;                     ///< bind: what may be decided (late/changes.h)
   std::optional<std::size_t> next, from;              ///< bind: how many workingsteps, and from which on
   bool stop_at_deadline = false;                      ///< bind: what is not checked by then is given up

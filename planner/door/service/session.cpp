@@ -342,7 +342,7 @@ const std::string* Session::output(std::string_view name) {
         is_of_other_control(*format, bound_->plan))
       return end(Code::kImpossible, to_text(not_held(*format, bound_->plan)));
     Job job;
-    auto written = write(plan_for(*bound_, *format), *format, job, {.sections = request_.sections});
+    auto written = write(plan_for(*bound_, *format), *format, job, writing_of(request_));
     if (!written) return end(Code::kImpossible, to_text(written.error()));
     made = &outputs_.emplace(name, std::move(written->bytes)).first->second;
     return code_;

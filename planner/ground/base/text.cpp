@@ -79,6 +79,18 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
+std::string xml_text(std::string_view text) {
+  std::string out = xml_escaped(utf8_text(text));
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  for (const std::string_view none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
+    for (std::size_t at = out.find(none); at != std::string::npos; at = out.find(none, at))
+      out.replace(at, none.size(), "\xEF\xBF\xBD");
+  }
+  return out;
+}
+
 std::string mm_text(double value, int decimals) { return trimmed(value, decimals) + " mm"; }
 
 std::string deg_text(double rad, int decimals) {

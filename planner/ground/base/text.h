@@ -18,6 +18,9 @@ namespace capstan {
 
 /// The text as it stands in XML and HTML, in attributes too: with & < > " as entities.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
+/// Any bytes as `xml_escaped`, with what XML does not take replaced: control characters by blanks, bytes that
+/// are no UTF-8 by U+FFFD, as are U+FFFE and U+FFFF (XML 1.0, 2.2).
+[[nodiscard]] std::string xml_text(std::string_view text);
 
 /// A length with its unit: mm_text(1.5) == "1.5 mm". At most `decimals` decimals.
 [[nodiscard]] std::string mm_text(double value, int decimals = 3);

@@ -58,12 +58,13 @@ TEST(Formats, AnOutputsEndingTellsItsFormat) {
 }
 
 TEST(Formats, TextsForPeopleAreMadeOfTheTable) {
-  EXPECT_EQ(written_endings(),
-            ".p21, .stp, .stpnc, .238, .json, .ngc, .tbl, .nc, .mpf, .h, .gcode, .tap, .html or .yaml");
+  EXPECT_EQ(
+      written_endings(),
+      ".p21, .stp, .stpnc, .238, .json, .ngc, .tbl, .nc, .mpf, .h, .gcode, .tap, .html, .svg, .png or .yaml");
   EXPECT_EQ(written_text(),
             "ISO 14649 .p21 .stp, AP238 .stpnc .238, plan .json, program .ngc, tool table .tbl, program .nc, "
             "program .mpf, program .h, program .gcode, program .tap, "
-            "report .html, edits .yaml");
+            "report .html, picture .svg, picture .png, edits .yaml");
   EXPECT_EQ(endings_of(Holds::kProgram), ".ngc, .nc, .mpf, .h, .gcode, .tap");
   EXPECT_EQ(read_text(),
             "ISO 14649 or AP238 file (.p21 .stp .stpnc .238), plan JSON, "

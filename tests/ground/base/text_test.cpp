@@ -45,5 +45,10 @@ TEST(Text, IsEscapedWithWhatXmlReadsAsMarkup) {
   EXPECT_EQ(xml_escaped("a <b> & \"c\" 'd'"), "a &lt;b&gt; &amp; &quot;c&quot; 'd'");
 }
 
+TEST(Text, OfAnyBytesHasNothingThatXmlDoesNotTake) {
+  EXPECT_EQ(xml_text("a\x01<\n\xC3\x98\xD8"), "a &lt; \xC3\x98\xEF\xBF\xBD");
+  EXPECT_EQ(xml_text("\xEF\xBF\xBE|\xEF\xBF\xBF"), "\xEF\xBF\xBD|\xEF\xBF\xBD");
+}
+
 }  // namespace
 }  // namespace capstan

@@ -93,7 +93,7 @@ int finish(Session& s, const service::Planned& planned, std::vector<Output> outp
   using service::Reports;
   if (auto ok = service::make(plan, outputs, s.job, planned.part ? &*planned.part : nullptr,
                               planned.open ? Reports::kUnjudged : Reports::kLeftToJudge,
-                              {.sections = s.options.inputs.sections});
+                              service::writing_of(s.options.inputs));
       !ok)
     return s.end(ok.error(), kImpossible);
   // Open decisions have no path yet, so there is nothing to check.

@@ -214,7 +214,15 @@ class CommandLine {
   }
   /// Adds an option of the service to a command that is no verb of the service.
   void option(CLI::App* sub, std::string_view name, const char* help) {
-    sub->add_option("--" + std::string(name), raw_.of[service::find_option(name)->name], help);
+    const service::Option& o = *service::find_option(name);
+    const std::string flag = "--" + std::string(name);
+    if (o.repeatable) {
+      sub->add_option(flag, raw_.lists[o.name], std::string(help) + "; may be repeated")
+          ->expected(1)
+          ->take_all();
+    } else {
+      sub->add_option(flag, raw_.of[o.name], help);
+    }
   }
 
   void plan() {
@@ -271,6 +279,8 @@ class CommandLine {
     auto* convert = command(app_, "convert", "write a part or plan in another format", Command::kConvert);
     file(convert, "file", "part or plan");
     option(convert, "without", "sections: a plan without the cross sections along its paths");
+    option(convert, "draw",
+           "of pictures: the steps whose paths are drawn, by number or by a pattern, instead of all");
     option(convert, "mesh-unit", "what the numbers of an STL mesh are, which does not say: mm or inch");
     outputs(convert, true);
   }

@@ -95,7 +95,7 @@ int run_convert(Session& s) {
                                        service::mesh_unit(s.options.inputs.mesh_unit, "--mesh-unit"));
   if (!plan) return s.end(plan.error(), plan.error().code == "EXC-UNSUPPORTED" ? kUsage : kUnreadable);
   if (auto ok = service::make(*plan, *outputs, s.job, nullptr, service::Reports::kUnjudged,
-                              {.sections = s.options.inputs.sections});
+                              service::writing_of(s.options.inputs));
       !ok)
     return s.end(ok.error(), kImpossible);
   if (auto ok = service::write_all(*outputs, s.job); !ok) return s.end(ok.error(), kImpossible);
