@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "planner/door/report/loads_along.h"
+#include "planner/door/report/tool_use.h"
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/feature.h"
@@ -102,20 +103,7 @@ Json outline_of(const model::Cutter& c) {
 }
 
 Json tool_of(const model::Plan& plan, const model::Cutter& c) {
-  double least_z = 0.0, used_min = 0.0;
-  bool any = false;
-  for (const model::StepResult& s : plan.steps) {
-    if (s.cutter_id != c.id || s.path == nullptr || s.path->size() == 0) continue;
-    const double z = model::bounds(*s.path).lo.z;
-    least_z = any ? std::min(least_z, z) : z;
-    any = true;
-    used_min += s.cutting_s / 60.0;
-  }
-  double life = c.life_min;
-  for (const model::StepResult& s : plan.steps) {
-    if (s.cutter_id == c.id && s.loads.tool_life_min > 0.0)
-      life = life > 0.0 ? std::min(life, s.loads.tool_life_min) : s.loads.tool_life_min;
-  }
+  const ToolUse use = use_of(plan, c);
   Json holder = Json::array();
   for (const model::HolderSegment& h : c.holder)
     holder.push_back({h.height_mm, h.lower_diameter_mm, h.upper_diameter_mm});
@@ -134,10 +122,10 @@ Json tool_of(const model::Plan& plan, const model::Cutter& c) {
           {"holder", holder},
           {"holder_diameter", c.holder_diameter_mm},
           {"outline", outline_of(c)},
-          {"least_z", any ? Json(short_of(least_z, 7)) : Json()},
-          {"used_min", short_of(used_min)},
-          {"life_min", short_of(life)},
-          {"life_used_min", short_of(c.life_used_min)}};
+          {"least_z", use.least_z_mm ? Json(short_of(*use.least_z_mm, 7)) : Json()},
+          {"used_min", short_of(use.used_min)},
+          {"life_min", short_of(use.life_min)},
+          {"life_used_min", short_of(use.used_before_min)}};
 }
 
 Json path_of(const model::StepResult& step) {
@@ -196,10 +184,7 @@ Json step_of(const model::Plan& plan, std::size_t n, const std::string& id, cons
           {"fz", short_of(s.fz_mm)},
           {"rpm", short_of(s.spindle_rpm, 6)},
           {"feed", short_of(s.feed_mm_min, 6)},
-          {"coolant", s.through ? "through"
-                      : s.flood ? "flood"
-                      : s.mist  ? "mist"
-                                : "dry"},
+          {"coolant", coolant_text(s)},
           {"cutting_s", short_of(s.cutting_s, 6)},
           {"rapid_s", short_of(s.rapid_s, 6)},
           {"held_by", held},

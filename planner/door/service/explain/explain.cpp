@@ -5,9 +5,11 @@
 #include <map>
 #include <set>
 
+#include "planner/door/report/tool_use.h"
 #include "planner/door/service/explain/computed.h"
 #include "planner/door/service/explain/origins.h"
 #include "planner/door/service/explain/step_view.h"
+#include "planner/door/service/explain/tables.h"
 #include "planner/door/service/explain/values.h"
 #include "planner/ground/base/number.h"
 #include "planner/making/step/record/expected_by_cases.h"
@@ -274,8 +276,8 @@ std::string feature_name(const Plan& plan, AnyRef feature) {
 }
 
 void step_table(const Plan& plan, const std::vector<StepView>& views, std::string& out) {
-  Rows rows = {
-      {"n", "step", "feature", "operation", "T", "tool", "ap mm", "ae mm", "1/min", "mm/min", "time"}};
+  Rows rows = {{"n", "step", "feature", "operation", "T", "tool", "ap mm", "ae mm", "vc m/min", "1/min",
+                "fz mm", "mm/min", "coolant", "time"}};
   const bool by_cases = has_step_times(plan);
   if (by_cases) rows.front().emplace_back("by cases");
   for (const StepView& v : views) {
@@ -286,8 +288,10 @@ void step_table(const Plan& plan, const std::vector<StepView>& views, std::strin
                     v.operation.set() ? std::string(model::noun_type(v.operation.type).keyword) : "-",
                     c != nullptr && c->pocket > 0 ? std::to_string(c->pocket) : "-",
                     cutter_text(plan, r.cutter_id), mm(r.axial_depth_mm), mm(r.radial_depth_mm),
-                    speed_text(r.spindle_rpm), r.feed_mm_min > 0.0 ? trimmed(r.feed_mm_min, 0) : "-",
-                    duration(r.cutting_s + r.rapid_s)});
+                    r.vc_m_min > 0.0 ? trimmed(r.vc_m_min, 0) : "-", speed_text(r.spindle_rpm),
+                    r.fz_mm > 0.0 ? trimmed(r.fz_mm, 4) : "-",
+                    r.feed_mm_min > 0.0 ? trimmed(r.feed_mm_min, 0) : "-",
+                    std::string(report::coolant_text(r)), duration(r.cutting_s + r.rapid_s)});
     if (by_cases) rows.back().push_back(told_of_step(plan, step::time_row_of(v.id), "-"));
   }
   if (rows.size() > 1) {
@@ -366,8 +370,10 @@ std::string explain(const Plan& plan) {
   std::string out;
   overview_head(plan, out);
   out += origins_text(plan);
+  out += setups_text(plan);
   const auto views = views_of(plan);
   step_table(plan, views, out);
+  out += tools_text(plan);
   if (!plan.unplanned.empty()) {
     out += "\nNot planned\n";
     for (const auto& u : plan.unplanned) out += "  " + label(plan.model, u.feature) + ": " + u.reason + "\n";

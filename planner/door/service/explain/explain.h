@@ -10,8 +10,8 @@
 
 namespace capstan::service {
 
-/// The plan as a whole: inputs and defaults, set-ups, a line per step, what is unplanned and why, what is
-/// still open. Text for people; same plan, same bytes.
+/// The plan as a whole: inputs and defaults, set-ups, a line per step and per tool, what is unplanned and
+/// why, what is still open. Text for people; same plan, same bytes.
 [[nodiscard]] std::string explain(const model::Plan& plan);
 
 /// What the plan leaves open, each in a few words: "feedrate of MILLING_TECHNOLOGY 'x', step 'y'"; of a part
