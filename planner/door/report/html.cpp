@@ -15,8 +15,8 @@ std::span<const std::string_view> embedded_names();
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kScripts = {"base.js", "path.js",   "stock.js",  "flat.js",
-                                                      "view.js", "charts.js", "tables.js", "main.js"};
+constexpr std::array<std::string_view, 9> kScripts = {
+    "base.js", "path.js", "stock.js", "flat.js", "view.js", "charts.js", "tables.js", "sheets.js", "main.js"};
 
 /// The file whose name ends so; empty when it was not there to compile in.
 std::string_view ending(std::string_view end) {

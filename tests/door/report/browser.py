@@ -53,6 +53,14 @@ class Browser:
     def pdf(self):
         return base64.b64decode(self.post('/print', {'background': True}))
 
+    def as_printed(self):
+        """The page on the screen as on paper: with the style of print, and what is made before printing."""
+        self.post('/goog/cdp/execute', {'cmd': 'Emulation.setEmulatedMedia', 'params': {'media': 'print'}})
+        self.run('window.dispatchEvent(new Event("beforeprint"))')
+
+    def as_on_screen(self):
+        self.post('/goog/cdp/execute', {'cmd': 'Emulation.setEmulatedMedia', 'params': {'media': ''}})
+
     def said(self):
         """What the page wrote to its console, and failed to load."""
         return [entry['message'] for entry in self.post('/se/log', {'type': 'browser'}) if entry['level'] == 'SEVERE']

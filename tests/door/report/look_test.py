@@ -3,8 +3,9 @@
 
     look_test.py CAPSTAN EXAMPLES SCRATCH     plans the examples and opens their reports; screenshots stay in SCRATCH
 
-Ends with 77 where there is no chromium, chromedriver or pdftotext.
+Ends with 77 where there is no chromium, chromedriver, pdftotext or pdftoppm.
 """
+import html
 import json
 import pathlib
 import re
@@ -32,6 +33,54 @@ let sum = 0;
 for (let i = 0; i < d.length; i += 4) { const v = d[i] * 65536 + d[i + 1] * 256 + d[i + 2]; seen.add(v); sum = (sum * 31 + v) % 1000000007; }
 return [seen.size, sum];
 '''
+
+
+# Pairs of headings, rows, lists, pictures and paragraphs that lie on each other.
+COVERED = '''
+const shown = [...document.querySelectorAll('h1, h2, h3, h4, p, tr, dl, figcaption, canvas, svg:not(.tool)')]
+  .map(e => [e, e.getBoundingClientRect()]).filter(([, b]) => b.width > 0 && b.height > 0);
+const out = [];
+for (const [a, p] of shown) for (const [b, q] of shown) {
+  if (a === b || a.contains(b) || b.contains(a)) continue;
+  const wide = Math.min(p.right, q.right) - Math.max(p.left, q.left), high = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+  if (wide > 1 && high > 1) out.push([a, b].map(e => e.nodeName + ' ' + e.textContent.slice(0, 40)).join(' / '));
+}
+return [shown.length, out];
+'''
+
+# Of the text that a sheet is pinned to the machine for.
+SHEETS = '''
+return [...document.querySelectorAll('.sheet')].map(s => ({
+  pictures: [...s.querySelectorAll('canvas, figure svg')].map(e => e.getBoundingClientRect()).filter(b => b.width > 100 && b.height > 60).length,
+  text: s.innerText, tables: [...s.querySelectorAll('table')].map(t => [...t.tBodies[0].rows].map(r => r.innerText))}));
+'''
+
+
+class Page:
+    """A page of a PDF in grey, and its words in points."""
+
+    def __init__(self, picture, width, height):
+        self.wide, self.high = width, height
+        kind, size, _, self.pixels = picture.split(b'\n', 3)
+        assert kind == b'P5'
+        self.columns, self.rows = map(int, size.split())
+
+    def contrast(self, box):
+        """Between the darkest and the lightest pixel of a box."""
+        x0, y0, x1, y1 = (round(v * self.columns / self.wide) if i % 2 == 0 else round(v * self.rows / self.high) for i, v in enumerate(box))
+        seen = b''.join(self.pixels[y * self.columns + max(0, x0):y * self.columns + x1 + 1] for y in range(max(0, y0), min(self.rows, y1 + 1)))
+        return max(seen) - min(seen) if seen else 0
+
+
+def pages_of(pdf):
+    """Pages with their words, as they look."""
+    boxes = subprocess.run(['pdftotext', '-bbox', pdf, '-'], capture_output=True, text=True, check=True).stdout
+    for n, page in enumerate(boxes.split('<page ')[1:], 1):
+        width, height = (float(v) for v in re.search(r'width="([0-9.]+)" height="([0-9.]+)"', page).groups())
+        picture = subprocess.run(['pdftoppm', '-gray', '-r', '100', '-f', str(n), '-l', str(n), pdf], capture_output=True, check=True).stdout
+        words = [(html.unescape(w[4]), tuple(float(v) for v in w[:4])) for w in
+                 re.findall(r'<word xMin="([0-9.-]+)" yMin="([0-9.-]+)" xMax="([0-9.-]+)" yMax="([0-9.-]+)">(.*?)</word>', page)]
+        yield Page(picture, width, height), words
 
 
 def planned(part, out, options, program='.ngc'):
@@ -109,6 +158,42 @@ class Report(unittest.TestCase):
         for step in plan['steps']:
             for word in step['id'].split():
                 self.assertIn(word, text)
+
+    def test_prints_nothing_over_anything_else(self):
+        for name in PARTS:
+            with self.subTest(name):
+                self.opened(name, 720)
+                self.window.as_printed()
+                number, covered = self.window.run(COVERED)
+                self.window.as_on_screen()
+                self.assertGreater(number, 10)
+                self.assertEqual(covered, [])
+                # What a picture lies on is in the PDF, and is not seen.
+                file = SCRATCH / f'{name}.pdf'
+                file.write_bytes(self.window.pdf())
+                pages = list(pages_of(file))
+                self.assertGreater(sum(len(words) for _, words in pages), 50)
+                self.assertEqual([word for page, words in pages for word, box in words if page.contrast(box) < 60], [])
+
+    def test_prints_a_sheet_to_pin_to_the_machine_for_each_setup(self):
+        for name in PARTS:
+            with self.subTest(name):
+                plan = self.opened(name, 720)
+                self.window.as_printed()
+                sheets = self.window.run(SHEETS)
+                self.window.as_on_screen()
+                self.assertEqual(len(sheets), len(plan['setups']))
+                for n, sheet in enumerate(sheets):
+                    data = self.window.run('return DATA.setups[arguments[0]]', n)
+                    steps = [s for s in plan['steps'] if s['setup'] == n]
+                    self.assertGreaterEqual(sheet['pictures'], 1)
+                    self.assertIn(data['holding']['pickup_text'] or '-', sheet['text'])
+                    self.assertIn(data['zero'], sheet['text'])
+                    tools, operations = sheet['tables']
+                    self.assertEqual(len(tools), len({s['cutter_id'] for s in steps}))
+                    self.assertEqual(len(operations), len(steps))
+                    for step, row in zip(steps, operations, strict=True):
+                        self.assertIn(step['id'], row)
 
     def test_cuts_the_stock_as_the_scrubber_moves(self):
         self.opened('pocket')
@@ -211,8 +296,8 @@ class Report(unittest.TestCase):
 
 if __name__ == '__main__':
     CAPSTAN, EXAMPLES, SCRATCH = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]).resolve()
-    if not (browser.DRIVER and browser.BROWSER and shutil.which('pdftotext')):
-        print('skipped: chromium, chromedriver or pdftotext is not here')
+    if not (browser.DRIVER and browser.BROWSER and shutil.which('pdftotext') and shutil.which('pdftoppm')):
+        print('skipped: chromium, chromedriver, pdftotext or pdftoppm is not here')
         sys.exit(77)
     (SCRATCH / 'again').mkdir(parents=True, exist_ok=True)
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -13,8 +13,11 @@ function pieceBox(setup) {
 }
 function flatBounds(setup, steps) {
   const [lo, hi] = pieceBox(setup), b = [lo[0], lo[1], hi[0], hi[1]];
+  // Of a fixture so much as lies near the piece: a bed is many times as long.
+  const far = 0.5 * Math.max(b[2] - b[0], b[3] - b[1]), near = (v, k) => Math.max(b[k] - far, Math.min(b[k + 2] + far, v));
+  const fixed = setup.holding.solids.flatMap(s => s.outline.map(([x, y]) => [near(x, 0), near(y, 1)]));
   const take = (x, y) => { b[0] = Math.min(b[0], x); b[1] = Math.min(b[1], y); b[2] = Math.max(b[2], x); b[3] = Math.max(b[3], y); };
-  for (const s of setup.holding.solids) for (const [x, y] of s.outline) take(x, y);
+  for (const [x, y] of fixed) take(x, y);
   for (const step of steps) { const p = pointsOf(step); p.x.forEach((x, i) => take(x, p.y[i])); }
   take(0, 0);
   return b;

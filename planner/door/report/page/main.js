@@ -57,7 +57,7 @@ function shown() {
 
 by('about').append(...aboutList());
 by('findings').append(...findingsList(pick));
-by('operations').append(operationsTable(pick));
+by('operations').append(operationsTable(DATA.steps.map((s, i) => i), pick));
 by('times').append(gantt(pick));
 by('loads').append(el('div', {id: 'charts'}));
 by('setups').append(...DATA.setups.map(setupFigure));

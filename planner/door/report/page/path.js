@@ -37,6 +37,8 @@ function pointsOf(step) {
   return out;
 }
 
+function lastPoint(i) { return pointsOf(DATA.steps[i]).x.length - 1; }
+
 // The largest value of a load's column per move.
 function byMove(step, column) {
   const out = new Map(), loads = step.loads;

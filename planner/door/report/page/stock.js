@@ -30,7 +30,7 @@ class Stock {
     const d = this.done;
     if (step < d.step || (step === d.step && point < d.point)) this.reset();
     for (let s = this.done.step; s <= step && s < DATA.steps.length; ++s) {
-      const last = s === step ? point : pointsOf(DATA.steps[s]).x.length - 1;
+      const last = s === step ? point : lastPoint(s);
       this.cut(s, s === this.done.step ? this.done.point : 0, last);
     }
     this.done = {step, point};

@@ -27,15 +27,16 @@ function findingsList(pick) {
   return out.length ? out : [el('p', {}, 'None.')];
 }
 
-function operationsTable(pick) {
+// rows: indices of steps. Without `pick` it is for paper.
+function operationsTable(rows, pick) {
   const longest = most(DATA.steps.map(stepTime), 1e-9);
   const bar = s => el('span', {class: 'timebar', style: 'width:' + number(100 * stepTime(s) / longest, 1) + '%'});
-  return table([['', true, (s, i) => i + 1], ['step', false, s => s.id], ['feature', false, s => s.feature], ['operation', false, s => plain(s.operation)],
+  return table([['', true, s => DATA.steps.indexOf(s) + 1], ['step', false, s => s.id], ['feature', false, s => s.feature], ['operation', false, s => plain(s.operation)],
     ['tool', false, s => toolName(toolOf(s))], ['D', true, s => (toolOf(s) ? number(toolOf(s).diameter, 3) : '-')],
     ['ap', true, s => positive(s.ap, 3)], ['ae', true, s => positive(s.ae, 3)], ['vc m/min', true, s => positive(s.vc, 0)], ['1/min', true, s => number(s.rpm, 0)],
     ['fz mm', true, s => positive(s.fz, 4)], ['mm/min', true, s => positive(s.feed, 0)], ['coolant', false, s => s.coolant],
-    ['time', true, s => el('span', {}, duration(stepTime(s)), bar(s))]], DATA.steps,
-    (s, i) => ({class: 'step', 'data-step': i, tabindex: 0, onclick: () => pick(i), onkeydown: e => { if (e.key === 'Enter') pick(i); }}));
+    ['time', true, s => el('span', {}, duration(stepTime(s)), bar(s))]], rows.map(i => DATA.steps[i]),
+    (s, k) => (pick ? {class: 'step', 'data-step': rows[k], tabindex: 0, onclick: () => pick(rows[k]), onkeydown: e => { if (e.key === 'Enter') pick(rows[k]); }} : {}));
 }
 
 // The tool with its holder, standing on its tip.
@@ -52,22 +53,28 @@ function toolPicture(tool) {
   root.append(solid(tool.outline.concat([[r, Math.max(flutes, tool.outline[tool.outline.length - 1][1])]]), '#d9a441'));
   return root;
 }
-function toolsTable() {
+function toolsTable(tools = DATA.tools) {
   const left = t => (t.life_min > 0 ? number(t.life_used_min + t.used_min, 2) + ' of ' + number(t.life_min, 1) + ' min' : number(t.used_min, 2) + ' min');
   return table([['', false, toolPicture], ['T', true, t => t.number], ['tool', false, t => t.id], ['class', false, t => t.class + ', ' + t.material],
     ['D mm', true, t => number(t.diameter, 3)], ['R mm', true, t => positive(t.corner, 3)], ['teeth', true, t => positive(t.teeth, 0)],
     ['flutes mm', true, t => positive(t.flutes, 2)], ['stick-out mm', true, t => positive(t.out, 2)], ['length mm', true, t => positive(t.length, 3)],
-    ['least Z', true, t => (t.least_z === null ? '-' : number(t.least_z, 3))], ['edge used, of its life', true, left]], DATA.tools);
+    ['least Z', true, t => (t.least_z === null ? '-' : number(t.least_z, 3))], ['edge used, of its life', true, left]], tools);
 }
 
-function setupFigure(setup, n) {
-  const steps = DATA.steps.map((step, i) => ({step, i})).filter(s => s.step.setup === n);
-  const hold = setup.holding, rows = [['zero', setup.offset + (setup.zero ? ': ' + setup.zero : '')], ['lies', setup.up + ' up, ' + setup.right + ' to the right' + (setup.turn ? '; ' + setup.turn : '')],
+function stepsOf(setup) { return DATA.steps.map((s, i) => i).filter(i => DATA.steps[i].setup === setup); }
+function setupList(setup, n) {
+  const steps = stepsOf(n), hold = setup.holding, rows = [['zero', setup.offset + (setup.zero ? ': ' + setup.zero : '')], ['lies', setup.up + ' up, ' + setup.right + ' to the right' + (setup.turn ? '; ' + setup.turn : '')],
     ['pick-up', hold.pickup_text || '-'], ['held by', hold.id ? hold.id + (hold.text ? ', ' + hold.text : '') : 'not stated: fixtures and clamps are not checked'],
     ['security plane', 'Z ' + number(setup.security, 3)], ['steps', String(steps.length)],
-    ['least Z', number(least(steps.map(s => (s.step.path ? least(s.step.path.z) : Infinity))) / 1000, 3)]];
-  return el('div', {class: 'flat'}, el('div', {}, el('h3', {}, 'Set-up ' + (n + 1)), el('dl', {}, ...rows.flatMap(([a, b]) => [el('dt', {}, a), el('dd', {}, b)]))),
-    el('figure', {}, flatView(setup, steps.map(s => ({step: s.step, colour: css(stepColour(s.i)), upTo: Infinity})), 'set-up ' + (n + 1)), el('figcaption', {}, 'from above; rapids dashed')));
+    ['least Z', number(least(steps.map(i => (DATA.steps[i].path ? least(DATA.steps[i].path.z) : Infinity))) / 1000, 3)]];
+  return el('dl', {}, ...rows.flatMap(([a, b]) => [el('dt', {}, a), el('dd', {}, b)]));
+}
+function setupDrawing(setup, n) {
+  const steps = stepsOf(n).map(i => ({step: DATA.steps[i], colour: css(stepColour(i)), upTo: Infinity}));
+  return el('figure', {}, flatView(setup, steps, 'set-up ' + (n + 1)), el('figcaption', {}, 'from above; rapids dashed'));
+}
+function setupFigure(setup, n) {
+  return el('div', {class: 'flat'}, el('div', {}, el('h3', {}, 'Set-up ' + (n + 1)), setupList(setup, n)), setupDrawing(setup, n));
 }
 
 function decisionsList() {

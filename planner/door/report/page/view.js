@@ -1,6 +1,7 @@
 'use strict';
 // The view in three dimensions, in the set-up's frame, by three.js; flat where the page has no three.js or the browser no
 // WebGL. One view shows one set-up: a step of it, or all of them.
+const BACK = 0xf4f6f8;
 class View {
   constructor(host) {
     this.host = host;
@@ -15,7 +16,7 @@ class View {
     this.flat = false;
     THREE.Object3D.DefaultUp.set(0, 0, 1);
     this.scene = new THREE.Scene();
-    this.scene.background = new THREE.Color(0xf4f6f8);
+    this.scene.background = new THREE.Color(BACK);
     this.camera = new THREE.PerspectiveCamera(35, 1, 1, 10000);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener('change', () => this.draw());
@@ -32,15 +33,38 @@ class View {
   size() {
     const w = Math.max(this.host.clientWidth, 50), h = Math.max(this.host.clientHeight, 50);
     this.renderer.setPixelRatio(window.devicePixelRatio || 1);
-    this.renderer.setSize(w, h);
+    this.renderer.setSize(w, h, false);  // the style sheet says how large it stands on the page
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.draw();
+  }
+  // A set-up as a picture, with the stock as it is after a step (-1: raw); what is shown stays.
+  picture(n, after, w, h) {
+    const shown = this.shown, canvas = this.renderer.domElement;
+    this.lay(n);
+    if (this.paths) this.scene.remove(this.paths);
+    if (this.cutter) this.scene.remove(this.cutter);
+    if (after < 0) this.stock.reset();
+    else this.stock.cutTo(after, lastPoint(after));
+    this.mesh({setup: n, stock: true});
+    this.scene.background.set(0xffffff);
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(w, h, false);
+    this.camera.aspect = w / h;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+    const out = el('canvas', {width: w, height: h, role: 'img'});
+    out.getContext('2d').drawImage(canvas, 0, 0, w, h);
+    this.scene.background.set(BACK);
+    this.setup = undefined;
+    if (shown) this.show(shown);
+    return out;
   }
   draw() { if (!this.flat) this.renderer.render(this.scene, this.camera); }
 
   // state: {setup, steps: [indices], step, point, colour, stock, rapids}
   show(state) {
+    this.shown = state;
     if (this.flat) {
       const steps = state.steps.map(i => ({step: DATA.steps[i], colour: css(stepColour(i)), upTo: i === state.step ? state.point : Infinity}));
       drop(this.host).append(flatView(DATA.setups[state.setup], steps, 'set-up ' + (state.setup + 1) + ' from above'));
