@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "planner/files/exchange/brep/message.h"
-#include "planner/files/exchange/brep/process.h"
 #include "planner/files/exchange/brep/read_pmi.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/loading/beside.h"
+#include "planner/ground/base/loading/process.h"
 #include "planner/ground/base/number.h"
 
 namespace capstan::exchange {

@@ -34,7 +34,7 @@ struct BrepLimits {
 ///
 /// Fails   FILE-READ, FILE-TOO-LARGE, P21-…; of the content as helper/read_shape.h says; of the cost:
 ///         BREP-LIMIT (faces, output), BREP-TIME, BREP-MEMORY; of the helper: BREP-HELPER (not there, not to
-///         be started), BREP-CRASH, BREP-MESSAGE, BREP-PROCESS; BREP-STOPPED.
+///         be started), BREP-CRASH, BREP-MESSAGE, PROCESS-START; BREP-STOPPED.
 [[nodiscard]] Result<Brep> read_brep(const std::string& path, const BrepLimits& limits, Job& job);
 /// The same from bytes; `name` is the file's name in diagnostics.
 [[nodiscard]] Result<Brep> read_brep_bytes(std::string bytes, const std::string& name,

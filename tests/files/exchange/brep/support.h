@@ -11,6 +11,7 @@
 #include "planner/files/exchange/brep/message.h"
 #include "planner/files/exchange/brep/read_brep.h"
 #include "tests/support/corpus.h"
+#include "tests/support/processes/children.h"
 
 namespace capstan::exchange::testing {
 
@@ -29,13 +30,7 @@ inline std::string script(const capstan::testing::ScratchFolder& folder, const s
   return path;
 }
 
-/// Children of this process that live or wait to be looked at.
-inline std::size_t children() {
-  std::ifstream list("/proc/thread-self/children");
-  std::size_t n = 0;
-  for (std::string pid; list >> pid;) ++n;
-  return n;
-}
+using capstan::testing::children;
 
 /// A message with something in each field, its sizes chosen by `random`.
 inline BrepMessage some_message(std::mt19937& random) {

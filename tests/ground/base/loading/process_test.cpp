@@ -1,4 +1,4 @@
-#include "planner/files/exchange/brep/process.h"
+#include "planner/ground/base/loading/process.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,14 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
-#include "tests/files/exchange/brep/support.h"
+#include "tests/support/corpus.h"
+#include "tests/support/processes/children.h"
 
-namespace capstan::exchange {
+namespace capstan {
 namespace {
 
 using namespace std::chrono_literals;
@@ -132,4 +135,4 @@ TEST(Process, DiesWithItsCaller) {
 }
 
 }  // namespace
-}  // namespace capstan::exchange
+}  // namespace capstan

@@ -1,4 +1,4 @@
-#include "planner/files/exchange/brep/process.h"
+#include "planner/ground/base/loading/process.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -17,7 +17,7 @@
 
 #include "planner/ground/base/stopping.h"
 
-namespace capstan::exchange {
+namespace capstan {
 namespace {
 
 using std::chrono::milliseconds;
@@ -113,7 +113,8 @@ ProcessEnd await(pid_t child, const ProcessLimits& limits, const Job& job) {
   for (;;) {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child) break;
-    // Somebody else waited for it, or the system does where SIGCHLD is ignored: what it wrote tells how it ended.
+    // Somebody else waited for it, or the system does where SIGCHLD is ignored: what it wrote tells how it
+    // ended.
     if (ended < 0 && errno != EINTR) return out;
     const bool late = limits.wall.count() != 0 && steady_clock::now() - start > limits.wall;
     if (late || to_stop(job)) {
@@ -144,7 +145,7 @@ ProcessEnd await(pid_t child, const ProcessLimits& limits, const Job& job) {
 Result<ProcessEnd> run_process(const std::string& program, const std::vector<std::string>& arguments,
                                std::string_view input, const ProcessLimits& limits, const Job& job) {
   const auto impossible = [](const char* what) {
-    return fail("BREP-PROCESS", std::string(what) + ": " + std::strerror(errno));
+    return fail("PROCESS-START", std::string(what) + ": " + std::strerror(errno));
   };
   const MemoryFile in, out, error;
   if (in.fd() < 0 || out.fd() < 0 || error.fd() < 0) return impossible("no memory file can be had");
@@ -166,4 +167,4 @@ Result<ProcessEnd> run_process(const std::string& program, const std::vector<std
   return end;
 }
 
-}  // namespace capstan::exchange
+}  // namespace capstan

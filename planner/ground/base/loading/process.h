@@ -10,7 +10,7 @@
 #include "planner/ground/base/job.h"
 #include "planner/ground/base/result.h"
 
-namespace capstan::exchange {
+namespace capstan {
 
 /// What a program may take before it is ended. 0: no limit.
 struct ProcessLimits {
@@ -40,7 +40,7 @@ struct ProcessEnd {
 /// it is no more: killed and waited for. It dies with this process, too. It has no other file open.
 ///
 /// program    a path, not looked for.
-/// Fails      BREP-PROCESS: no process or no memory for its input can be had.
+/// Fails      PROCESS-START: no process or no memory for its input can be had.
 /// Cost       of waiting: at most 5 ms after its end.
 /// Threads    any; the program dies when the calling thread does.
 [[nodiscard]] Result<ProcessEnd> run_process(const std::string& program,
@@ -48,4 +48,4 @@ struct ProcessEnd {
                                              std::string_view input, const ProcessLimits& limits,
                                              const Job& job);
 
-}  // namespace capstan::exchange
+}  // namespace capstan
