@@ -20,6 +20,9 @@ struct Line {
   model::Finding finding;
 };
 
+/// What the file that was planned is called among the inputs.
+inline constexpr const char* kPart = "part";
+
 enum class Judged : std::uint8_t { kSafe, kNotSafe, kNotChecked };
 
 /// What is known of a plan beside the plan.
@@ -30,6 +33,8 @@ struct About {
   std::vector<Line> findings;                              ///< of the check
   std::vector<Diagnostic> told;                            ///< errors and warnings of reading and planning
   std::vector<std::pair<std::string, std::string>> marks;  ///< name and hash of what was planned and written
+  /// SHA-256 of files that the plan was made from: what the row of Plan::provenance calls it, or kPart.
+  std::vector<std::pair<std::string, std::string>> hashes;
   std::string program_name, program;  ///< its text, with a marker per workingstep; may be empty
   std::string explained;              ///< the decisions of the whole plan, text
   std::vector<std::string>

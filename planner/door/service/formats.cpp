@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/door/report/picture/picture.h"
+#include "planner/door/report/print.h"
 #include "planner/door/service/edits/edits_file.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/request.h"
@@ -59,6 +60,13 @@ Result<Written> picture(const Format& /*f*/, const model::Plan& plan, Job& /*job
   return Written{*std::move(bytes), 0};
 }
 
+/// The report, printed.
+Result<Written> sheet(const Format& /*f*/, const model::Plan& plan, Job& job, const Writing& /*how*/) {
+  auto pdf = report::printed(report_of(plan), job);
+  if (!pdf) return tl::unexpected(pdf.error());
+  return Written{*std::move(pdf), 0};
+}
+
 Result<Written> edits(const Format& /*f*/, const model::Plan& plan, Job& /*job*/, const Writing& /*how*/) {
   return Written{edits_text(model::edits_of(plan)), 0};
 }
@@ -87,6 +95,8 @@ std::vector<Format> table() {
         {table_name, "tool table", {table_ending}, table_media, Holds::kToolTable, false, d, &tool_table});
   }
   out.push_back({"report", "report", {".html"}, "text/html", Holds::kReport, false, nullptr, &report});
+  out.push_back(
+      {"sheet", "set-up sheet", {".pdf"}, "application/pdf", Holds::kReport, false, nullptr, &sheet, true});
   namespace drawn = report::picture;
   out.push_back(
       {"svg", "picture", {".svg"}, "image/svg+xml", Holds::kPicture, false, nullptr, &picture<drawn::svg>});

@@ -46,6 +46,7 @@ struct Format {
   /// Null: it is not written.
   Result<Written> (*write)(const Format& format, const model::Plan& plan, Job& job,
                            const Writing& how) = nullptr;
+  bool printed = false;  ///< of reports: the page as PDF, for which a browser must be there
 
   /// Whether a machine with this control reads such files.
   [[nodiscard]] bool is_read_by(std::string_view dialect) const {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "planner/door/report/print.h"
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/stopping.h"
 
@@ -33,7 +34,15 @@ Result<Output> output_of(const std::string& path) {
   if (path == "-") return Output{path, find_format("json"), {}, 0};
   const std::string ending = fs::path(path).extension().string();
   const Format* format = format_of_ending(ending);
-  if (format != nullptr && format->write != nullptr) return Output{path, format, {}, 0};
+  if (format != nullptr && format->write != nullptr) {
+    if (format->printed) {
+      if (auto browser = report::find_browser(); !browser) {
+        browser.error().file = path;
+        return tl::unexpected(browser.error());
+      }
+    }
+    return Output{path, format, {}, 0};
+  }
   if (format != nullptr)
     return fail({.code = "OUT-KIND",
                  .message = std::string(format->words) + " (" + ending + ") is read and not written",

@@ -21,7 +21,8 @@ struct Output {
 };
 
 /// The ending alone decides, so that a wrong name fails before any work.
-/// Fails  OUT-KIND: no ending, or one that is not supported (yet).
+/// Fails  OUT-KIND: no ending, or one that is not supported (yet); OUT-BROWSER: what would print it is not
+/// there.
 [[nodiscard]] Result<Output> output_of(const std::string& path);
 /// All of them.
 [[nodiscard]] Result<std::vector<Output>> outputs_of(const std::vector<std::string>& paths);

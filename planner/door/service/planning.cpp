@@ -6,10 +6,12 @@
 #include <set>
 #include <utility>
 
+#include "casebase/record/sha256.h"
 #include "planner/controls/suitability.h"
 #include "planner/door/late/late.h"
 #include "planner/door/late/measured_names.h"
 #include "planner/door/pipeline/cases/corrected_card.h"
+#include "planner/door/report/print.h"
 #include "planner/door/service/ending/reporting.h"
 #include "planner/door/service/reading.h"
 #include "planner/door/service/shop.h"
@@ -34,9 +36,8 @@ namespace {
 /// The row of provenance by which a plan says what a control may decide of it.
 constexpr std::string_view kMay = "may";
 
-Result<model::Plan> read(Source source, bool strict, Job& job) {
-  if (source.bytes) return read_plan(*std::move(source.bytes), source.name, job, strict);
-  return load_plan(source.name, job, strict);
+Result<std::string> bytes_of(Source source) {
+  return source.bytes ? Result<std::string>(*std::move(source.bytes)) : read_file(source.name);
 }
 
 /// Findings of each program among the outputs. One that was checked with its plan, and is the same to the
@@ -138,8 +139,9 @@ Outcome<Planned> to_its_end(const std::string& file, Job& job, Body body) {
 Outcome<Planned> plan(const Request& request, Source part, Job& job) {
   const std::string name = part.name;
   return to_its_end(name, job, [&]() -> Outcome<Planned> {
-    auto bytes = part.bytes ? Result<std::string>(*std::move(part.bytes)) : read_file(name);
+    auto bytes = bytes_of(std::move(part));
     if (!bytes) return failed(bytes.error(), code_of(bytes.error(), Code::kUnreadable));
+    const std::string hash = casebase::sha256(*bytes);
     const from_cad::Stated stated{
         {request.stock, request.stock_allowance_mm.value_or(0.0)}, request.tapped, request.sign + "tapped"};
     const auto unit = mesh_unit(request.mesh_unit, request.sign + "mesh-unit");
@@ -185,6 +187,7 @@ Outcome<Planned> plan(const Request& request, Source part, Job& job) {
     }
     Planned out{std::move(bound->plan), std::move(bound->findings), open};
     out.shape = std::move(read_part->shape);
+    out.brought_sha256 = hash;
     return out;
   });
 }
@@ -338,11 +341,16 @@ Outcome<Planned> bind(const Request& request, Source source, std::chrono::steady
                       Job& job) {
   const std::string name = source.name;
   return to_its_end(name, job, [&]() -> Outcome<Planned> {
-    auto read_part = read(std::move(source), request.strict, job);
+    auto bytes = bytes_of(std::move(source));
+    if (!bytes) return failed(bytes.error(), code_of(bytes.error(), Code::kUnreadable));
+    const std::string hash = casebase::sha256(*bytes);
+    auto read_part = read_plan(*std::move(bytes), name, job, request.strict);
     if (!read_part) return failed(read_part.error(), code_of(read_part.error(), Code::kUnreadable));
     auto inputs = gather(request, *read_part, job);
     if (!inputs) return failed(inputs.error(), code_of(inputs.error(), Code::kUnreadable));
-    return bound(request, *read_part, *std::move(inputs), began, job);
+    auto out = bound(request, *read_part, *std::move(inputs), began, job);
+    if (out) out->brought_sha256 = hash;
+    return out;
   });
 }
 
@@ -403,7 +411,15 @@ Result<Verdict> judged(const Request& request, const Planned& planned, std::vect
     if (f.finding.severity != Severity::kNote) ++v.count;
   }
   for (Output& o : outputs) {
-    if (o.format->holds == Holds::kReport) o.bytes = report_of(planned, v, outputs, job);
+    if (o.format->holds != Holds::kReport) continue;
+    o.bytes = report_of(request, planned, v, outputs, job);
+    if (!o.format->printed) continue;
+    auto pdf = report::printed(o.bytes, job);
+    if (!pdf) {
+      pdf.error().file = o.path;
+      return tl::unexpected(pdf.error());
+    }
+    o.bytes = *std::move(pdf);
   }
   poll();  // what a stopped check did not find is not allowed by --allow-findings
   return v;

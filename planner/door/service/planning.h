@@ -38,6 +38,7 @@ struct Planned {
   std::string changes = {};
   /// plan: the shape that the CAD file says the part is to have; the programs are held against it.
   std::shared_ptr<const verify::AskedShape> shape = nullptr;
+  std::string brought_sha256 = {};  ///< of the file that was planned or bound; empty: not known
 };
 
 /// The exit code of a fault: wrong usage for an unknown name, wherever it was given; kImpossible where the

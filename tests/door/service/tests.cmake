@@ -1,1 +1,1 @@
-capstan_test(service DEPENDS service transport)
+capstan_test(service DEPENDS service transport report)

@@ -1,6 +1,10 @@
 #include "planner/door/service/ending/reporting.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "casebase/planned.h"
@@ -8,6 +12,7 @@
 #include "planner/door/report/report.h"
 #include "planner/door/service/ending/last_line.h"
 #include "planner/door/service/explain/explain.h"
+#include "planner/ground/base/file.h"
 
 namespace capstan::service {
 namespace {
@@ -22,10 +27,25 @@ report::About explained(const model::Plan& plan) {
   return out;
 }
 
+/// Of the files among the inputs, under the names of their rows of provenance.
+void add_files(const Request& request, report::About& about) {
+  using Row = std::pair<std::string_view, const std::optional<std::string>*>;
+  for (const auto& [what, named] :
+       {Row{"machine", &request.machine}, Row{"tools", &request.tools}, Row{"material", &request.material},
+        Row{"rules", &request.rules}, Row{"workholding", &request.workholding}}) {
+    std::error_code ignored;
+    if (!*named || !std::filesystem::path(**named).has_extension() ||
+        !std::filesystem::is_regular_file(**named, ignored))
+      continue;  // a name of what is built in, or several
+    if (const auto bytes = read_file(**named))
+      about.hashes.emplace_back(std::string(what), casebase::sha256(*bytes));
+  }
+}
+
 }  // namespace
 
-std::string report_of(const Planned& planned, const Verdict& verdict, const std::vector<Output>& outputs,
-                      const Job& job) {
+std::string report_of(const Request& request, const Planned& planned, const Verdict& verdict,
+                      const std::vector<Output>& outputs, const Job& job) {
   const model::Plan& plan = planned.part ? *planned.part : planned.plan;
   report::About about = explained(plan);
   Ending end{.verb = Verb::kPlan,
@@ -48,6 +68,8 @@ std::string report_of(const Planned& planned, const Verdict& verdict, const std:
     about.program = program->bytes;
     about.marks.emplace_back("program", casebase::sha256(program->bytes));
   }
+  if (!planned.brought_sha256.empty()) about.hashes.emplace_back(report::kPart, planned.brought_sha256);
+  add_files(request, about);
   return report::html(plan, about);
 }
 
