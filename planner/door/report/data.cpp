@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "planner/door/report/loads_along.h"
+#include "planner/door/report/part.h"
 #include "planner/door/report/tool_use.h"
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/model/nouns/executable.h"
@@ -154,13 +155,15 @@ Json loads_of(const LoadsAlong& l) {
             {"power", shorts(l.power_w)},
             {"deflection", shorts(l.deflection_mm)}}},
           {"limits",
-           {{"force", short_of(l.force_limit_n)},
+           {{"feed", shorts(l.feed_limit_mm_min)},
+            {"force", short_of(l.force_limit_n)},
             {"torque", shorts(l.torque_limit_nm)},
             {"power", shorts(l.power_limit_w)},
             {"deflection", short_of(l.deflection_limit_mm)}}}};
 }
 
-Json step_of(const model::Plan& plan, std::size_t n, const std::string& id, const About& about) {
+Json step_of(const model::Plan& plan, std::size_t n, const std::string& id, const motion::StepShare& share,
+             const About& about) {
   const model::StepResult& s = plan.steps[n];
   const auto* ws = plan.model.get<model::MachiningWorkingstep>(s.step);
   std::string feature, operation;
@@ -187,17 +190,20 @@ Json step_of(const model::Plan& plan, std::size_t n, const std::string& id, cons
           {"coolant", coolant_text(s)},
           {"cutting_s", short_of(s.cutting_s, 6)},
           {"rapid_s", short_of(s.rapid_s, 6)},
+          {"tool_change_s", short_of(share.tool_change_s, 6)},
+          {"link_s", short_of(share.link_s, 6)},
+          {"spindle_s", short_of(share.spindle_s, 6)},
           {"held_by", held},
           {"path", path_of(s)},
           {"loads", loads_of(loads_along(plan, s))},
           {"explained", n < about.explained_steps.size() ? about.explained_steps[n] : std::string()}};
 }
 
-Json time_of(const model::Plan& plan) {
-  const auto t = motion::time_of(plan);
+Json time_of(const Result<motion::PlanTime>& t) {
   if (!t) return {};
   return {{"text", motion::text_of(*t)},
           {"total_s", short_of(t->total_s(), 7)},
+          {"steps_s", short_of(t->at_feed_s() + t->rapid_s, 7)},
           {"tool_change_s", short_of(t->tool_change_s, 7)},
           {"tool_changes", t->tool_changes},
           {"link_s", short_of(t->link_s, 7)},
@@ -225,13 +231,48 @@ Json lines_of(std::string_view text) {
   return out;
 }
 
+Json features_of(const model::Plan& plan) {
+  Json out = Json::array();
+  for (const FeatureSolids& f : feature_solids(plan)) {
+    Json solids = Json::array();
+    for (const FeatureSolids::Prism& p : f.prisms) {
+      Json outline = Json::array();
+      for (const geometry::Vec3 v : p.outline)
+        outline.push_back({short_of(v.x, 6), short_of(v.y, 6), short_of(v.z, 6)});
+      solids.push_back({{"outline", outline}, {"down", point(p.down)}});
+    }
+    out.push_back({{"id", f.id}, {"solids", solids}});
+  }
+  return out;
+}
+
+/// Runs of equal heights, [how many, micrometres], ...: most of a part is level.
+Json runs_of(const std::vector<float>& mm) {
+  Json out = Json::array();
+  for (std::size_t from = 0, to = 0; from < mm.size(); from = to) {
+    for (to = from; to < mm.size() && um(mm[to]) == um(mm[from]);) ++to;
+    out.push_back(to - from);
+    out.push_back(um(mm[from]));
+  }
+  return out;
+}
+Json heights_of(const PartHeights& part) {
+  return {{"nx", part.nx},
+          {"ny", part.ny},
+          {"top", runs_of(part.top)},
+          {"bottom", runs_of(part.bottom)},
+          {"beside", part.beside}};
+}
+
 Json whole(const model::Plan& plan, const About& about) {
   Json setups = Json::array(), tools = Json::array(), steps = Json::array(), findings = Json::array();
   Json marks = Json::array(), inputs = Json::array(), told = Json::array();
   for (std::size_t n = 0; n < plan.setups.size(); ++n) setups.push_back(setup_of(plan, n));
   for (const model::Cutter& c : plan.cutters) tools.push_back(tool_of(plan, c));
   const std::vector<std::string> ids = model::step_ids(plan);
-  for (std::size_t n = 0; n < plan.steps.size(); ++n) steps.push_back(step_of(plan, n, ids[n], about));
+  const auto time = motion::time_of(plan);
+  for (std::size_t n = 0; n < plan.steps.size(); ++n)
+    steps.push_back(step_of(plan, n, ids[n], time ? time->steps.at(n) : motion::StepShare{}, about));
   for (const Line& l : about.findings) findings.push_back(finding_of(l));
   for (const Diagnostic& d : about.told)
     told.push_back({{"severity", to_text(d.severity)},
@@ -240,8 +281,16 @@ Json whole(const model::Plan& plan, const About& about) {
                     {"place", d.path},
                     {"hint", d.hint}});
   for (const auto& [name, value] : about.marks) marks.push_back({name, value});
-  for (const model::Provenance& p : plan.provenance)
-    inputs.push_back({{"what", p.what}, {"value", p.value}, {"source", p.source}});
+  const auto input = [&](const std::string& what, const std::string& value, const std::string& source) {
+    const auto hash = std::find_if(about.hashes.begin(), about.hashes.end(),
+                                   [&](const auto& h) { return h.first == what; });
+    inputs.push_back({{"what", what},
+                      {"value", value},
+                      {"source", source},
+                      {"sha256", hash == about.hashes.end() ? std::string() : hash->second}});
+  };
+  input(kPart, plan.file_name, "named by the caller");
+  for (const model::Provenance& p : plan.provenance) input(p.what, p.value, p.source);
   return {{"file", plan.file_name},
           {"machine", plan.machine.id},
           {"material", plan.material.id},
@@ -251,11 +300,13 @@ Json whole(const model::Plan& plan, const About& about) {
             {"radius", plan.stock.cylinder_radius_mm ? Json(*plan.stock.cylinder_radius_mm) : Json()}}},
           {"marks", marks},
           {"inputs", inputs},
-          {"time", time_of(plan)},
+          {"time", time_of(time)},
           {"condemned", about.condemned},
           {"findings", findings},
           {"told", told},
           {"unplanned", unplanned_of(plan)},
+          {"features", features_of(plan)},
+          {"part", heights_of(part_heights(plan))},
           {"setups", setups},
           {"tools", tools},
           {"steps", steps},

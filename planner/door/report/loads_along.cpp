@@ -9,12 +9,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "planner/making/optimise/feeds/cut_loads.h"
 #include "planner/making/step/cut_samples.h"
 #include "planner/model/nouns/executable.h"
+#include "planner/model/plan/edit/provenance.h"
+#include "planner/model/plan/edit/restrictions.h"
+#include "planner/model/plan/edit/step_names.h"
 #include "planner/physics/mechanics/bending/beam.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
@@ -115,7 +119,8 @@ using Column = std::vector<double> LoadsAlong::*;
 constexpr std::array<Column, 7> kColumns = {
     &LoadsAlong::feed_mm_min, &LoadsAlong::depth_mm, &LoadsAlong::width_mm,     &LoadsAlong::force_n,
     &LoadsAlong::torque_nm,   &LoadsAlong::power_w,  &LoadsAlong::deflection_mm};
-constexpr std::array<Column, 2> kLimits = {&LoadsAlong::torque_limit_nm, &LoadsAlong::power_limit_w};
+constexpr std::array<Column, 3> kLimits = {&LoadsAlong::torque_limit_nm, &LoadsAlong::power_limit_w,
+                                           &LoadsAlong::feed_limit_mm_min};
 
 LoadsAlong thinned(LoadsAlong all) {
   if (all.move.size() <= kMostPlaces) return all;
@@ -158,6 +163,11 @@ LoadsAlong loads_along(const model::Plan& plan, const model::StepResult& step) {
   const auto* ws = plan.model.get<model::MachiningWorkingstep>(step.step);
   Loads loads(plan, step, *cutter, ws == nullptr || mechanics::is_milled(ws->its_operation.type, *cutter));
   const Spindle spindle(plan.machine);
+  const auto reach = motion::reach_along(path, plan.machine);
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const auto names = model::step_names(plan.model, step.step,
+                                       ws == nullptr ? model::AnyRef() : model::AnyRef(ws->its_feature));
+  const double allowed = model::limits_of(model::edits_of(plan), names).feed_mm_min.value_or(kAny);
   std::vector<double> before(path.size() + 1, 0.0);  // length of path before each move
   for (std::size_t i = 0; i < path.size(); ++i) before[i + 1] = before[i] + model::move_length(path, i);
   for (std::size_t i = 0; i < step.sections->size(); ++i) {
@@ -178,6 +188,10 @@ LoadsAlong loads_along(const model::Plan& plan, const model::StepResult& step) {
     out.deflection_mm.push_back(load.deflection_mm);
     out.torque_limit_nm.push_back(most.torque_nm);
     out.power_limit_w.push_back(most.power_w);
+    const double by_axes = reach ? (*reach)[m].most_mm_min : 0.0;
+    out.feed_limit_mm_min.push_back(by_axes > 0.0    ? std::min(by_axes, allowed)
+                                    : allowed < kAny ? allowed
+                                                     : 0.0);
   }
   return thinned(std::move(out));
 }

@@ -19,6 +19,9 @@ struct LoadsAlong {
   /// The spindle's at the speed there, 0 where it is not known; of a force what the holding resists, of the
   /// deflection what the tool's material does (0: not known).
   std::vector<double> torque_limit_nm, power_limit_w;
+  /// The most that the axes allow there, along arcs by their acceleration, and that the operator allows; 0:
+  /// not known.
+  std::vector<double> feed_limit_mm_min;
   double force_limit_n = 0.0, deflection_limit_mm = 0.0;
 };
 

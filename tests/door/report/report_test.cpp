@@ -9,6 +9,7 @@
 
 #include "planner/door/pipeline/pipeline.h"
 #include "planner/door/report/loads_along.h"
+#include "planner/model/plan/edit/provenance.h"
 #include "tests/support/corpus.h"
 #include "tests/support/shop.h"
 
@@ -86,6 +87,31 @@ TEST(Report, TakesAProgramLineByLine) {
   EXPECT_EQ(data_in(html(pocket(), about))["program"]["lines"], (nlohmann::json{"one", "", "three"}));
 }
 
+TEST(Report, NamesThePartAndTheHashesOfFilesAmongWhatItWasMadeFrom) {
+  About about;
+  about.hashes = {{kPart, "12ab"}, {"machine", "34cd"}};
+  const auto inputs = data_in(html(pocket(), about))["inputs"];
+  EXPECT_EQ(inputs[0]["what"], "part");
+  EXPECT_EQ(inputs[0]["value"], "part.p21");
+  EXPECT_EQ(inputs[0]["sha256"], "12ab");
+  for (const auto& row : inputs) {
+    const std::string expected = row["what"] == "part" ? "12ab" : row["what"] == "machine" ? "34cd" : "";
+    EXPECT_EQ(row["sha256"], expected) << row["what"];
+  }
+  EXPECT_EQ(inputs.size(), 1 + pocket().provenance.size());
+}
+
+TEST(Report, SharesOfTheStepsAddUpToTheTimeOfThePlan) {
+  const auto data = data_in(html(pocket(), {}));
+  double sum = 0.0;
+  for (const auto& s : data["steps"]) {
+    for (const char* of : {"cutting_s", "rapid_s", "tool_change_s", "link_s", "spindle_s"})
+      sum += s[of].get<double>();
+  }
+  EXPECT_GT(data["time"]["spindle_s"].get<double>(), 0.0);
+  EXPECT_NEAR(sum, data["time"]["total_s"].get<double>(), 0.01);
+}
+
 TEST(Report, OfNoStepsIsAPageToo) {
   const auto data = data_in(html(model::Plan(), {}));
   EXPECT_TRUE(data["steps"].empty());
@@ -105,6 +131,22 @@ TEST(LoadsAlong, ReachThePeaksOfThePlanAndNoMoreThanItsLimits) {
       EXPECT_LE(l.power_w[i] * l.margin, 1.01 * l.power_limit_w[i]);
     }
   }
+}
+
+TEST(LoadsAlong, FeedStaysBelowWhatAxesAndOperatorAllow) {
+  for (const model::StepResult& step : pocket().steps) {
+    const LoadsAlong l = loads_along(pocket(), step);
+    ASSERT_EQ(l.feed_limit_mm_min.size(), l.feed_mm_min.size());
+    for (std::size_t i = 0; i < l.move.size(); ++i) {
+      EXPECT_GT(l.feed_limit_mm_min[i], 0.0);
+      EXPECT_LE(l.feed_mm_min[i], 1.001 * l.feed_limit_mm_min[i]);
+    }
+  }
+  model::Plan limited = pocket();
+  limited.provenance.push_back(
+      model::provenance_of(*model::parse_edit(model::EditKind::kLimit, "feed<=77", "--limit")));
+  const LoadsAlong l = loads_along(limited, limited.steps[0]);
+  EXPECT_EQ(*std::max_element(l.feed_limit_mm_min.begin(), l.feed_limit_mm_min.end()), 77.0);
 }
 
 TEST(LoadsAlong, KeepTheLargestOfEachPieceWhenTheyAreThinned) {

@@ -28,7 +28,7 @@ function number(value, digits) {
 }
 function positive(value, digits) { return value > 0 ? number(value, digits) : '-'; }
 function duration(seconds) {
-  const minutes = Math.floor(seconds / 60), rest = seconds - 60 * minutes;
+  const tenths = Math.round(10 * seconds), minutes = Math.floor(tenths / 600), rest = (tenths - 600 * minutes) / 10;
   return (minutes ? minutes + ' min ' : '') + number(rest, 1) + ' s';
 }
 function plain(name) { return name.split('_').join(' ').toLowerCase(); }
@@ -38,13 +38,15 @@ function toolName(tool) { return tool === null ? '-' : 'T' + tool.number; }
 function stepTitle(step, i) { return (i + 1) + ' ' + step.id; }
 
 // A table whose columns are [title, is a number, cell of a row].
-function table(columns, rows, each) {
+// `foot`: rows of [words, text of the last column] below them.
+function table(columns, rows, each, foot = []) {
   const head = el('tr', {}, ...columns.map(c => el('th', {class: c[1] ? 'n' : null}, c[0])));
   const body = rows.map((row, i) => {
     const cells = columns.map(c => el('td', {class: c[1] ? 'n' : null}, c[2](row, i)));
     return el('tr', each ? each(row, i) : {}, ...cells);
   });
-  return el('div', {class: 'scroll'}, el('table', {}, el('thead', {}, head), el('tbody', {}, ...body)));
+  return el('div', {class: 'scroll'}, el('table', {}, el('thead', {}, head), el('tbody', {}, ...body),
+    ...(foot.length ? [el('tfoot', {}, ...foot.map(([words, last]) => el('tr', {}, el('td', {colspan: columns.length - 1}, words), el('td', {class: 'n'}, last))))] : [])));
 }
 
 // Blue to red over 0 to 1; what lies above is dark.

@@ -41,8 +41,8 @@ function flatPath(step, colour, upTo) {
   return out;
 }
 
-// steps: [{step, colour, upTo}]
-function flatView(setup, steps, title) {
+// steps: [{step, colour, upTo}]; feature: the one that is marked, or null
+function flatView(setup, steps, title, feature = null) {
   const b = flatBounds(setup, steps.map(s => s.step)), margin = 0.06 * Math.max(b[2] - b[0], b[3] - b[1], 1);
   const [lo, hi] = pieceBox(setup), size = Math.max(b[2] - b[0], b[3] - b[1]);
   const view = [b[0] - margin, -b[3] - margin, b[2] - b[0] + 2 * margin, b[3] - b[1] + 2 * margin].map(v => number(v, 3)).join(' ');
@@ -54,7 +54,13 @@ function flatView(setup, steps, title) {
   }
   root.append(svg('rect', {x: lo[0], y: -hi[1], width: hi[0] - lo[0], height: hi[1] - lo[1], fill: '#dbe4ee', 'fill-opacity': 0.8, stroke: '#6c7f94', ...hair}));
   for (const s of steps) root.append(...flatPath(s.step, s.colour, s.upTo));
+  if (feature !== null) {
+    const [o, ex, ey, ez] = setup.piece, at = p => [0, 1].map(k => o[k] + p[0] * ex[k] + p[1] * ey[k] + p[2] * ez[k]);
+    for (const s of featureOf(feature).solids) root.append(svg('polygon', {class: 'marked', points: s.outline.map(at).map(([x, y]) => number(x, 3) + ',' + number(-y, 3)).join(' '), fill: '#e4572e', 'fill-opacity': 0.45, stroke: '#e4572e', ...hair}));
+  }
   const a = 0.09 * size, arrow = (dx, dy, colour) => svg('line', {x1: 0, y1: 0, x2: dx, y2: dy, stroke: colour, 'stroke-width': 2, 'vector-effect': 'non-scaling-stroke'});
   root.append(arrow(a, 0, '#c0392b'), arrow(0, -a, '#2c8a4a'), svg('circle', {cx: 0, cy: 0, r: 0.012 * size, fill: '#1b1f24'}, svg('title', {}, 'zero ' + setup.offset)));
+  const high = 0.05 * Math.max(b[2] - b[0], b[3] - b[1]), words = {style: `font-size:${number(high, 3)}px;paint-order:stroke;stroke:#fff;stroke-width:${number(0.2 * high, 3)}px`};
+  root.append(svg('text', {...words, x: -0.3 * high, y: high, 'text-anchor': 'end'}, setup.offset), svg('text', {...words, x: a, y: 0.9 * high}, 'X'), svg('text', {...words, x: 0.2 * high, y: -a}, 'Y'));
   return root;
 }

@@ -10,10 +10,15 @@ function sheet(setup, n) {
 
 // As it is clamped, from above with the paths, and as it comes off. Flat alone where nothing draws in three dimensions.
 function sheetPictures(setup, n, steps) {
-  const out = [setupDrawing(setup, n)], picture = (after, title) => el('figure', {}, view.picture(n, after, 960, 720), el('figcaption', {}, title));
+  const out = [setupDrawing(setup, n)], picture = (after, title) => el('figure', {}, view.picture(n, after, 720, 540), el('figcaption', {}, title));
   if (view.flat || !steps.length) return out;
   return [picture(steps[0] - 1, 'as it is clamped'), ...out, picture(steps[steps.length - 1], 'as it comes off')];
 }
 
-function makeSheets() { drop(by('sheets')).append(...DATA.setups.map(sheet)); }
+// Once: what they show does not change. The stock of the pictures goes on from one to the next.
+function makeSheets() {
+  if (by('sheets').firstChild) return;
+  by('sheets').append(...DATA.setups.map(sheet));
+  view.restore();
+}
 window.addEventListener('beforeprint', makeSheets);

@@ -1,4 +1,22 @@
 'use strict';
+// The finished part as columns, as Stock has them: heights in runs of [how many, micrometres].
+class Part {
+  constructor() {
+    const p = DATA.part;
+    [this.lo, this.hi] = DATA.stock.box;
+    this.nx = p.nx; this.ny = p.ny;
+    this.top = Part.heights(p.top); this.bottom = Part.heights(p.bottom);
+  }
+  static heights(runs) {
+    const out = [];
+    for (let k = 0; k < runs.length; k += 2) for (let n = 0; n < runs[k]; ++n) out.push(runs[k + 1] / 1000);
+    return out;
+  }
+  x(i) { return this.lo[0] + (this.hi[0] - this.lo[0]) * i / (this.nx - 1); }
+  y(j) { return this.lo[1] + (this.hi[1] - this.lo[1]) * j / (this.ny - 1); }
+}
+function featureOf(id) { return DATA.features.find(f => f.id === id) || {id, solids: []}; }
+
 // The workpiece as columns, each with one piece of material from a lower to an upper height, in the workpiece's frame. A cut
 // from +Z lowers the upper height, one from -Z raises the lower. Set-ups that look along another axis leave it as it is.
 class Stock {

@@ -2,10 +2,11 @@
 // The view in three dimensions, in the set-up's frame, by three.js; flat where the page has no three.js or the browser no
 // WebGL. One view shows one set-up: a step of it, or all of them.
 const BACK = 0xf4f6f8;
+const CELLS = 220;  // columns of the stock, along the longer side
 class View {
   constructor(host) {
     this.host = host;
-    this.stock = new Stock(220);
+    this.stock = new Stock(CELLS);
     this.flat = true;
     if (typeof THREE === 'undefined') return;
     try {
@@ -19,7 +20,7 @@ class View {
     this.scene.background = new THREE.Color(BACK);
     this.camera = new THREE.PerspectiveCamera(35, 1, 1, 10000);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('change', () => { if (!this.laying) this.draw(); });
     this.scene.add(new THREE.AmbientLight(0xffffff, 0.55));
     for (const [x, y, z, power] of [[0.4, -0.7, 1, 0.55], [-0.8, 0.5, 0.6, 0.25]]) {
       const light = new THREE.DirectionalLight(0xffffff, power);
@@ -38,27 +39,31 @@ class View {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
-  // A set-up as a picture, with the stock as it is after a step (-1: raw); what is shown stays.
+  // A set-up as a picture, with the stock as it is after a step (-1: raw). Afterwards `restore`.
   picture(n, after, w, h) {
-    const shown = this.shown, canvas = this.renderer.domElement;
+    const out = el('canvas', {width: w, height: h, role: 'img'}), shown = this.stock;
+    for (const name of ['paths', 'cutter', 'marked']) this.put(name, null);
     this.lay(n);
-    if (this.paths) this.scene.remove(this.paths);
-    if (this.cutter) this.scene.remove(this.cutter);
-    if (after < 0) this.stock.reset();
-    else this.stock.cutTo(after, lastPoint(after));
+    if (!this.paper) this.paper = new Stock(CELLS);
+    if (after >= 0) this.paper.cutTo(after, lastPoint(after));
+    this.stock = this.paper;
     this.mesh({setup: n, stock: true});
+    this.stock = shown;
     this.scene.background.set(0xffffff);
     this.renderer.setPixelRatio(1);
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.draw();
-    const out = el('canvas', {width: w, height: h, role: 'img'});
-    out.getContext('2d').drawImage(canvas, 0, 0, w, h);
+    out.getContext('2d').drawImage(this.renderer.domElement, 0, 0, w, h);
+    return out;
+  }
+  // What was shown before pictures were drawn.
+  restore() {
+    if (this.flat) return;
     this.scene.background.set(BACK);
     this.setup = undefined;
-    if (shown) this.show(shown);
-    return out;
+    if (this.shown) this.show(this.shown);
   }
   draw() { if (!this.flat) this.renderer.render(this.scene, this.camera); }
 
@@ -67,25 +72,24 @@ class View {
     this.shown = state;
     if (this.flat) {
       const steps = state.steps.map(i => ({step: DATA.steps[i], colour: css(stepColour(i)), upTo: i === state.step ? state.point : Infinity}));
-      drop(this.host).append(flatView(DATA.setups[state.setup], steps, 'set-up ' + (state.setup + 1) + ' from above'));
+      drop(this.host).append(flatView(DATA.setups[state.setup], steps, 'set-up ' + (state.setup + 1) + ' from above', state.feature));
       return;
     }
     if (this.setup !== state.setup) this.lay(state.setup);
     this.setup = state.setup;
-    if (this.paths) this.scene.remove(this.paths);
-    this.paths = this.pathsOf(state);
-    this.scene.add(this.paths);
+    this.put('paths', this.pathsOf(state));
     this.stock.cutTo(state.step, state.point);
     this.mesh(state);
+    this.mark(state);
     this.place(state);
     this.size();
   }
 
   // Fixtures, axes, camera.
   lay(n) {
-    if (this.fixed) this.scene.remove(this.fixed);
+    this.put('fixed', null);
     const setup = DATA.setups[n], [lo, hi] = pieceBox(setup), size = Math.max(...[0, 1, 2].map(k => hi[k] - lo[k]));
-    this.fixed = new THREE.Group();
+    this.put('fixed', new THREE.Group());
     for (const s of setup.holding.solids) {
       const outline = new THREE.Shape(s.outline.map(([x, y]) => new THREE.Vector2(x, y)));
       const solid = new THREE.Mesh(new THREE.ExtrudeBufferGeometry(outline, {depth: Math.max(0.01, s.top - s.bottom), bevelEnabled: false}),
@@ -93,13 +97,19 @@ class View {
       solid.position.z = s.bottom;
       this.fixed.add(solid);
     }
-    this.fixed.add(new THREE.AxesHelper(0.3 * size));
-    this.scene.add(this.fixed);
+    const [rawLo, rawHi] = DATA.stock.box, raw = [0, 1, 2].map(k => Math.max(rawHi[k] - rawLo[k], 1e-3));
+    const block = new THREE.BoxBufferGeometry(...raw).translate(...[0, 1, 2].map(k => (rawLo[k] + rawHi[k]) / 2));
+    this.fixed.add(this.inPiece(new THREE.LineSegments(new THREE.EdgesGeometry(block), new THREE.LineBasicMaterial({color: 0x6c7f94})), n));
+    const arm = 0.3 * size, high = 0.07 * size;
+    this.fixed.add(new THREE.AxesHelper(arm), label(setup.offset, high, '#1b1f24', 0, 0, -0.7 * high));
+    [['X', '#c0392b'], ['Y', '#2c8a4a'], ['Z', '#2f5fb3']].forEach(([name, colour], k) => this.fixed.add(label(name, high, colour, ...[0, 1, 2].map(c => (c === k ? 1.08 * arm : 0)))));
     const middle = [0, 1, 2].map(k => (lo[k] + hi[k]) / 2);
     this.controls.target.set(...middle);
     this.camera.position.set(middle[0] - 0.7 * size, middle[1] - 1.7 * size, middle[2] + 1.5 * size);
     this.camera.near = size / 100; this.camera.far = 30 * size;
+    this.laying = true;  // who lays draws
     this.controls.update();
+    this.laying = false;
   }
 
   pathsOf(state) {
@@ -126,51 +136,101 @@ class View {
     return group;
   }
 
-  // The stock's upper and lower surface and its sides, in the set-up's frame.
-  mesh(state) {
-    if (this.solid) this.scene.remove(this.solid);
-    this.solid = null;
-    if (!state.stock) return;
-    const s = this.stock, at = [], index = [], seen = n => s.top[n] - s.bottom[n] > 1e-4;
-    for (const z of [s.top, s.bottom])
-      for (let j = 0, n = 0; j < s.ny; ++j) for (let i = 0; i < s.nx; ++i, ++n) at.push(s.x(i), s.y(j), z[n]);
-    const lower = s.nx * s.ny, wall = (a, b) => index.push(a, lower + a, lower + b, a, lower + b, b);
-    const cell = (i, j) => i >= 0 && j >= 0 && i < s.nx - 1 && j < s.ny - 1 && [0, 1, s.nx, s.nx + 1].some(k => seen(j * s.nx + i + k));
-    for (let j = 0; j < s.ny - 1; ++j) {
-      for (let i = 0; i < s.nx - 1; ++i) {
-        if (!cell(i, j)) continue;
-        const a = j * s.nx + i, b = a + 1, c = a + s.nx, d = c + 1;
-        index.push(a, b, d, a, d, c, lower + a, lower + d, lower + b, lower + a, lower + c, lower + d);
-        if (!cell(i, j - 1)) wall(a, b);
-        if (!cell(i, j + 1)) wall(d, c);
-        if (!cell(i - 1, j)) wall(c, a);
-        if (!cell(i + 1, j)) wall(b, d);
-      }
-    }
-    const g = new THREE.BufferGeometry();
-    g.setAttribute('position', new THREE.Float32BufferAttribute(at, 3));
-    g.setIndex(index);
-    const material = new THREE.MeshPhongMaterial({color: 0xb9c7d6, specular: 0x222222, shininess: 25, side: THREE.DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});
-    this.solid = new THREE.Mesh(g, material);
-    const [o, ex, ey, ez] = DATA.setups[state.setup].piece;
-    this.solid.matrixAutoUpdate = false;
-    this.solid.matrix.set(ex[0], ey[0], ez[0], o[0], ex[1], ey[1], ez[1], o[1], ex[2], ey[2], ez[2], o[2], 0, 0, 0, 1);
-    this.scene.add(this.solid);
+  // Takes its place among what is drawn, in place of what had that name.
+  put(name, object) {
+    if (this[name]) this.scene.remove(this[name]);
+    this[name] = object;
+    if (object) this.scene.add(object);
+  }
+  // What is in the workpiece's frame, where the set-up has it.
+  inPiece(object, n) {
+    const [o, ex, ey, ez] = DATA.setups[n].piece;
+    object.matrixAutoUpdate = false;
+    object.matrix.set(ex[0], ey[0], ez[0], o[0], ex[1], ey[1], ez[1], o[1], ex[2], ey[2], ez[2], o[2], 0, 0, 0, 1);
+    return object;
   }
 
-  // The cutter where it is.
-  place(state) {
-    if (this.cutter) this.scene.remove(this.cutter);
-    this.cutter = null;
-    const step = DATA.steps[state.step], tool = step ? toolOf(step) : null, p = step ? pointsOf(step) : null;
-    if (!tool || !p || !p.x.length) return;
-    const r = tool.outline[tool.outline.length - 1][0], shank = (tool.shank || 2 * r) / 2, flutes = Math.max(tool.flutes, 1);
-    const line = tool.outline.map(([d, z]) => new THREE.Vector2(Math.max(d, 1e-3), z));
-    line.push(new THREE.Vector2(r, flutes), new THREE.Vector2(shank, flutes), new THREE.Vector2(shank, Math.max(tool.out, flutes)));
-    this.cutter = new THREE.Mesh(new THREE.LatheBufferGeometry(line, 40), new THREE.MeshPhongMaterial({color: 0xd9a441, side: THREE.DoubleSide, transparent: true, opacity: 0.75}));
-    this.cutter.rotation.x = Math.PI / 2;
-    const k = Math.min(state.point, p.x.length - 1);
-    this.cutter.position.set(p.x[k], p.y[k], p.z[k]);
-    this.scene.add(this.cutter);
+  // Stock and part. Both: the part shows where the stock is cut down to it, and through what is still to be cut.
+  mesh(state) {
+    const part = state.part && DATA.part.nx > 0, both = part && state.stock;
+    this.put('solid', state.stock ? this.inPiece(columnsMesh(this.stock, {color: 0xb9c7d6, transparent: both, opacity: both ? 0.5 : 1, depthWrite: !both, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2}), state.setup) : null);
+    if (part && !this.partMesh) this.partMesh = columnsMesh(new Part(), {color: 0x7fb58a});
+    this.put('part', part ? this.inPiece(this.partMesh, state.setup) : null);
   }
+
+  // A feature's prisms, seen through everything.
+  mark(state) {
+    const solids = state.feature === null || state.feature === undefined ? [] : featureOf(state.feature).solids;
+    if (!solids.length) return this.put('marked', null);
+    const group = new THREE.Group();
+    for (const s of solids) group.add(prismMesh(s));
+    return this.put('marked', this.inPiece(group, state.setup));
+  }
+
+  // The cutter in its holder where it is.
+  place(state) {
+    const step = DATA.steps[state.step], tool = step ? toolOf(step) : null, p = step ? pointsOf(step) : null;
+    if (!tool || !p || !p.x.length) return this.put('cutter', null);
+    const group = new THREE.Group(), k = Math.min(state.point, p.x.length - 1);
+    for (const [what, line] of toolParts(tool)) {
+      const points = line.map(([d, z]) => new THREE.Vector2(Math.max(d, 1e-3), z)), [low, high] = [points[0], points[points.length - 1]];
+      if (what === 'holder') points.unshift(new THREE.Vector2(1e-3, low.y)), points.push(new THREE.Vector2(1e-3, high.y));
+      group.add(new THREE.Mesh(new THREE.LatheBufferGeometry(points, 40), new THREE.MeshPhongMaterial({color: TOOL_COLOURS[what], side: THREE.DoubleSide, transparent: true, opacity: what === 'edge' ? 0.8 : 0.45})));
+    }
+    group.rotation.x = Math.PI / 2;
+    group.position.set(p.x[k], p.y[k], p.z[k]);
+    return this.put('cutter', group);
+  }
+}
+
+// Upper and lower surface and sides of columns, where they hold material.
+function columnsMesh(s, look) {
+  const at = [], index = [], seen = n => s.top[n] - s.bottom[n] > 1e-4;
+  for (const z of [s.top, s.bottom])
+    for (let j = 0, n = 0; j < s.ny; ++j) for (let i = 0; i < s.nx; ++i, ++n) at.push(s.x(i), s.y(j), z[n]);
+  const lower = s.nx * s.ny, wall = (a, b) => index.push(a, lower + a, lower + b, a, lower + b, b);
+  const cell = (i, j) => i >= 0 && j >= 0 && i < s.nx - 1 && j < s.ny - 1 && [0, 1, s.nx, s.nx + 1].some(k => seen(j * s.nx + i + k));
+  for (let j = 0; j < s.ny - 1; ++j) {
+    for (let i = 0; i < s.nx - 1; ++i) {
+      if (!cell(i, j)) continue;
+      const a = j * s.nx + i, b = a + 1, c = a + s.nx, d = c + 1;
+      index.push(a, b, d, a, d, c, lower + a, lower + d, lower + b, lower + a, lower + c, lower + d);
+      if (!cell(i, j - 1)) wall(a, b);
+      if (!cell(i, j + 1)) wall(d, c);
+      if (!cell(i - 1, j)) wall(c, a);
+      if (!cell(i + 1, j)) wall(b, d);
+    }
+  }
+  const g = new THREE.BufferGeometry();
+  g.setAttribute('position', new THREE.Float32BufferAttribute(at, 3));
+  g.setIndex(index);
+  return new THREE.Mesh(g, new THREE.MeshPhongMaterial({specular: 0x222222, shininess: 25, side: THREE.DoubleSide, flatShading: true, ...look}));
+}
+
+// An outline in space and the same, moved: caps and walls.
+function prismMesh({outline, down}) {
+  const v = a => new THREE.Vector3(...a), normal = v(down).normalize(), u = Math.abs(normal.z) < 0.9 ? new THREE.Vector3(0, 0, 1).cross(normal).normalize() : new THREE.Vector3(1, 0, 0).cross(normal).normalize();
+  const w = normal.clone().cross(u), n = outline.length, flat = outline.map(p => new THREE.Vector2(v(p).dot(u), v(p).dot(w)));
+  const at = outline.flat().concat(outline.flatMap(p => p.map((c, k) => c + down[k]))), index = [];
+  for (const [a, b, c] of THREE.ShapeUtils.triangulateShape(flat, [])) index.push(a, b, c, n + a, n + c, n + b);
+  for (let i = 0; i < n; ++i) { const k = (i + 1) % n; index.push(i, k, n + k, i, n + k, n + i); }
+  const g = new THREE.BufferGeometry();
+  g.setAttribute('position', new THREE.Float32BufferAttribute(at, 3));
+  g.setIndex(index);
+  const out = new THREE.Mesh(g, new THREE.MeshBasicMaterial({color: 0xe4572e, transparent: true, opacity: 0.45, depthTest: false, side: THREE.DoubleSide}));
+  out.renderOrder = 5;
+  return out;
+}
+
+// Words in the view, of a height in mm, that face whoever looks.
+function label(words, height, colour, x, y, z) {
+  const canvas = el('canvas', {width: 256, height: 64}), to = canvas.getContext('2d');
+  to.font = 'bold 44px sans-serif'; to.textAlign = 'center'; to.textBaseline = 'middle';
+  to.lineWidth = 8; to.strokeStyle = '#ffffff'; to.strokeText(words, 128, 32);
+  to.fillStyle = colour; to.fillText(words, 128, 32);
+  const out = new THREE.Sprite(new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false}));
+  out.scale.set(4 * height, height, 1);
+  out.position.set(x, y, z);
+  out.renderOrder = 6;
+  return out;
 }
