@@ -14,6 +14,7 @@
 namespace capstan::controls {
 
 namespace gcode {
+struct FaceWords;
 struct PocketWords;
 }
 
@@ -63,6 +64,8 @@ struct Dialect {
   std::string (*write_tool_table)(const model::Plan& plan) = nullptr;
   /// Its pockets as cycles (gcode/moves/pocket_cycles.h); null for a control that has none.
   const gcode::PocketWords* pockets = nullptr;
+  /// Its faces as cycles (gcode/moves/face_cycles.h); null for a control that has none.
+  const gcode::FaceWords* faces = nullptr;
 };
 
 }  // namespace capstan::controls

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "planner/controls/controls.h"
+#include "planner/controls/gcode/moves/face_cycles.h"
 #include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/specification.h"
 #include "planner/ground/base/number.h"
@@ -59,6 +60,7 @@ class Suitability {
     }
     of_plan();
     pockets(ids);
+    faces(ids);
     for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
       const StepResult& step = plan_.steps[i];
       if (!step.path) continue;
@@ -144,6 +146,26 @@ class Suitability {
             must + "tool life counts the " + trimmed(planned_s, 0) +
             " s of the planned paths, the cycles' take about " + trimmed(estimated_s, 0) +
             " s: look at the edges by that");
+  }
+
+  // The same of faces.
+  void faces(const std::vector<std::string>& ids) {
+    const Dialect* writes = find_dialect(plan_.machine.control.dialect);
+    const auto asked = gcode::asked_faces(plan_, writes != nullptr ? writes->faces : nullptr);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      if (!asked[i].why_not.empty())
+        add("FIT-FACE-CYCLE", Severity::kNote, ids[i], -1,
+            "the face is asked for as a cycle of the control, and stays moves: " + asked[i].why_not);
+      if (!asked[i].cycle) continue;
+      const gcode::FaceCycle& c = *asked[i].cycle;
+      add("FIT-FACE-CYCLE", Severity::kNote, ids[i], -1,
+          "the face cycle counts with the tool table of the control, which is not seen; before the first cut "
+          "see "
+          "that it has: R of T" +
+              std::to_string(c.tool) + " " + shortest(0.5 * c.cutter_mm) + " mm; tool life counts the " +
+              trimmed(c.planned_s, 0) + " s of the planned path, the cycle's take about " +
+              trimmed(gcode::estimated_s(c), 0) + " s");
+    }
   }
 
   void kinds(const StepResult& step, const std::string& id) {

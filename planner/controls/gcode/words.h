@@ -12,6 +12,7 @@
 
 namespace capstan::controls::gcode {
 
+struct FaceWords;
 struct PocketWords;
 
 /// Decimals of a number in a program at most: a double of six digits before the point has no more to say.
@@ -146,6 +147,8 @@ struct Words {
   bool by_cycles = true;
   /// Null: the control has no pockets as cycles. Those of its row (dialect.h).
   const PocketWords* pockets = nullptr;
+  /// Null: nor faces. That of its row.
+  const FaceWords* faces = nullptr;
   /// The last line of `cycle` where it runs what the lines before it define: for equal holes of a step these
   /// stand once. Empty: each run of equal holes has its whole text.
   std::string_view cycle_call = {};

@@ -74,6 +74,7 @@ class Writer {
       enter(step, cutter, ids[n], n, measured);
       by_cycles_ = cycles_[n].empty() ? words_.by_cycles : cycles_[n] != model::kExplicitMoves;
       if (write_pocket(pockets_.of_step[n], words_, program_)) continue;
+      if (write_face(faces_[n], words_, program_)) continue;
       const bool smooth = !words_.smooth_on.empty() && cuts_across(*step.path);
       if (smooth) program_.line(words_.smooth_on);
       if (auto done = moves(step, cutter, ids[n]); !done) return tl::unexpected(done.error());
@@ -478,6 +479,7 @@ class Writer {
   std::map<model::AnyRef, std::vector<model::AnyRef>> probings_;    // by the step they precede
   std::vector<std::string> cycles_ = model::cycles_by_step(plan_);  // by step: what edits say of them
   AskedPockets pockets_ = asked_pockets(plan_, words_.pockets);
+  std::vector<FaceOfStep> faces_ = asked_faces(plan_, words_.faces);
   bool by_cycles_ = false;  // of the step at hand
   int tool_ = 0;
   std::size_t setup_ = 0;

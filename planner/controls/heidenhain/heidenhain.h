@@ -44,12 +44,13 @@ namespace capstan::controls::heidenhain {
 /// Stops    the message as a comment, then `M0`, which stops the spindle and the coolant, too: both are off
 ///          before it, and stated again before the next cut.
 ///
-/// Pockets  with `cycles: pocket` 251 and 252, roughing along a helix, called over the middle: Q202, Q207 and
+/// Pockets  with `cycles: pocket` 251 and 252, roughing along a helix, and 253 for closed slots, in back and
+///          forth, called over the middle: Q202, Q207 and
 ///          Q206 keep the loads of the plan's path (gcode/moves/pocket_cycles.h). A comment of the
 ///          header says for each tool how large its ANGLE in the tool table may be, for the flattest of its
 ///          pockets.
 ///
-/// Not written: 208 (its way to the wall is its own), 253, PATTERN DEF, PLANE, RL and RR.
+/// Not written: 208 (its way to the wall is its own), PATTERN DEF, PLANE, RL and RR.
 ///
 /// Source   tests/controls/heidenhain/golden/README.md says what is from where, and what is remembered.
 extern const Dialect kDialect;
@@ -57,7 +58,7 @@ extern const Dialect kDialect;
 /// The words of the plan's machine, with the program's head.
 [[nodiscard]] gcode::Words words_of(const model::Plan& plan);
 
-/// Cycles 251 and 252, with the way to the pocket's middle and the call (pockets.cpp).
+/// Cycles 251 to 253, with the way to the pocket's middle and the call (pockets.cpp).
 extern const gcode::PocketWords kPockets;
 
 /// The program's name: of the part's file, else CAPSTAN; capitals, digits, - and _.

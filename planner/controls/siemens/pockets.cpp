@@ -16,7 +16,12 @@ constexpr const char* kRoughAlongHelix = "21";
 /// POCKET3(_RTP, _RFP, _SDIS, _DP, _LENG, _WID, _CRAD, _PA, _PO, _STA, _MID, _FAL, _FALD, _FFP1, _FFD, _CDIR,
 /// _VARI, _MIDA, _AP1, _AP2, _AD, _RAD1, _DP1); POCKET4 has _PRAD in place of _LENG, _WID and _CRAD, neither
 /// _STA nor _AP2.
+///
+/// A slot is POCKET3, too, a rectangle whose corners are half as wide as it is. SLOT1 says where a slot is by
+/// a radius about a centre of a circle, and what of the slot lies there (its near end, the middle of its
+/// end's round, or its own) could not be looked up: a slot in the wrong place would be the price.
 std::optional<std::string> pocket_text(const gcode::PocketCycle& p) {
+  if (p.helix_mm == 0.0) return std::nullopt;
   const auto n = [&](double v) { return trimmed(v, p.decimals) + ","; };
   const auto f = [&](double v) { return trimmed(v, p.feed_decimals) + ","; };
   const std::string planes = n(p.back_z) + n(p.reference_z) + n(p.start_z - p.reference_z) + n(p.floor_z);

@@ -56,6 +56,7 @@ Result<std::string> write_program(const model::Plan& plan, Job& job,
   gcode::Words words = words_of(plan.machine);
   words.work_offsets = kOffsets;
   words.pockets = kDialect.pockets;
+  words.faces = kDialect.faces;
   return gcode::write(plan, words, condemned, job);
 }
 
@@ -79,6 +80,7 @@ constinit const Dialect kDialect{
     .decimals = 3,
     .write_program = &write_program,
     .pockets = &kPockets,
+    .faces = &kFaces,
 };
 
 }  // namespace capstan::controls::siemens

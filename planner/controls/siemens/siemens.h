@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/controls/dialect.h"
+#include "planner/controls/gcode/moves/face_cycles.h"
 #include "planner/controls/gcode/moves/pocket_cycles.h"
 #include "planner/controls/gcode/words.h"
 #include "planner/model/plan/resources/machine.h"
@@ -45,7 +46,11 @@ namespace capstan::controls::siemens {
 ///          path is fed from, FAL and FALD what it leaves, MID, FFP1 and FFD what keeps its loads
 ///          (gcode/moves/pocket_cycles.h); the blank's sizes (_AP1, _AP2, _AD) are left out.
 ///
-/// Not written yet: SLOT1, CYCLE61, 71, 72, CYCLE800.
+/// Faces    with `cycles: pocket` CYCLE71, roughing in strokes back and forth along X or Y (31, 41), the
+///          rectangle as wide as the strokes along its edges want, FDP beyond it (gcode/moves/face_cycles.h).
+///
+/// Not written: SLOT1 (where it puts a slot could not be looked up; slots are POCKET3), CYCLE61, 72,
+/// CYCLE800.
 ///
 /// Source   SINUMERIK NC programming 12/2019, 6FC5398-2EP40 (helices, CYCLE832, CTOL); fundamentals 10.2004,
 ///          6FC5298-7AB00 (G641); 802D sl 06/2006, 6FC5398-3CP10 (G710); function manual W1 11/2006 (tools);
@@ -58,6 +63,8 @@ extern const Dialect kDialect;
 
 /// POCKET3 and POCKET4 (pockets.cpp).
 extern const gcode::PocketWords kPockets;
+/// CYCLE71 (faces.cpp).
+extern const gcode::FaceWords kFaces;
 
 /// Characters of a tool's name at most, and whether it may be one: printable, without quotes.
 inline constexpr std::size_t kLongestToolName = 32;

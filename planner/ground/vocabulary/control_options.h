@@ -42,8 +42,8 @@ inline constexpr std::array kControlOptions{
         "HOLES2; Heidenhain: CYCL DEF 200, 201, 203, 205, 207 with M99; LinuxCNC: G81, G82, G83, G73, G85, "
         "G86, G89, "
         "and G33.1 for threads; Mach3: G81, G82, G85, G86, G89), equal holes of a step at once; or explicit "
-        "moves; pocket: as feature, and pockets as cycles of the control (Siemens: POCKET3, POCKET4; "
-        "Heidenhain: CYCL DEF 251, 252), which take a path of its own",
+        "moves; pocket: as feature, and pockets, closed slots and faces as cycles of the control (Siemens: "
+        "POCKET3, POCKET4, CYCLE71; Heidenhain: CYCL DEF 251, 252, 253), which take a path of its own",
         "30i 5.1; Haas, canned cycles; Siemens, drilling cycles; Heidenhain, cycles for drilling; LinuxCNC "
         "2.9, G-codes, canned cycles"},
     ControlOptionRow{

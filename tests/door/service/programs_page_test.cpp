@@ -14,6 +14,7 @@
 #include "planner/door/service/options.h"
 #include "planner/door/service/planning.h"
 #include "planner/ground/vocabulary/control_options.h"
+#include "tests/door/service/pockets/pocket_parts.h"
 #include "tests/support/corpus.h"
 
 namespace capstan::service {
@@ -49,17 +50,20 @@ std::string wide_holes(bool row) {
               "#22,2,2,#88", "#22,1,3,#88");
 }
 
-/// The part's program for that control, `cycles` as its machine's option, with " row" behind it for the row.
+/// The part's program for that control, `cycles` as its machine's option, with " row" behind it for the row,
+/// " slot" for a closed slot with round ends, " held" for the part in a vise.
 std::string program(const std::string& control, std::string cycles) {
   static std::map<std::string, model::Plan> plans;
-  const bool row = cycles.ends_with(" row");
-  if (row) cycles.resize(cycles.size() - 4);
-  const std::string key = control + (row ? " row" : "");
+  const std::string kind = cycles.find(' ') == std::string::npos ? "" : cycles.substr(cycles.find(' '));
+  cycles.resize(cycles.size() - kind.size());
+  const std::string key = control + kind;
   if (!plans.contains(key)) {
     Request request;
     EXPECT_TRUE(set(request, "control", control));
+    EXPECT_TRUE(kind != " held" || set(request, "workholding", "vise_125"));
+    const std::string part = kind == " slot" ? pocket_parts::closed_slot() : wide_holes(kind == " row");
     Job job;
-    const auto out = plan(request, {.name = kPart, .bytes = wide_holes(row)}, job);
+    const auto out = plan(request, {.name = kPart, .bytes = part}, job);
     EXPECT_TRUE(out) << (out ? "" : to_text(out.error().what));
     if (!out) return {};
     plans[key] = out->plan;
@@ -74,7 +78,7 @@ std::string program(const std::string& control, std::string cycles) {
   return text.value_or("");
 }
 
-/// The block that the page shows for `<!-- program CONTROL CYCLES "STEP" -->`, or `CYCLES row`.
+/// The block that the page shows for `<!-- program CONTROL CYCLES "STEP" -->`, or `CYCLES row` and the like.
 std::string shown(const std::string& order) {
   const std::size_t first = order.find("program ") + 8, second = order.find(' ', first);
   const std::size_t quote = order.find('"'), last = order.rfind('"');

@@ -36,6 +36,8 @@ constexpr double kHelixShare = 0.9;
 /// Of the diameter: a smaller helix is hardly one. Default, unsourced.
 constexpr double kLeastHelix = 0.05;
 
+constexpr const char* kNoHelix = "no helix has room in it";
+
 PocketOfStep no(std::string why) { return {std::nullopt, std::move(why), {}}; }
 
 /// What the path says of its way in: along ramps.
@@ -110,6 +112,7 @@ bool slot(const model::Model& m, const model::Slot& noun, const model::FeatureSh
                      m.holds<model::RadiusedSlotEndType>(ends[1]);
   if (!round || s.spine.size() != 2 || !s.slot_profile.empty() || s.slot_bottom_radius_mm > 0.0) return false;
   const Vec2 way = s.spine[1] - s.spine[0];
+  c.slot = true;
   c.width_mm = s.width.nominal_mm;
   c.length_mm = norm(way) + c.width_mm;
   c.corner_mm = 0.5 * c.width_mm;
@@ -191,8 +194,6 @@ std::string left_by(const model::Plan& plan, const model::StepResult& step,
   return {};
 }
 
-double slope_of(const PocketCycle& c) { return c.turn_mm / (2.0 * pi * c.helix_mm); }
-
 /// Rounded as the control writes it; the last heights so that levels come out whole.
 void round_to(PocketCycle& c, const model::Control& control) {
   c.decimals = control.decimals;
@@ -230,10 +231,10 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   }
   PocketCycle& c = *out.cycle;
   c.cutter_mm = cutter->cutting_diameter_mm;
+  c.flat_mm = c.cutter_mm - 2.0 * model::end_radius_mm(*cutter);
   c.tool = cutter->pocket;
   // Rings farther apart than its front is flat leave ridges on the floor.
-  const double flat = c.cutter_mm - 2.0 * model::end_radius_mm(*cutter);
-  if (!(kRingShare * flat > std::pow(10.0, -plan.machine.control.decimals)))
+  if (!(kRingShare * c.flat_mm > std::pow(10.0, -plan.machine.control.decimals)))
     return no("its mill is round at the end: rings would leave ridges on the floor");
   if (std::string why = left_by(plan, step, *ws, c); !why.empty()) return no(std::move(why));
   const auto in = way_in(step);
@@ -243,9 +244,10 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   if (first != in->rpm || !(in->rpm > 0.0)) return no("its path does not begin at the speed of its way in");
   const double narrow = 0.5 * std::min(c.length_mm, c.width_mm) - 0.5 * c.cutter_mm - c.side_mm;
   // Any circle with the path's slope goes in as steeply as the path.
-  c.helix_mm = std::min(kHelixShare * 0.5 * flat, narrow);
+  c.helix_mm = std::min(kHelixShare * 0.5 * c.flat_mm, narrow);
+  if (c.helix_mm < kLeastHelix * c.cutter_mm) c.helix_mm = 0.0;
+  if (c.helix_mm == 0.0 && !c.slot) return no(kNoHelix);
   c.turn_mm = in->slope * 2.0 * pi * c.helix_mm;
-  if (c.helix_mm < kLeastHelix * c.cutter_mm) return no("no helix has room in it");
   c.angle_deg -= 180.0 * std::floor((c.angle_deg + kSame) / 180.0);
   c.angle_deg = std::max(0.0, c.angle_deg);
   c.back_z = step.path->z[0];
@@ -259,9 +261,10 @@ PocketOfStep pocket_of(const model::Plan& plan, std::size_t n) {
   c.level_mm = depth / slot->levels;
   c.feed_mm_min = slot->feed_mm_min;
   c.ramp_feed_mm_min = std::min(in->feed_mm_min, slot->feed_mm_min);
-  c.over_mm = kRingShare * flat;
+  c.over_mm = kRingShare * c.flat_mm;
   c.planned_s = step.cutting_s;
   round_to(c, plan.machine.control);
+  c.slope = c.helix_mm > 0.0 ? std::min(in->slope, c.turn_mm / (2.0 * pi * c.helix_mm)) : in->slope;
   if (c.back_z < c.start_z || !(depth > 0.0)) return no("it does not begin above what it cuts");
   return out;
 }
@@ -277,19 +280,20 @@ AskedPockets asked_pockets(const model::Plan& plan, const PocketWords* words) {
     if (!pocket.cycle) continue;
     const PocketCycle& c = *pocket.cycle;
     const auto text = words != nullptr ? words->text(c) : std::nullopt;
-    const double slope = slope_of(c);
-    if (!text || (words->table != nullptr && words->table(c.tool, slope).empty())) {
-      pocket = no("it has none");
+    if (!text || (words->table != nullptr && words->table(c.tool, c.slope).empty())) {
+      pocket = no(words != nullptr && c.helix_mm == 0.0 ? kNoHelix : "it has none");
       continue;
     }
     pocket.text = *text;
-    const auto [least, first] = slopes.emplace(c.tool, slope);
-    if (!first) least->second = std::min(least->second, slope);
+    const auto [least, first] = slopes.emplace(c.tool, c.slope);
+    if (!first) least->second = std::min(least->second, c.slope);
   }
   if (words == nullptr || words->table == nullptr) return out;
   for (const auto& [tool, slope] : slopes) out.tables[tool] = words->table(tool, slope);
   for (PocketOfStep& pocket : out.of_step) {
-    if (pocket.cycle) pocket.cycle->turn_mm = 2.0 * pi * pocket.cycle->helix_mm * slopes[pocket.cycle->tool];
+    if (!pocket.cycle) continue;
+    pocket.cycle->slope = slopes[pocket.cycle->tool];
+    pocket.cycle->turn_mm = 2.0 * pi * pocket.cycle->helix_mm * pocket.cycle->slope;
   }
   return out;
 }
@@ -303,8 +307,10 @@ double estimated_s(const PocketCycle& c) {
     const double out = across * k / rings;
     ways += c.round ? 2.0 * pi * out : 4.0 * (along - across + 2.0 * out);
   }
-  const double turns = std::ceil(c.level_mm / c.turn_mm) + 1.0;
-  return 60.0 * c.levels * (ways / c.feed_mm_min + turns * 2.0 * pi * c.helix_mm / c.ramp_feed_mm_min);
+  const double turn = 2.0 * pi * c.helix_mm;
+  const double in =
+      c.helix_mm > 0.0 ? turn * (std::ceil(c.level_mm / c.turn_mm) + 1.0) : c.level_mm / c.slope;
+  return 60.0 * c.levels * (ways / c.feed_mm_min + in / c.ramp_feed_mm_min);
 }
 
 }  // namespace capstan::controls::gcode

@@ -16,7 +16,7 @@ namespace capstan::controls::gcode {
 /// the cutter is in a slot as wide as it is (slot_feed.h).
 /// Frame  the set-up's. Units  mm, mm/min, degrees.
 struct PocketCycle {
-  bool round = false;
+  bool round = false, slot = false;  ///< slot: of a slot along a line, round at both ends
   geometry::Vec2 centre;
   double length_mm = 0.0, width_mm = 0.0;  ///< along the angle and across; of a round one both its diameter
   double corner_mm = 0.0;                  ///< radius of its corners
@@ -31,9 +31,12 @@ struct PocketCycle {
   double over_mm = 0.0;  ///< from ring to ring at most
   double feed_mm_min = 0.0;
   double ramp_feed_mm_min = 0.0;
-  double helix_mm = 0.0, turn_mm = 0.0;  ///< the way in: radius of the cutter's centre, and down per turn
+  double slope = 0.0;  ///< of the way in at most: down by what it goes along
+  /// The way in along a helix: radius of the cutter's centre, and down per turn; 0 in a slot too narrow for
+  /// one.
+  double helix_mm = 0.0, turn_mm = 0.0;
   bool climbs = true;                    ///< along the walls, as the plan's path
-  double cutter_mm = 0.0;                ///< its diameter
+  double cutter_mm = 0.0, flat_mm = 0.0;  ///< its diameter, and that of its flat front
   int tool = 0;                          ///< its number
   int decimals = 0, feed_decimals = 0;   ///< of the control
   double planned_s = 0.0;                ///< time of the plan's own path

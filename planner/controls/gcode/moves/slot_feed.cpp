@@ -31,11 +31,16 @@ optimise::CutQuestion question_of(const model::Plan& plan, const model::StepResu
   return q;
 }
 
-/// The largest feed up to `most` that keeps the limits in a slot of this depth; 0: none does.
-double slot_feed(const optimise::CutQuestion& q, double depth_mm, double rpm, double most, double least) {
+/// The largest feed up to `most` that keeps the limits, and the torque and power of the planned path, in a
+/// slot of this depth; 0: none does.
+double slot_feed(const optimise::CutQuestion& q, const model::StepLoads& planned, double depth_mm, double rpm,
+                 double most, double least) {
+  const auto within = [](double load, double largest) { return !(largest > 0.0) || load <= largest; };
   for (double feed = most; feed >= least; feed *= kLower) {
     const auto loads = optimise::loads_of(q, depth_mm, q.cutter.cutting_diameter_mm, rpm, feed);
-    if (loads && optimise::worst_excess(q, *loads, rpm) <= 0.0) return feed;
+    if (loads && optimise::worst_excess(q, *loads, rpm) <= 0.0 &&
+        within(loads->torque_nm, planned.torque_nm) && within(loads->power_w, planned.power_w))
+      return feed;
   }
   return 0.0;
 }
@@ -60,7 +65,7 @@ std::optional<SlotLevels> slot_levels(const model::Plan& plan, const model::Step
   for (int n = first; n < first + kMostLevels; ++n) {
     const double level = depth_mm / n;
     if (best && level * most < cleared) break;  // no feed of these is enough
-    const double feed = std::floor(slot_feed(q, level, rpm, most, least) / unit) * unit;
+    const double feed = std::floor(slot_feed(q, step.loads, level, rpm, most, least) / unit) * unit;
     if (!(feed > 0.0) || level * feed <= cleared) continue;
     best = SlotLevels{n, feed};
     cleared = level * feed;

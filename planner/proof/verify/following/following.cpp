@@ -140,6 +140,10 @@ void Following::run() {
     if (pocket_cycle()) nothing_behind();
     return;
   }
+  if (begins_face()) {
+    if (face_cycle()) nothing_behind();
+    return;
+  }
   for (std::size_t i = 1; i < path_.size(); ++i) {
     if (!one(i)) return;
   }

@@ -33,6 +33,8 @@ class Following {
   bool rapid(std::size_t i, geometry::Vec3 begin, geometry::Vec3 goal);
   bool begins_pocket();
   bool pocket_cycle();
+  bool begins_face();
+  bool face_cycle();
   std::optional<bool> hole_way(std::size_t i);
   std::optional<bool> peck_way(std::size_t i);
   [[nodiscard]] bool is_cleared(std::size_t i) const;

@@ -21,8 +21,10 @@ struct Pocket {
   double side_mm = 0.0, bottom_mm = 0.0;  ///< left on walls and floor
   double level_mm = 0.0;                  ///< at most; the levels are alike
   double over_mm = 0.0;                   ///< from ring to ring at most
+  bool own_rings = false;                 ///< no parameter states it: it is the control's
   double feed_mm_min = 0.0, ramp_feed_mm_min = 0.0;
   double helix_mm = 0.0, turn_mm = 0.0;  ///< the way in: radius of the tool's centre, and down per turn
+  double slope = 0.0;                    ///< above 0: in back and forth along the middle, this steep at most
   bool clockwise = false;                ///< the way round along the walls
   double cutter_mm = 0.0;                ///< diameter by the program's header
 };

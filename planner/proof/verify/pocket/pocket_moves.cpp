@@ -63,6 +63,9 @@ void BlockState::mill(Pocket p) {
   if (at_.z < p.back_z - kNothing) return wrong("it is called below its return plane");
   if (p.helix_mm > across + kNothing || (p.helix_mm > 0.0 && !(p.turn_mm > 0.0)))
     return wrong("its way in has no room, or does not go down");
+  if (p.slope > 0.0 && !(along - across > kNothing))
+    return wrong("its way in goes back and forth, and it is no longer than wide");
+  if (p.own_rings) p.over_mm = std::max(across, p.cutter_mm);
   if (!(p.over_mm > 0.0)) return wrong("its rings have no distance");
   if (std::ceil(depth / p.level_mm) * std::ceil((across + p.over_mm) / p.over_mm) > 1.0 * kCycleBlockCap)
     return wrong("it has too many levels or rings to be followed");
@@ -104,12 +107,22 @@ void BlockState::mill(Pocket p) {
   double above = p.start_z;
   for (int k = 1; k <= levels && cycle_blocks_ <= kCycleBlockCap; ++k) {
     const double z = p.reference_z - depth * k / levels;
-    const Vec2 in = at(p.helix_mm, 0.0);
+    const Vec2 in = p.slope > 0.0 ? at(-straight, 0.0) : at(p.helix_mm, 0.0);
     to({at_.x, at_.y, std::max(at_.z, p.start_z)}, MoveKind::kRapid);
     to({in.x, in.y, at_.z}, MoveKind::kRapid);
     to({in.x, in.y, std::min(p.start_z, k == 1 ? p.start_z : above + clearance)}, MoveKind::kRapid);
     feed_ = p.ramp_feed_mm_min;
-    if (p.helix_mm > 0.0) {
+    if (p.slope > 0.0) {
+      const double passes = std::max(1.0, std::ceil((at_.z - z) / (2.0 * straight * p.slope) - 1e-6));
+      const double from = at_.z;
+      double side_of = 1.0;
+      for (double n = 1.0; n <= passes && cycle_blocks_ <= kCycleBlockCap; n += 1.0) {
+        const Vec2 q = at(side_of * straight, 0.0);
+        to({q.x, q.y, from + (z - from) * n / passes}, MoveKind::kLine);
+        side_of = -side_of;
+      }
+      line(at(side_of * straight, 0.0));
+    } else if (p.helix_mm > 0.0) {
       const double turns = std::max(1.0, std::ceil((at_.z - z) / p.turn_mm - 1e-6));
       turn(in, z, p.centre, 2.0 * kPi * turns);
       turn(in, z, p.centre, 2.0 * kPi);

@@ -226,7 +226,12 @@ bool Following::pocket_cycle() {
                  "; the plan's path the other way");
   const double flat = p.cutter_mm - 2.0 * model::end_radius_mm(*cutter_);
   const double most = kRingsAtCorners * flat;
-  if (!(p.over_mm > 0.0) || p.over_mm > most + unit_)
+  // Whatever passes the control makes, those along both walls are among them.
+  const double between = p.width_mm - 2.0 * inset;
+  if (p.own_rings && between > flat + unit_)
+    return wrong("does not state how far its passes are apart; those along both walls are " + mm(between) +
+                 ", and the cutter is flat over " + mm(flat) + ": what lies between may stay");
+  if (!p.own_rings && (!(p.over_mm > 0.0) || p.over_mm > most + unit_))
     return wrong("has rings " + mm(p.over_mm) + " apart; the cutter of diameter " + mm(p.cutter_mm) +
                  " is flat over " + mm(flat) + ", and rings farther apart than " + mm(most) +
                  " leave material on the floor, posts between their corners first");
@@ -236,11 +241,14 @@ bool Following::pocket_cycle() {
     return wrong("goes down by " + mm(p.level_mm) +
                  " at a time, anywhere in a slot; at the step's speed at most " +
                  mm(kDeepestOfDiameter * p.cutter_mm));
-  const double slope = p.helix_mm > 0.0 ? p.turn_mm / (2.0 * kPi * p.helix_mm) : 1e300;
+  const double slope = p.slope > 0.0      ? p.slope
+                       : p.helix_mm > 0.0 ? p.turn_mm / (2.0 * kPi * p.helix_mm)
+                                          : 1e300;
   // Radius and drop are rounded, each by half a unit.
   const double rounding =
       p.helix_mm > 0.0 ? unit_ / (2.0 * kPi * p.helix_mm) + slope * unit_ / p.helix_mm : 0.0;
-  if (path.slope > 1e299) return wrong("goes in along a helix; the plan's path goes in along no ramp");
+  if (path.slope > 1e299)
+    return wrong("goes in along a ramp of its own; the plan's path goes in along no ramp");
   if (slope > path.slope + rounding)
     return wrong("goes in at a slope of " + plain(slope) + "; the flattest ramp of the plan's path at " +
                  plain(path.slope));

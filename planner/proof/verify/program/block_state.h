@@ -46,6 +46,8 @@ class BlockState {
   void to(geometry::Vec3 p, model::MoveKind kind, bool synchronised = false);
   /// The moves of a pocket cycle (pocket/pocket_moves.cpp), or a fault.
   void mill(Pocket p);
+  /// The moves of a face cycle (pocket/face_moves.cpp), or a fault.
+  void mill(FacedArea f);
   /// The diameter of the tool that is called, by the program's header, mm; 0: it does not say it.
   [[nodiscard]] double called_diameter_mm() const;
   void dwell(double seconds);

@@ -7,6 +7,7 @@
 
 #include "planner/ground/geometry/vec.h"
 #include "planner/model/plan/cutter_path.h"
+#include "planner/proof/verify/pocket/face.h"
 #include "planner/proof/verify/pocket/pocket.h"
 
 namespace capstan::verify {
@@ -60,6 +61,7 @@ struct Block {
   bool in_machine = false;                ///< G53: `to` is in machine coordinates where a word was given
   bool from_cycle = false;                ///< expanded from a canned cycle
   int pocket = -1;                        ///< of Program::pockets, whose cycle made it; -1: none
+  int face = -1;                          ///< likewise of Program::faces
   bool from_turns = false;                ///< half a turn of a helix that one block makes
   bool words[3] = {false, false, false};  ///< which axes the block names
   bool known_from[3] = {false, false, false}, known_to[3] = {false, false, false};
@@ -124,6 +126,7 @@ struct Program {
   std::vector<HeaderSetup> setups;
   std::vector<HeaderTool> tools;
   std::vector<Pocket> pockets;                    ///< in the order of the lines
+  std::vector<FacedArea> faces;                   ///< likewise
   std::vector<Told> told;                         ///< in the order of the lines; markers left out
   std::string stock;                              ///< the header's `(stock: ...)`, as written; empty: none
   std::vector<Block> stops;                       ///< M0 and M60, with the state they stop in

@@ -148,7 +148,7 @@ TEST(PocketCycles, OfWidthsWithAnOddLastDecimalHaveCornersNoRounderThanHalfTheWi
     EXPECT_EQ(parameter(call, 6), corner);
     EXPECT_THAT(against(text, plan, true), IsEmpty());
     const model::Plan& other = planned("heidenhain", closed_slot(width));
-    EXPECT_THAT(program_of(other), HasSubstr("Q220=+" + corner + " ;"));
+    EXPECT_THAT(program_of(other), HasSubstr("Q219=+" + width + " ;SLOT WIDTH"));
     EXPECT_THAT(against(program_of(other), other, true), IsEmpty());
   }
 }

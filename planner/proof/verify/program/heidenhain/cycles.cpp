@@ -10,7 +10,7 @@
 #include "planner/proof/verify/program/peck.h"
 
 // Cycles. Those with lines .0, .1 act where they stand; of those with Q parameters 247 does, and 200 to 203,
-// 205, 207, 251 and 252 run where they are called, along Z below the tool. All begin by rapid at the set-up
+// 205, 207 and 251 to 253 run where they are called, along Z below the tool. All begin by rapid at the set-up
 // clearance Q200 above the surface Q203, and end by rapid at the second one, Q204, where that is higher.
 
 namespace capstan::verify::heidenhain {
@@ -51,7 +51,7 @@ struct Known {
   std::array<int, 20> needed;   ///< 0: none
   std::array<int, 4> may_have;  ///< of newer versions: `complete` says with which values
 };
-constexpr std::array<Known, 9> kKnown = {{
+constexpr std::array<Known, 10> kKnown = {{
     {200, {kClearance, kDepth, kFeed, kPlunge, kDwellTop, kSurface, kSecond, kDwellDepth}, {kDepthReference}},
     {201, {kClearance, kDepth, kFeed, kDwellDepth, kFeedOut, kSurface, kSecond}, {}},
     {202,
@@ -75,6 +75,10 @@ constexpr std::array<Known, 9> kKnown = {{
     {252,
      {kOperation, 223, 368, 207, 351, kDepth, kPlunge, 369, kFeed, 338, kClearance, kSurface, kSecond, 370,
       366, 385},
+     {}},
+    {253,
+     {kOperation, 218, 219, 368, 374, 367, 207, 351, kDepth, kPlunge, 369, kFeed, 338, kClearance, kSurface,
+      kSecond, 366, 385},
      {}},
 }};
 
@@ -281,7 +285,7 @@ void Interpreter::call_cycle() {
     fault(26, "CHK-CYCLE",
           "Q203 + Q200, " + mm(h->start) + ", is above the height from which the cycle is called, " +
               mm(at_.z));
-  if (c.number == 251 || c.number == 252) return pocket(c, *h);
+  if (c.number >= 251 && c.number <= 253) return pocket(c, *h);
   const double feed = feed_;
   to_height(h->start, MoveKind::kRapid);
   if (c.number == 200) drill(c, *h);

@@ -212,6 +212,7 @@ void Interpreter::call_block(const Item& call, bool modal) {
   }
   if (call.name == "HOLES1" || call.name == "HOLES2") return pattern(call, modal);
   if (call.name == "POCKET3" || call.name == "POCKET4") return pocket(call, modal);
+  if (call.name == "CYCLE71") return face(call, modal);
   const auto c = parameters(call);
   if (!c) return;
   if (c->number == 832) {

@@ -74,6 +74,7 @@ class Interpreter : private BlockState {
   void call_block(const Item& call, bool modal);
   void pattern(const Item& call, bool modal);
   void pocket(const Item& call, bool modal);  // pockets.cpp
+  void face(const Item& call, bool modal);    // faces.cpp
   std::optional<CycleCall> parameters(const Item& call);
   void tolerance_cycle(const CycleCall& c);
   void run_cycle(const CycleCall& c);
