@@ -170,6 +170,13 @@ struct Words {
   int first_subprogram = 0, last_subprogram = 0;  ///< their numbers
   std::string behind = {};                        ///< lines behind `last` and the subprograms; may be empty
   bool turns = false;      ///< a helix of more than one turn is one block, TURN= with the further ones
+  /// A move that ends where the probe touches, by its code; empty: none.
+  std::string_view probe = {};
+  /// Exact stop, before such moves; nothing where it is empty.
+  std::string_view probe_state = {};
+  /// Lines behind such a move that tell the operator where it ended and where that is expected, for what
+  /// `name` says.
+  std::function<std::string(const std::string& name, const std::string& expected)> probed = {};
   std::string codes = {};  ///< those that the machine has, "G0 G1 M3", with blanks between; empty: all
 };
 

@@ -8,6 +8,7 @@
 #include "planner/controls/gcode/able.h"
 #include "planner/controls/gcode/header.h"
 #include "planner/controls/gcode/measuring/macros.h"
+#include "planner/controls/gcode/measuring/probe_moves.h"
 #include "planner/controls/gcode/moves/arcs.h"
 #include "planner/controls/gcode/moves/helices.h"
 #include "planner/controls/gcode/moves/hole_cycles.h"
@@ -126,7 +127,7 @@ class Writer {
   }
 
   // Measurements before a step (at the end: those that are left, `next` null): a stop each, with nothing
-  // moving but the machine's macro, where it states one and its way is clear. Whether there was one.
+  // moving but what the machine's file states of touches, where their way is clear. Whether there was one.
   bool probe(model::AnyRef before, const StepResult* next) {
     const auto due = probings_.find(before);
     if (due == probings_.end()) return false;
@@ -139,7 +140,7 @@ class Writer {
       for (const std::string& line : lines) program_.comment(line);
       if (first.empty()) first = lines.front();
     }
-    by_macros(due->second, next);
+    by_machine(due->second, next);
     const std::size_t n = due->second.size();
     const std::string what = n == 1 ? first : std::to_string(n) + " touches as listed: " + first + ", ...";
     const Remedy remedy = remedy_of(plan_, due->second, before);
@@ -148,14 +149,16 @@ class Writer {
     return true;
   }
 
-  // What the machine's macro measures. Behind it the tool is away, and is called again.
-  void by_macros(const std::vector<model::AnyRef>& touches, const StepResult* next) {
-    const MacroCalls calls = macro_calls(plan_, touches, next, {tool_, setup_}, words_);
-    for (const std::string& line : calls.comments) program_.comment(line);
-    for (const std::string& block : calls.blocks) program_.line(block);
-    if (calls.blocks.empty()) return;
-    retract();
-    stop();
+  // What the machine measures, by its macro or by moves. Behind it the tool is away, and is called again.
+  void by_machine(const std::vector<model::AnyRef>& touches, const StepResult* next) {
+    for (const TouchBlocks& made : {macro_calls(plan_, touches, next, {tool_, setup_}, words_),
+                                    probe_moves(plan_, touches, next, {tool_, setup_}, words_)}) {
+      for (const std::string& line : made.comments) program_.comment(line);
+      for (const std::string& block : made.blocks) program_.line(block);
+      if (made.blocks.empty()) continue;
+      retract();
+      stop();
+    }
   }
 
   // The reasons to stop before a step; those of the whole plan stop before its first.

@@ -91,6 +91,16 @@ gcode::Words words_of(const model::Plan& plan) {
   w.retract = [](const std::string& z) { return "G53 G0 Z" + z; };
   w.message = [](const std::string& text) { return "(" + comment_text(text) + ")"; };
   w.dwell = [](const std::string& seconds) { return "G4 P" + seconds; };
+  // An alarm where there is no touch; where there is, [PRB:] goes to what sends the program, in coordinates
+  // of the machine. A zero of Z that is set with each tool leaves the probe without a length. Source:
+  // gnea/grbl, gcode.c (G38.2), report.c (report_probe_parameters).
+  if (!touches_off) {
+    w.probe = "G38.2";
+    w.probed = [](const std::string& name, const std::string& expected) {
+      return "(" + name + ": expected at " + expected +
+             ", compare [PRB:] less the work offset and the length, in $#)";
+    };
+  }
   return w;
 }
 

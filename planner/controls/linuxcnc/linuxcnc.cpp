@@ -76,6 +76,13 @@ gcode::Words words(const model::Machine& machine) {
   };
   out.by_cycles = model::control_option(machine, "cycles") != "explicit";
   out.cycle = &hole_text;
+  // Stops at the touch, and with an error where there is none; #5061 to #5063 are where, in the work offset.
+  // A DEBUG comment shows them. Source: LinuxCNC 2.9, G-codes, G38.n; O-codes and comments, DEBUG.
+  out.probe = "G38.2";
+  out.probe_state = "G61";
+  out.probed = [](const std::string& name, const std::string& expected) {
+    return "(DEBUG, " + name + ": touched at X#5061 Y#5062 Z#5063, expected at " + expected + ")";
+  };
   return out;
 }
 

@@ -67,6 +67,13 @@ gcode::Words words_of(const model::Machine& machine) {
   w.dwell = [milliseconds](const std::string& seconds) {
     return "G4 " + p_word(parse_double(seconds).value_or(0.0), milliseconds);
   };
+  // Goes on without a word where there is no touch: #2000 to #2002 are where it ended, in the work offset.
+  // Source: Using Mach3Mill, revision 1.84, G31, as others quote it.
+  w.probe = "G31";
+  w.probe_state = "G61";
+  w.probed = [](const std::string& name, const std::string& expected) {
+    return "(" + name + ": expected at " + expected + ", compare #2000 #2001 #2002; no touch is no error)";
+  };
   w.by_cycles = !is("cycles", "explicit");
   w.cycle = [milliseconds](const gcode::HoleCycle& h, std::span<const geometry::Vec2> places) {
     return hole_text(h, places, milliseconds);

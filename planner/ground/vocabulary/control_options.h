@@ -128,19 +128,33 @@ inline constexpr std::array kControlOptions{
         "Haas 96-8000, M88, M89; else the machine builder's list of codes", ControlOptionRow::Form::kMPair},
     ControlOptionRow{
         "probe_macro", "", 0, 0, false,
-        "the blocks of the machine's macro for one touch, with | between, and in them {feature}, {probe} "
-        "(its "
-        "number), {axis} (X, Y or Z), {nominal} (of the wall along it), {x}, {y} and {z} (of the ball's "
-        "centre "
-        "at the start), of the work offset: takes the probe, goes over the start at the top of Z, straight "
-        "down, touches, and comes back the same way. Written where that way is clear of the raw piece and of "
-        "what holds it; the stop for the operator stays",
+        "the blocks of the machine's macro for one touch, with | between, or the id of one that is shipped "
+        "(probe_macros.h); places for what is touched stand between { and } (docs/programs.md). It takes the "
+        "probe, goes over the start at the top of Z, straight down, touches, and comes back the same way. "
+        "Written where that way is clear of the raw piece and of what holds it; the stop for the operator "
+        "stays",
         "the maker of the probe or the shop"},
+    ControlOptionRow{
+        "probe_macro_confirmed", "no yes", 0, 0, false,
+        "the shop has tried the shipped macro on this machine, above the table, and it does what "
+        "is said of it; a shipped macro is not written before",
+        "the shop"},
     ControlOptionRow{"probe_radius_mm", "", 0, 200, false,
-                     "radius of the probe above its stylus; not stated: no macro is written",
+                     "radius of the probe above its stylus; not stated: no touch is written",
                      "the maker of the probe"},
     ControlOptionRow{"probe_stylus_mm", "", 0, 1000, false,
-                     "how far its ball's centre is below the probe; not stated: no macro is written",
+                     "how far its ball's centre is below the probe; not stated: no touch is written",
+                     "the maker of the probe"},
+    ControlOptionRow{
+        "probe_feed_mm_min", "", 1, 1000, false,
+        "F of the move that ends where the probe touches (LinuxCNC and Grbl: G38.2, Mach3: G31); "
+        "not stated: touches are the operator's",
+        "the maker of the probe; LinuxCNC 2.9, G-codes, G38.n: no feed of its own"},
+    ControlOptionRow{"probe_way_mm_min", "", 1, 10000, false,
+                     "F of the probe's way down to the start of a touch and back", "the maker of the probe"},
+    ControlOptionRow{"probe_overtravel_mm", "", 0.1, 20, false,
+                     "how far beyond the expected wall the move of a touch may go; less than the stylus may "
+                     "be pushed aside",
                      "the maker of the probe"},
     ControlOptionRow{
         "subprograms", "", 1, kLastOwnProgram, true,

@@ -1,81 +1,26 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "planner/controls/controls.h"
-#include "planner/proof/verify/verify.h"
-#include "tests/proof/verify/plans.h"
+#include "tests/mutation/controls/touched.h"
 
 // Touches that the machine's macro makes: written where their way is clear, read back, and held to it.
 
 namespace capstan::mutation {
 namespace {
 
-namespace plans = verify::testing;
+using namespace touched;
 
-struct Touched {
-  geometry::Vec3 from, along;
-  double distance = 0.0;
-};
-
-constexpr double kBall = 3.0;
 constexpr const char* kMacro = "G65 P9810 X{x} Y{y} Z{z} | G65 P9811 {axis}{nominal} T{probe}";
 
-/// A pocket, this touch, and a drilled hole; a jaw 5 mm high beside the piece's front.
+/// By the macro of the shop.
 model::Plan measured(const Touched& t, const std::string& dialect,
                      std::vector<model::ControlOption> more = {}) {
-  auto k = plans::good_plan();
-  model::Plan& plan = k.plan;
-  model::TouchProbe probe;
-  probe.its_id = "probe";
-  probe.ball_radius = kBall;
-  model::ToolUsage usage;
-  usage.its_position = "20";
-  probe.its_usage = plan.model.add(usage);
-  model::Direction along;
-  along.direction_ratios = {{t.along.x, t.along.y, t.along.z}, true};
-  model::WorkpieceProbing p;
-  p.its_id = "P measure +z";
-  p.start_position = k.at(t.from.x, t.from.y, t.from.z);
-  p.direction = plan.model.add(along);
-  p.expected_value = k.length(t.distance);
-  p.its_probe = plan.model.add(probe);
-  model::Workplan w;
-  w.its_elements.items = {plan.steps[0].step, plan.model.add(p), plan.steps[1].step};
-  model::Project project;
-  project.main_workplan = plan.model.add(w);
-  plan.project = plan.model.add(project);
-  plan.machine = controls::with_control(std::move(plan.machine), dialect);
   more.push_back({"probe_macro", kMacro});
-  plan.machine.control_options = model::ControlOptions{std::move(more)};
-  plan.setups[0].work_offset = std::string(controls::find_dialect(dialect)->work_offsets[0]);
-  auto& holding = plan.setups[0].holding;
-  holding.solids.push_back({"jaw", "jaw", {{0, -40}, {100, -40}, {100, 0}, {0, 0}}, -50, -45, true});
-  holding.clearance_mm = 2.0;
-  return plan;
-}
-const Touched kTop{{80, 80, 8}, {0, 0, -1}, 5.0};  // the ball meets Z0
-const std::vector<model::ControlOption> kProbe{{"probe_radius_mm", "25"}, {"probe_stylus_mm", "50"}};
-
-std::string text_of(const model::Plan& plan) {
-  Job job;
-  const auto text = controls::write_program(plan, job);
-  EXPECT_TRUE(text) << (text ? "" : to_text(text.error()));
-  return text.value_or("");
-}
-std::string found(const model::Plan& plan, const std::string& text) {
-  Job job;
-  std::string out;
-  for (const auto& f : verify::check_program({"a.nc", text, ""}, &plan, plan.machine, plan.cutters, job))
-    if (f.severity == Severity::kError) out += f.code + " " + f.message + "\n";
-  return out;
-}
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_TRUE(has(text, from)) << from << "\n" << text;
-  return has(text, from) ? text.replace(text.find(from), from.size(), to) : text;
+  return touched::measured({t}, dialect, std::move(more));
 }
 
 TEST(ProbeMacro, ATouchWhoseWayIsClearIsMadeByTheMachinesMacroAndTheStopStays) {
@@ -162,6 +107,50 @@ TEST(ProbeMacro, AMacroElsewhereOrOtherwiseIsFound) {
   model::Plan same = plan;
   same.cutters[0].pocket = 2;
   EXPECT_TRUE(has(found(same, text), "CHK-PROBE-CALL"));
+}
+
+// Numbers alone stand in front of a Heidenhain's blocks, and go on where the macro's were.
+TEST(ProbeMacro, AHeidenhainTouchesByItsOwnLanguage) {
+  std::vector<model::ControlOption> options = kProbe;
+  options.push_back({"probe_macro",
+                     "TOOL CALL {probe} Z | L X{x} Y{y} R0 FMAX | L Z{security} R0 FMAX | L Z{z} R0 F2000 | "
+                     "TCH PROBE 0.0 REF. PLANE Q5 {axis}{sign} | TCH PROBE 0.1 X{x} Y{y} Z{z} | L "
+                     "Z{security} R0 FMAX"});
+  const model::Plan plan = touched::measured({kTop}, "heidenhain", options);
+  const std::string text = text_of(plan);
+  for (const char* block :
+       {" TOOL CALL 20 Z\n", " L X80 Y80 R0 FMAX\n", " L Z10 R0 FMAX\n", " L Z8 R0 F2000\n",
+        " TCH PROBE 0.0 REF. PLANE Q5 Z-\n", " TCH PROBE 0.1 X80 Y80 Z8\n"})
+    EXPECT_TRUE(has(text, block)) << block << "\n" << text;
+  EXPECT_EQ(found(plan, text), "") << text;
+  for (const auto& [from, to] :
+       {std::pair{"Q5 Z-", "Q5 Z+"}, std::pair{"Q5 Z-", "Q5 X-"},
+        std::pair{"0.1 X80 Y80 Z8", "0.1 X80 Y80 Z6"}, std::pair{"TOOL CALL 20 Z", "TOOL CALL 2 Z"},
+        std::pair{"L Z8 R0 F2000", "L Z-8 R0 F2000"}})
+    EXPECT_NE(found(plan, replaced(text, from, to)), "") << to;
+}
+
+TEST(ProbeMacro, AShippedOneIsWrittenOnlyWhereTheShopHasConfirmedIt) {
+  for (const auto& [dialect, id, call] :
+       {std::tuple("fanuc", "renishaw_9811", "\nG65 P9811 Z0.\n"),
+        std::tuple("haas", "renishaw_9811", "\nG65 P9810 Z8. F3000.\nG65 P9811 Z0.\n"),
+        std::tuple("siemens", "siemens_cycle978",
+                   "\nG1 Z8 F2000\nCYCLE978(0,,,1,0,5,5,3,2,1,\"\",,0,1.01,1.01,-1.01,,,,,1,1)\nG0 Z10\n"),
+        std::tuple("heidenhain", "tch_probe_0", " TCH PROBE 0.0 REF. PLANE Q5 Z-\n")}) {
+    std::vector<model::ControlOption> options = kProbe;
+    options.push_back({"probe_macro", id});
+    const model::Plan before = touched::measured({kTop}, dialect, options);
+    const std::string unsaid = text_of(before);
+    EXPECT_FALSE(has(unsaid, call)) << unsaid;
+    EXPECT_TRUE(has(unsaid, "confirmed")) << unsaid;
+    EXPECT_EQ(found(before, unsaid), "");
+    options.push_back({"probe_macro_confirmed", "yes"});
+    const model::Plan plan = touched::measured({kTop}, dialect, options);
+    const std::string text = text_of(plan);
+    EXPECT_TRUE(has(text, call)) << text;
+    EXPECT_EQ(found(plan, text), "") << text;
+    EXPECT_NE(found(before, text), "") << "not confirmed";
+  }
 }
 
 }  // namespace

@@ -56,7 +56,11 @@ TEST(ControlOptions, OfAnotherControlOrWithAnotherValueAreRefusedWithFileLineAnd
         Wrong{"dialect: fanuc, smoothness: yes", "DATA-UNKNOWN", "smoothness"},
         Wrong{"dialect: fanuc, through_coolant: m88/m89", "MACHINE-CONTROL", "two M codes as M88/M89"},
         Wrong{"dialect: fanuc, through_coolant: M88", "MACHINE-CONTROL", "two M codes as M88/M89"},
-        Wrong{"dialect: siemens, shop_codes: \"M51, M52\"", "MACHINE-CONTROL", "M codes with a blank between"},
+        Wrong{"dialect: siemens, shop_codes: \"M51, M52\"", "MACHINE-CONTROL",
+              "M codes with a blank between"},
+        Wrong{"dialect: haas, probe_macro: renishaw_9812", "MACHINE-CONTROL",
+              "no shipped macro of this control: renishaw_9811"},
+        Wrong{"dialect: linuxcnc, probe_macro: renishaw_9811", "DATA-UNKNOWN", "probe_macro"},
         Wrong{"dialect: linuxcnc, retract: g28", "DATA-UNKNOWN", "retract"}}) {
     Job job;
     const auto m = read_machine(file_with(w.control), "vmc.yaml", job);

@@ -1,123 +1,14 @@
 #include "planner/controls/gcode/measuring/macros.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "planner/controls/gcode/options.h"
-#include "planner/model/features/resolve.h"
-#include "planner/model/nouns/all.h"
 #include "planner/model/plan/resources/control_options.h"
-#include "planner/model/plan/resources/setup_position.h"
 
 namespace capstan::controls::gcode {
 namespace {
-
-using geometry::Box3;
-using geometry::Vec3;
-
-constexpr double kAlong = 0.999999;  ///< cosine: along an axis
-constexpr double kHigh = 1e6;        ///< above all that stands on a machine, mm
-
-/// One touch in the set-up's frame, mm.
-struct Touch {
-  std::string feature, probe;
-  Vec3 start, wall;  ///< of the ball's centre at the start; where its surface meets the wall
-  int axis = 0;
-  double ball = 0.0, stem = 0.0;  ///< radii
-};
-
-double& on(Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-double on(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-std::string name_of(const std::string& id) {
-  std::string out;
-  for (const char c : id) {
-    const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    out += plain ? c : '_';
-  }
-  return out;
-}
-
-/// Or why there is none.
-std::optional<Touch> touch_of(const model::Plan& plan, model::AnyRef probing, std::size_t setup,
-                              std::string& why_not) {
-  const model::Model& m = plan.model;
-  const auto& p = m.at<model::WorkpieceProbing>(probing);
-  const auto start = model::placement(m, p.start_position);
-  const auto along = model::direction(m, p.direction);
-  const auto* expected = m.get<model::TolerancedLengthMeasure>(p.expected_value);
-  const auto* probe = m.get<model::TouchProbe>(p.its_probe);
-  if (!start || !along || expected == nullptr || !expected->theoretical_size) {
-    why_not = "its start, direction or distance is not stated";
-    return std::nullopt;
-  }
-  if (probe == nullptr || !(probe->ball_radius.value_or(0.0) > 0.0)) {
-    why_not = "the radius of the probe's ball is not stated";
-    return std::nullopt;
-  }
-  const auto here = model::placed_in(plan, setup);
-  const Vec3 way = here.direction_to_parent(*along);
-  Touch t;
-  t.axis = std::abs(way.x) > kAlong ? 0 : std::abs(way.y) > kAlong ? 1 : 2;
-  if (std::abs(on(way, t.axis)) <= kAlong) {
-    why_not = "it touches along no axis of the set-up";
-    return std::nullopt;
-  }
-  t.feature = name_of(p.its_id.value_or(""));
-  const auto* usage = m.get<model::ToolUsage>(probe->its_usage);
-  t.probe = usage == nullptr ? "" : usage->its_position.value_or("");
-  t.ball = *probe->ball_radius;
-  t.stem = std::max(t.ball, 0.5 * probe->stylus_diameter.value_or(0.0));
-  t.start = t.wall = here.to_parent(start->origin);
-  on(t.wall, t.axis) += std::copysign(*expected->theoretical_size + t.ball, on(way, t.axis));
-  return t;
-}
-
-/// The box of an upright cylinder whose axis goes from one place to another, from `low` up.
-Box3 swept(Vec3 from, Vec3 to, double radius, double low, double high) {
-  Box3 out;
-  out.add({std::min(from.x, to.x) - radius, std::min(from.y, to.y) - radius, low});
-  out.add({std::max(from.x, to.x) + radius, std::max(from.y, to.y) + radius, high});
-  return out;
-}
-
-bool meet(const Box3& a, const Box3& b, double clearance) {
-  return a.lo.x < b.hi.x + clearance && b.lo.x < a.hi.x + clearance && a.lo.y < b.hi.y + clearance &&
-         b.lo.y < a.hi.y + clearance && a.lo.z < b.hi.z + clearance && b.lo.z < a.hi.z + clearance;
-}
-
-/// What is in the way; empty: nothing is.
-std::string in_the_way(const model::Plan& plan, const Touch& t, std::size_t setup, double body,
-                       double stylus) {
-  const model::Workholding& holding = plan.setups[setup].holding;
-  if (plan.stock.box.empty()) return "the raw piece is not known";
-  if (holding.solids.empty()) return "nobody has said what holds the piece";
-  const auto here = model::placed_in(plan, setup);
-  Box3 raw;
-  for (const double x : {plan.stock.box.lo.x, plan.stock.box.hi.x})
-    for (const double y : {plan.stock.box.lo.y, plan.stock.box.hi.y})
-      for (const double z : {plan.stock.box.lo.z, plan.stock.box.hi.z}) raw.add(here.to_parent({x, y, z}));
-  const double low = std::min(t.start.z, t.wall.z);
-  const Box3 stem_down = swept(t.start, t.start, t.stem, t.start.z - t.ball, kHigh);
-  const Box3 stem = swept(t.start, t.wall, t.stem, low - t.ball, kHigh);
-  const Box3 head = swept(t.start, t.wall, body, low + stylus, kHigh);
-  const double apart = holding.clearance_mm;
-  if (meet(stem_down, raw, apart) || meet(head, raw, apart))
-    return "its way is not proven clear of the piece";
-  for (const model::FixtureSolid& s : holding.solids) {
-    Box3 solid;
-    for (const geometry::Vec2 c : s.outline) {
-      solid.add({c.x, c.y, s.bottom_mm});
-      solid.add({c.x, c.y, s.top_mm});
-    }
-    if (!solid.empty() && (meet(stem, solid, apart) || meet(head, solid, apart)))
-      return "its way is not proven clear of " + s.id;
-  }
-  return {};
-}
 
 /// A touch as the macro makes it, or why it stays the operator's.
 struct MacroCall {
@@ -128,29 +19,30 @@ struct MacroCall {
 MacroCall macro_call(const model::Plan& plan, model::AnyRef probing, std::size_t setup, std::string macro,
                      const Words& words) {
   MacroCall out;
-  const double body = model::control_number(plan.machine, "probe_radius_mm", 0.0);
-  const double stylus = model::control_number(plan.machine, "probe_stylus_mm", 0.0);
-  if (!(body > 0.0) || !(stylus > 0.0)) {
-    out.why_not = "the machine's file states no probe_radius_mm or probe_stylus_mm";
-    return out;
-  }
   const auto t = touch_of(plan, probing, setup, out.why_not);
   if (!t) return out;
   if (t->probe.empty() && macro.find("{probe}") != std::string::npos) {
     out.why_not = "the number of the probe is not stated";
     return out;
   }
-  out.why_not = in_the_way(plan, *t, setup, body, stylus);
+  out.why_not = in_the_way(plan, *t, setup, 0.0);
   if (!out.why_not.empty()) return out;
   const auto number = [&](double v) { return words.number(v, plan.machine.control.decimals); };
-  const std::array<std::pair<std::string_view, std::string>, 7> places = {
+  const std::array<std::pair<std::string_view, std::string>, 14> places = {
       {{"{feature}", t->feature},
        {"{probe}", t->probe},
        {"{axis}", std::string(1, "XYZ"[t->axis])},
+       {"{axis_number}", std::to_string(t->axis + 1)},
+       {"{sign}", t->sense > 0 ? "+" : "-"},
+       {"{direction}", std::to_string(t->sense)},
+       {"{way}", t->sense > 0 ? "1" : "2"},
        {"{nominal}", number(on(t->wall, t->axis))},
+       {"{distance}", number(t->sense * (on(t->wall, t->axis) - on(t->start, t->axis)) - t->ball)},
+       {"{security}", number(plan.setups[setup].security_z_mm)},
        {"{x}", number(t->start.x)},
        {"{y}", number(t->start.y)},
-       {"{z}", number(t->start.z)}}};
+       {"{z}", number(t->start.z)},
+       {"{tip}", number(t->start.z - t->ball)}}};
   for (const auto& [place, text] : places) {
     for (std::size_t at = macro.find(place); at != std::string::npos;
          at = macro.find(place, at + text.size()))
@@ -162,16 +54,14 @@ MacroCall macro_call(const model::Plan& plan, model::AnyRef probing, std::size_t
 
 }  // namespace
 
-MacroCalls macro_calls(const model::Plan& plan, const std::vector<model::AnyRef>& touches,
-                       const model::StepResult* next, Standing standing, const Words& words) {
-  MacroCalls out;
-  const std::string macro(model::control_option(plan.machine, "probe_macro"));
+TouchBlocks macro_calls(const model::Plan& plan, const std::vector<model::AnyRef>& touches,
+                        const model::StepResult* next, Standing standing, const Words& words) {
+  TouchBlocks out;
+  const std::string macro(model::probe_macro_blocks(plan.machine));
   if (macro.empty()) return out;
-  std::string why_none;
-  if (standing.tool == 0 || (next != nullptr && next->setup != standing.setup))
-    why_none = "it stands before the first step of its set-up";
-  else if (next != nullptr && model::find_cutter(plan, next->cutter_id)->pocket == standing.tool)
-    why_none = "the next step goes on with the tool before";
+  std::string why_none = not_here(plan, next, standing);
+  if (const auto id = model::unconfirmed_probe_macro(plan.machine); why_none.empty() && !id.empty())
+    why_none = "nobody has confirmed " + std::string(id) + " (probe_macro_confirmed)";
   for (const model::AnyRef r : touches) {
     const MacroCall call =
         why_none.empty() ? macro_call(plan, r, standing.setup, macro, words) : MacroCall{{}, why_none};

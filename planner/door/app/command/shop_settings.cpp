@@ -11,6 +11,7 @@
 #include "planner/ground/base/file.h"
 #include "planner/ground/base/nearest_names.h"
 #include "planner/ground/base/number.h"
+#include "planner/ground/vocabulary/probe_macros.h"
 #include "tooling/shop/data/data.h"
 #include "tooling/shop/fixtures/fixtures.h"
 #include "tooling/shop/machine/machine.h"
@@ -77,6 +78,14 @@ std::string page_of(const controls::Dialect& d) {
   number("largest radius", c.largest_radius_mm, " mm");
   number("largest feed", c.largest_feed_mm_min, " mm/min");
   number("look-ahead", static_cast<double>(c.look_ahead_moves), " moves");
+  for (const model::ProbeMacroRow& m : model::kProbeMacros) {
+    if (model::find_probe_macro(d.id, m.id) != &m) continue;
+    row("probe_macro", std::string(m.id) + ", which the shop confirms (probe_macro_confirmed: yes)");
+    row("  blocks", std::string(m.blocks));
+    row("  what it does", std::string(m.meaning));
+    row("  before it is confirmed", std::string(m.first));
+    row("  source", std::string(m.source));
+  }
   return out;
 }
 

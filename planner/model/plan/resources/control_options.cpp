@@ -5,6 +5,7 @@
 
 #include "planner/ground/base/number.h"
 #include "planner/ground/vocabulary/control_options.h"
+#include "planner/ground/vocabulary/probe_macros.h"
 
 namespace capstan::model {
 
@@ -23,7 +24,33 @@ double control_number(const Machine& machine, std::string_view name, double othe
   return parse_double(control_option(machine, name)).value_or(other);
 }
 
+std::string_view probe_macro_blocks(const Machine& machine) {
+  const std::string_view stated = control_option(machine, "probe_macro");
+  const ProbeMacroRow* row = find_probe_macro(machine.control.dialect, stated);
+  return row == nullptr ? stated : row->blocks;
+}
+
+std::string_view unconfirmed_probe_macro(const Machine& machine) {
+  const ProbeMacroRow* row =
+      find_probe_macro(machine.control.dialect, control_option(machine, "probe_macro"));
+  return row == nullptr || control_option(machine, "probe_macro_confirmed") == "yes" ? std::string_view()
+                                                                                     : row->id;
+}
+
 namespace {
+
+/// An id has small letters, digits and _ alone, which no block of a macro has.
+std::string unknown_macro(std::string_view dialect, std::string_view value) {
+  constexpr std::string_view kOfIds = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  if (value.empty() || value.find_first_not_of(kOfIds) != std::string_view::npos ||
+      find_probe_macro(dialect, value) != nullptr)
+    return {};
+  std::string out = "'" + std::string(value) + "' is no shipped macro of this control:";
+  for (const ProbeMacroRow& row : kProbeMacros) {
+    if (find_probe_macro(dialect, row.id) == &row) out += " " + std::string(row.id);
+  }
+  return out;
+}
 
 bool is_m_code(std::string_view s) {
   return s.size() > 1 && s.size() < 6 && s.front() == 'M' &&
@@ -49,6 +76,7 @@ bool has_form(std::string_view value, ControlOptionRow::Form form) {
 std::string control_option_fault(std::string_view dialect, const ControlOption& option) {
   const ControlOptionRow* row = find_control_option(dialect, option.name);
   if (row == nullptr) return "the control '" + std::string(dialect) + "' has no option '" + option.name + "'";
+  if (row->name == "probe_macro") return unknown_macro(dialect, option.value);
   if (!row->words.empty())
     return has_word(row->words, option.value)
                ? std::string()

@@ -182,6 +182,13 @@ void BlockState::straight(const BlockSaid& s, int mode, bool machine_coordinates
   }
 }
 
+void BlockState::toward(const BlockSaid& s) {
+  straight(s, 1, false);
+  Block& b = out_.blocks.back();
+  b.probes = true;
+  for (int i = 0; i < 3; ++i) known_[i] = known_[i] && !b.words[i];
+}
+
 void BlockState::arc(const BlockSaid& s, bool clockwise) {
   Block b = block();
   target(s, b, false);

@@ -36,6 +36,8 @@ class BlockState {
   void target(const BlockSaid& s, Block& b, bool machine_coordinates);
   /// `mode`: 0 rapid, 1 feed.
   void straight(const BlockSaid& s, int mode, bool machine_coordinates);
+  /// At feed to the words of axes, or to where the probe touches before: where that is nobody knows.
+  void toward(const BlockSaid& s);
   /// By R, or by I and J; both ways of giving an arc mean the same to all these controls.
   void arc(const BlockSaid& s, bool clockwise);
   /// A helix of one block: `whole` turns by `total`, rad, about its centre, up or down in step. It becomes

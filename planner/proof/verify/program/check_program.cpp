@@ -2,24 +2,33 @@
 
 #include "planner/ground/base/stopping.h"
 #include "planner/proof/verify/plan/plan_checks.h"
-#include "planner/proof/verify/touches/macros.h"
 #include "planner/proof/verify/program/program_checks.h"
 #include "planner/proof/verify/program/readers.h"
 #include "planner/proof/verify/stopped.h"
 #include "planner/proof/verify/sweep/sweep.h"
 #include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/told/raw_piece.h"
+#include "planner/proof/verify/touches/macros.h"
+#include "planner/proof/verify/touches/probed.h"
 #include "planner/proof/verify/verify.h"
 
 namespace capstan::verify {
 namespace {
 
+/// The program, and what is told apart of it: the touches of the piece that it makes.
+struct ReadText {
+  WithoutMacros macros;
+  Program program;
+  std::vector<Probed> probed;
+};
+
 /// What the text says and does, the removal of stock left out but for that of a program alone, where asked
 /// for (`sweeps`). Gives the moves by step.
-std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& program,
-                                  const ProgramText& text, const model::Plan* plan,
-                                  const model::Machine& machine, const std::vector<model::Cutter>& cutters,
-                                  bool sweeps, const WithoutMacros& macros, Findings& findings) {
+std::vector<StepMoves> judge_text(const DialectReader& reader, const ReadText& read, const ProgramText& text,
+                                  const model::Plan* plan, const model::Machine& machine,
+                                  const std::vector<model::Cutter>& cutters, bool sweeps,
+                                  Findings& findings) {
+  const Program& program = read.program;
   ProgramCase c = make_case(reader, program, plan, machine, cutters);
   c.has_table = !text.tool_table.empty() && reader.tool_table != nullptr;
   for (const ReaderFault& f : program.faults) {
@@ -69,14 +78,21 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const Program& pr
   } else if (plan != nullptr) {
     compare(c, findings);
     check_between(c, findings);
-    check_macros(c, macros.touches, findings);
+    check_macros(c, read.macros.touches, findings);
   }
+  check_probed(c, read.probed, table, findings);
   return steps;
 }
 
-/// The text as readers get it: without the macros of the shop that a plan's touches are made by.
-WithoutMacros readable(const ProgramText& text, const model::Plan* plan) {
-  return plan != nullptr ? without_macros(text.text, *plan) : WithoutMacros{std::string(text.text), {}};
+/// Readers get the text without the macros of the shop that a plan's touches are made by; moves that touch
+/// are taken out of what they read.
+ReadText read_text(const DialectReader& reader, const ProgramText& text, const model::Plan* plan,
+                   const model::Machine& machine, const std::vector<model::Cutter>& cutters) {
+  ReadText out;
+  out.macros = plan != nullptr ? without_macros(text.text, *plan) : WithoutMacros{std::string(text.text), {}};
+  out.program = reader.program(out.macros.text, machine);
+  out.probed = take_probed(out.program, plan, cutters);
+  return out;
 }
 
 /// The reader for the machine's control. Without one nothing of the program is proved, which is a finding.
@@ -98,11 +114,10 @@ std::vector<model::Finding> check_program_text(const ProgramText& text, const mo
   Findings findings;
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
-  const WithoutMacros macros = readable(text, plan);
-  const Program program = reader->program(macros.text, machine);
+  const ReadText read = read_text(*reader, text, plan, machine, cutters);
   const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
-  (void)judge_text(*reader, program, text, plan, machine, none ? tools_of_header(program) : cutters, false,
-                   macros, findings);
+  (void)judge_text(*reader, read, text, plan, machine, none ? tools_of_header(read.program) : cutters, false,
+                   findings);
   return findings.take();
 }
 
@@ -114,14 +129,13 @@ std::vector<model::Finding> check_program(const ProgramText& text, const model::
   const DialectReader* reader = reader_for(machine, findings);
   if (reader == nullptr) return findings.take();
   check_to_its_end(job, findings, [&] {
-    const WithoutMacros macros = readable(text, plan);
-    const Program program = reader->program(macros.text, machine);
+    const ReadText read = read_text(*reader, text, plan, machine, cutters);
     poll();
     // Moves refer to the cutters.
     const bool none = plan == nullptr && cutters.empty() && text.tool_table.empty();
-    const std::vector<model::Cutter> tools = none ? tools_of_header(program) : cutters;
+    const std::vector<model::Cutter> tools = none ? tools_of_header(read.program) : cutters;
     const std::vector<StepMoves> steps =
-        judge_text(*reader, program, text, plan, machine, tools, true, macros, findings);
+        judge_text(*reader, read, text, plan, machine, tools, true, findings);
     poll();
     if (plan != nullptr) {
       std::optional<ReadPart> here;

@@ -58,6 +58,7 @@ struct Block {
   model::MoveKind move = model::MoveKind::kRapid;
   bool synchronised = false;              ///< G33.1 or a tapping cycle
   bool in_chuck = false;                  ///< tapping that a compensating chuck must even out
+  bool probes = false;                    ///< ends where a probe touches (G38.2, G31), at `to` at the latest
   bool in_machine = false;                ///< G53: `to` is in machine coordinates where a word was given
   bool from_cycle = false;                ///< expanded from a canned cycle
   int pocket = -1;                        ///< of Program::pockets, whose cycle made it; -1: none

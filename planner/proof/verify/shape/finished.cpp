@@ -396,6 +396,10 @@ std::vector<model::Finding> check_shape(const ProgramText& text, const model::Pl
     if (reader == nullptr) return {};
     const Program program = reader->program(text.text, plan.machine);
     steps = moves_of(make_case(*reader, program, &plan, plan.machine, plan.cutters));
+    // What a probe does takes nothing off.
+    std::erase_if(steps, [](const StepMoves& s) {
+      return s.cutter != nullptr && s.cutter->cutter_class == model::CutterClass::kTouchProbe;
+    });
   }
   const ShapeDifference d = compare_with_shape(plan, steps, shape);
   const Findings::Where whole{Findings::kWhole, "", -1};

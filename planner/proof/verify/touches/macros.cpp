@@ -7,53 +7,11 @@
 #include "planner/ground/base/number.h"
 #include "planner/model/nouns/all.h"
 #include "planner/model/plan/resources/control_options.h"
-#include "planner/proof/verify/sweep/apart.h"
-#include "planner/proof/verify/sweep/target/target.h"
 #include "planner/proof/verify/touches/measured.h"
-#include "planner/proof/verify/volumes/nouns.h"
+#include "planner/proof/verify/touches/way.h"
 
 namespace capstan::verify {
 namespace {
-
-using geometry::Vec2;
-using geometry::Vec3;
-
-constexpr double kAlong = 0.999999;  ///< cosine
-
-/// Where the ball's centre begins, and where its surface meets the wall: the set-up's frame, mm.
-struct Way {
-  Vec3 start, wall;
-  char axis = 'Z';
-  double ball = 0.0, stem = 0.0;
-};
-
-double along(const Vec3& v, char axis) { return axis == 'X' ? v.x : axis == 'Y' ? v.y : v.z; }
-
-std::optional<Way> way_of(const model::Plan& plan, model::AnyRef touch, std::size_t setup) {
-  const model::Model& m = plan.model;
-  const auto& p = m.at<model::WorkpieceProbing>(touch);
-  const auto start = volumes::frame_of(m, p.start_position);
-  const auto direction = volumes::unit_of(m, p.direction);
-  const auto* expected = m.get<model::TolerancedLengthMeasure>(p.expected_value);
-  const auto* probe = m.get<model::TouchProbe>(p.its_probe);
-  if (!start || !direction || expected == nullptr || !expected->theoretical_size || probe == nullptr ||
-      !probe->ball_radius)
-    return std::nullopt;
-  const geometry::Placement piece = workpiece_in(plan, setup);
-  Way w;
-  w.ball = *probe->ball_radius;
-  w.stem = std::max(w.ball, probe->stylus_diameter.value_or(0.0) / 2.0);
-  w.start = piece.to_parent(start->origin);
-  w.wall = piece.to_parent(start->origin + (*expected->theoretical_size + w.ball) * *direction);
-  const Vec3 d = w.wall - w.start;
-  for (const char axis : {'X', 'Y', 'Z'}) {
-    if (std::abs(along(d, axis)) > kAlong * norm(d)) {
-      w.axis = axis;
-      return w;
-    }
-  }
-  return std::nullopt;
-}
 
 std::string_view stripped(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -61,10 +19,19 @@ std::string_view stripped(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The digits that a Heidenhain's block begins with; 0: none, as in any block of another control.
+std::size_t bare_number(std::string_view line) {
+  const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
+  return digits < line.size() && line[digits] != ' ' ? 0 : digits;
+}
+
 /// Without the number of the block.
 std::string_view numberless(std::string_view line) {
   line = stripped(line);
-  if (line.size() < 2 || line[0] != 'N' || line[1] < '0' || line[1] > '9') return line;
+  if (!line.empty() && is_digit(line[0])) return stripped(line.substr(bare_number(line)));
+  if (line.size() < 2 || line[0] != 'N' || !is_digit(line[1])) return line;
   return stripped(line.substr(std::min(line.find_first_not_of("0123456789", 1), line.size())));
 }
 
@@ -78,17 +45,11 @@ std::vector<std::string_view> blocks_of(std::string_view macro) {
   return out;
 }
 
-/// What stands in a place of the macro.
-struct Place {
-  std::string_view text;
-  double number = 0.0;
-  bool is_number = false;
-};
-
 class Reading {
  public:
-  Reading(const model::Plan& plan, model::AnyRef touch, const Way& w)
+  Reading(const model::Plan& plan, model::AnyRef touch, const TouchWay& w, std::size_t setup)
       : way_(w),
+        security_(plan.setups[setup].security_z_mm),
         slack_(0.51 * std::pow(10.0, -plan.machine.control.decimals)),
         points_(plan.machine.control.dialect == "fanuc" || plan.machine.control.dialect == "haas") {
     const auto& p = plan.model.at<model::WorkpieceProbing>(touch);
@@ -118,6 +79,16 @@ class Reading {
     if (name == "feature") return word(line, id_);
     if (name == "probe") return !tool_.empty() && word(line, tool_);
     if (name == "axis") return word(line, std::string(1, way_.axis));
+    const bool up = along(way_.wall, way_.axis) > along(way_.start, way_.axis);
+    if (name == "axis_number") return word(line, std::to_string(way_.axis - 'X' + 1));
+    if (name == "sign") return line.starts_with(up ? '+' : '-') && (line.remove_prefix(1), true);
+    if (name == "direction")
+      return (up || (line.starts_with('-') && (line.remove_prefix(1), true))) && word(line, "1");
+    if (name == "way") return word(line, up ? "1" : "2");
+    if (name == "distance")
+      return number(line, std::abs(along(way_.wall, way_.axis) - along(way_.start, way_.axis)) - way_.ball);
+    if (name == "security") return number(line, security_);
+    if (name == "tip") return number(line, way_.start.z - way_.ball);
     if (name == "nominal") return number(line, along(way_.wall, way_.axis));
     if (name == "x") return number(line, way_.start.x);
     if (name == "y") return number(line, way_.start.y);
@@ -148,44 +119,20 @@ class Reading {
     return value && std::abs(*value - wanted) <= slack_;
   }
 
-  const Way way_;
+  const TouchWay way_;
+  double security_;
   double slack_;
   bool points_;  ///< a length without its point counts thousandths on one machine, millimetres on another
   std::string id_, tool_;
 };
 
-/// What is in the way of it; empty: nothing is.
-std::string in_the_way(const model::Plan& plan, const Way& w, std::size_t setup) {
-  const double head = model::control_number(plan.machine, "probe_radius_mm", 0.0);
-  const double stylus = model::control_number(plan.machine, "probe_stylus_mm", 0.0);
-  if (!(head > 0.0) || !(stylus > 0.0)) return "the probe, whose sizes the machine's file does not state";
-  const model::Workholding& holding = plan.setups[setup].holding;
-  if (holding.solids.empty()) return "what holds the piece, which nobody has said";
-  if (plan.stock.box.empty()) return "the raw piece, which is not known";
-  const geometry::Box3 raw = placed(plan.stock.box, workpiece_in(plan, setup));
-  const std::vector<Vec2> sides{
-      {raw.lo.x, raw.lo.y}, {raw.hi.x, raw.lo.y}, {raw.hi.x, raw.hi.y}, {raw.lo.x, raw.hi.y}};
-  const std::vector<Vec2> begin{xy(w.start)}, way{xy(w.start), xy(w.wall)};
-  const double low = std::min(w.start.z, w.wall.z), gap = holding.clearance_mm;
-  const bool under_start = w.start.z - w.ball < raw.hi.z + gap, under_head = low + stylus < raw.hi.z + gap;
-  if ((under_start && apart(begin, sides) < w.stem + gap) || (under_head && apart(way, sides) < head + gap))
-    return "the piece";
-  for (const model::FixtureSolid& s : holding.solids) {
-    if (s.outline.empty()) continue;
-    const double off = apart(way, s.outline);
-    if ((low - w.ball < s.top_mm + gap && off < w.stem + gap) ||
-        (low + stylus < s.top_mm + gap && off < head + gap))
-      return s.id;
-  }
-  return {};
-}
-
 }  // namespace
 
 WithoutMacros without_macros(std::string_view text, const model::Plan& plan) {
   WithoutMacros out{std::string(text), {}};
-  const auto blocks = blocks_of(model::control_option(plan.machine, "probe_macro"));
-  if (blocks.empty() || plan.steps.empty()) return out;
+  const auto blocks = blocks_of(model::probe_macro_blocks(plan.machine));
+  if (blocks.empty() || !model::unconfirmed_probe_macro(plan.machine).empty() || plan.steps.empty())
+    return out;
   struct Wanted {
     MacroTouch touch;
     Reading reading;
@@ -198,7 +145,7 @@ WithoutMacros without_macros(std::string_view text, const model::Plan& plan) {
     const std::size_t setup = step == plan.steps.end() ? plan.steps.back().setup : step->setup;
     for (const model::AnyRef t : touches) {
       if (const auto way = way_of(plan, t, setup))
-        wanted.push_back({{t, before, setup, 0, 0, 0}, Reading(plan, t, *way), false});
+        wanted.push_back({{t, before, setup, 0, 0, 0}, Reading(plan, t, *way, setup), false});
     }
   }
   struct Row {
@@ -222,9 +169,13 @@ WithoutMacros without_macros(std::string_view text, const model::Plan& plan) {
       w.touch.first = static_cast<long>(i) + 1;
       w.touch.last = static_cast<long>(i + blocks.size());
       out.touches.push_back(w.touch);
-      for (std::size_t k = 0; k < blocks.size(); ++k)
-        std::fill(out.text.begin() + static_cast<long>(rows[i + k].begin),
-                  out.text.begin() + static_cast<long>(rows[i + k].end), ' ');
+      // A number alone is a block that says nothing, and those behind it go on from it.
+      for (std::size_t k = 0; k < blocks.size(); ++k) {
+        const Row r = rows[i + k];
+        const std::size_t number = bare_number(text.substr(r.begin, r.end - r.begin));
+        std::fill(out.text.begin() + static_cast<long>(r.begin + number),
+                  out.text.begin() + static_cast<long>(r.end), ' ');
+      }
       i += blocks.size() - 1;
       break;
     }
@@ -233,7 +184,7 @@ WithoutMacros without_macros(std::string_view text, const model::Plan& plan) {
     auto row = static_cast<std::size_t>(t.last);
     const auto empty = [&] {
       const std::string_view left(out.text);
-      return stripped(left.substr(rows[row].begin, rows[row].end - rows[row].begin)).empty();
+      return numberless(left.substr(rows[row].begin, rows[row].end - rows[row].begin)).empty();
     };
     while (row < rows.size() && empty()) ++row;
     t.behind = static_cast<long>(row) + 1;
@@ -243,38 +194,22 @@ WithoutMacros without_macros(std::string_view text, const model::Plan& plan) {
 
 void check_macros(const ProgramCase& c, const std::vector<MacroTouch>& touches, Findings& findings) {
   const model::Plan& plan = *c.plan;
-  const auto step_at = [&](std::size_t marker) -> const model::StepResult* {
-    const long i = marker < c.step_of_marker.size() ? c.step_of_marker[marker] : -1;
-    return i < 0 ? nullptr : &plan.steps[static_cast<std::size_t>(i)];
-  };
-  const auto pocket = [&](const model::StepResult& s) {
-    const auto* cutter = model::find_cutter(plan, s.cutter_id);
-    return cutter != nullptr ? cutter->pocket : 0;
-  };
   for (const MacroTouch& t : touches) {
-    std::size_t next = 0;
-    while (next < c.program.markers.size() && c.program.markers[next].line < t.first) ++next;
-    Block at;
-    at.marker = static_cast<int>(next) - 1;
-    at.line = t.first;
-    const Findings::Where where = c.where(at);
+    const StandsBetween at = between_steps(c, t.first);
+    const Findings::Where& where = at.where;
     const std::string name =
         "the macro of '" + plan.model.at<model::WorkpieceProbing>(t.touch).its_id.value_or("") + "' ";
-    const model::StepResult* behind = next == 0 ? nullptr : step_at(next - 1);
-    const model::StepResult* then = next < c.program.markers.size() ? step_at(next) : nullptr;
-    if (behind == nullptr || (then == nullptr) != (next == c.program.markers.size()) ||
-        (then == nullptr ? model::AnyRef{} : model::AnyRef(then->step)) != t.before ||
-        behind->setup != t.setup) {
+    if (!stands_right(at, t.before, t.setup)) {
       findings.error(33, "CHK-PROBE-CALL", where,
                      name +
                          "does not stand where the plan measures, behind a step of "
                          "its set-up; take it there");
       continue;
     }
-    if (then != nullptr && pocket(*then) == pocket(*behind))
+    if (calls_no_tool(plan, at))
       findings.error(4, "CHK-PROBE-CALL", where,
                      name + "stands before a step that calls no tool: whether T" +
-                         std::to_string(pocket(*then)) +
+                         std::to_string(pocket_of(plan, *at.then)) +
                          " is in the spindle again is not known; measure by hand");
     const Block *before = nullptr, *after = nullptr;
     for (const Block& b : c.program.blocks) {

@@ -70,7 +70,7 @@ int group_of_g(int g) {
 }
 
 /// Of Grbl's codes those that shift the work, or move by places that the program does not state.
-constexpr std::array<int, 10> kUnfollowed = {100, 280, 281, 300, 301, 382, 383, 384, 385, 920};
+constexpr std::array<int, 9> kUnfollowed = {100, 280, 281, 300, 301, 383, 384, 385, 920};
 
 int group_of_m(int m) {
   switch (m) {
@@ -159,6 +159,7 @@ void Interpreter::code_rules(const BlockSaid& s) {
   const bool arcs = motion == 20 || motion == 30;
   if (arcs && axes && !dwells && !lengths && !s.is('I') && !s.is('J') && !s.is('R'))
     fault(23, "CHK-ARC", "the arc has neither a centre (I, J) nor a radius (R)");
+  if (motion == 382 && axis_code && !axes) fault(33, "CHK-WORD", "G38.2 names no axis; Grbl refuses it");
   if (arcs && axis_code && !axes) fault(23, "CHK-ARC", "the arc has no end (X, Y); Grbl refuses it");
   if (feed_mode_ == 93 && axes && motion > 0 && !s.is('F'))
     fault(18, "CHK-FEED", "a feed move in inverse time (G93) needs an F of its own in its block");

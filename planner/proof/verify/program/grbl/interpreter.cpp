@@ -13,7 +13,11 @@ namespace capstan::verify::grbl {
 
 namespace {
 
-constexpr bool is_motion(int g) { return g == 0 || g == 10 || g == 20 || g == 30 || g == 800; }
+constexpr int kToward = 382;  ///< G38.2, to a touch, and an alarm where there is none
+
+constexpr bool is_motion(int g) {
+  return g == 0 || g == 10 || g == 20 || g == 30 || g == kToward || g == 800;
+}
 
 /// By how much the number of G43.1 and the header's length of a tool may differ: both are written with the
 /// machine's decimals, three at least of a micrometre.
@@ -242,6 +246,7 @@ void Interpreter::motion(const BlockSaid& s, bool machine_coordinates) {
         "the tool moves in the work's coordinates behind its change, which leaves it anywhere; state G53 G0 "
         "Z with the top of Z before");
   anywhere_ = false;
+  if (motion_ == kToward) return toward(s);
   if (motion_ == 0 || motion_ == 10) return straight(s, motion_ / 10, machine_coordinates);
   arc(s, motion_ == 20);
 }

@@ -14,11 +14,11 @@ namespace capstan::verify::grbl {
 /// its end.
 inline constexpr std::size_t kLongestBlock = 79;
 
-/// Reads programs as Grbl 1.1 does: comments, N, G0-G4, G17, G20, G21, G40, G43.1, G49, G53, G54-G59, G61,
-/// G80, G90, G91, G91.1, G93, G94, M0, M2-M9, M30, T, S, F. M6 is carried out by who sends the program, or,
-/// where the machine's file says so (tool_change: m0), T and M0 are a change. What Grbl refuses, and what it
-/// has and this reader does not follow (G10, G28, G30, G38, G92, other planes), becomes a fault, and reading
-/// goes on.
+/// Reads programs as Grbl 1.1 does: comments, N, G0-G4, G17, G20, G21, G38.2, G40, G43.1, G49, G53, G54-G59,
+/// G61, G80, G90, G91, G91.1, G93, G94, M0, M2-M9, M30, T, S, F. M6 is carried out by who sends the program,
+/// or, where the machine's file says so (tool_change: m0), T and M0 are a change. What Grbl refuses, and what
+/// it has and this reader does not follow (G10, G28, G30, G38.3 to G38.5, G92, other planes), becomes a
+/// fault, and reading goes on.
 ///
 /// Length   with `tool_length: touch_off` that of the tool acts from its change on, in the work offset that
 /// was

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -68,8 +69,10 @@ int group_of_g(int g) {
       return 12;
     default:
       // G80 cancels beside any other motion.
-      return g == 0 || g == 10 || g == 20 || g == 30 || g == 331 || g == 730 || (g >= 810 && g <= 890) ? 2
-                                                                                                       : 0;
+      return g == 0 || g == 10 || g == 20 || g == 30 || g == 310 || g == 331 || g == 382 || g == 730 ||
+                     (g >= 810 && g <= 890)
+                 ? 2
+                 : 0;
   }
 }
 
@@ -128,7 +131,11 @@ void Interpreter::block_rules(const Line& l, const BlockSaid& s) {
   }
   word_rules(s);
   code_rules(s);
-  if (ways_.mach3) mach3_rules(l, s);
+  if (ways_.mach3) {
+    mach3_rules(l, s);
+  } else if (std::find(s.g, s.g + s.g_count, 310) != s.g + s.g_count) {
+    fault(33, "CHK-CODE", "G31 is none of LinuxCNC's");
+  }
 }
 
 void Interpreter::word_rules(const BlockSaid& s) {

@@ -13,9 +13,12 @@ using model::MoveKind;
 
 namespace {
 
+/// To where the probe touches: G38.2, which is an error where there is no touch, and G31, which is none.
+constexpr int kToward = 382, kMach3sToward = 310;
+
 constexpr bool is_motion(int g) {
   return g == 0 || g == 10 || g == 20 || g == 30 || g == 331 || g == 730 || g == 800 ||
-         (g >= 810 && g <= 890);
+         (g >= 810 && g <= 890) || g == kToward || g == kMach3sToward;
 }
 constexpr bool is_cycle(int g) { return g == 730 || (g >= 810 && g <= 890); }
 
@@ -242,6 +245,8 @@ void Interpreter::motion(const BlockSaid& s, bool machine_coordinates) {
   const bool axes = s.is('X') || s.is('Y') || s.is('Z');
   for (int i = 0; i < s.g_count; ++i) {
     if (!is_motion(s.g[i])) continue;
+    if ((s.g[i] == kToward || s.g[i] == kMach3sToward) && !axes)
+      fault(33, "CHK-WORD", code_text('G', s.g[i]) + " names no axis; " + name() + " refuses it");
     if (s.g[i] == 800) stated_ |= kStatedCycle;
     if (is_cycle(s.g[i]) && !is_cycle(motion_)) {
       cycle_known_ = false;
@@ -269,6 +274,10 @@ void Interpreter::motion(const BlockSaid& s, bool machine_coordinates) {
       break;
     case 331:
       tap(s);
+      break;
+    case kToward:
+    case kMach3sToward:
+      toward(s);
       break;
     case -1:
       fault(33, "CHK-UNVERIFIABLE", "the words of axes have no motion: state G0, G1 or another before them");

@@ -12,7 +12,7 @@ namespace capstan::verify::linuxcnc {
 namespace {
 
 /// Codes times ten that LinuxCNC has and Mach3 has not.
-constexpr std::array kNotMach3s{331, 431, 591, 592, 593, 611};
+constexpr std::array kNotMach3s{331, 382, 431, 591, 592, 593, 611};
 
 }  // namespace
 

@@ -15,7 +15,7 @@ namespace capstan::verify::linuxcnc {
 inline constexpr std::size_t kLineCap = 252;
 
 /// Reads RS274/NGC as LinuxCNC does, as far as programs without parameters go: comments, N, G0-G4, G17,
-/// G20, G21, G33.1, G40-G42, G43, G43.1, G49, G53, G54-G59.3, G61, G64, G73, G80-G89, G90, G91, G91.1,
+/// G20, G21, G33.1, G38.2, G40-G42, G43, G43.1, G49, G53, G54-G59.3, G61, G64, G73, G80-G89, G90, G91, G91.1,
 /// G93-G95, G98, G99, M0-M9, M30, M60. Cycles are expanded into moves, kCycleBlockCap of them at most. What
 /// is beyond that (parameters, expressions, O-words, other planes) becomes a fault, and reading goes on. So
 /// does a block that LinuxCNC refuses or reads otherwise (block_rules.cpp).
@@ -30,10 +30,10 @@ inline constexpr std::size_t kLineCap = 252;
 
 /// Reads programs of Mach3, whose interpreter is of NIST's RS274/NGC as LinuxCNC's is, by what the machine's
 /// file says of it (options `dwell`, `line_length`, `shop_codes`). What it does otherwise: G64 has no P and
-/// rounds as its settings say; the unit of P is a setting; arcs have the centre of G90.1 or G91.1, a setting
-/// where neither stands; G85 and G89 come out at feed to where the cycle ends. G33.1, G43.1, G59.1 to G59.3,
-/// G61.1, M60 and `;` are not of it; G73, G83 and G84, which its settings and plugins decide, are not
-/// followed.
+/// rounds as its settings say; the unit of P is a setting; G31 ends at a touch; arcs have the centre of G90.1
+/// or G91.1, a setting where neither stands; G85 and G89 come out at feed to where the cycle ends. G33.1,
+/// G43.1, G59.1 to G59.3, G61.1, M60 and `;` are not of it; G73, G83 and G84, which its settings and plugins
+/// decide, are not followed.
 ///
 /// Cost    linear in the text. No recursion.
 /// Source  Using Mach3Mill, revision 1.84, as others quote it (comments, G4, G64, G90.1, G91.1, M6); NIST

@@ -171,7 +171,7 @@ TEST(GrblReader, WhatGrblRefusesIsAFault) {
        {"G1 X1 A5 F100\n", "G1 X1 P2 F100\n", "G0 G1 X1\n", "G53 X1 G2 I1\n", "G4\n", "G4 P1 X2\n", "S-5\n",
         "G49 G0 X1\n", "G80\nX5\n", "G1 X1 E5 F100\n", "D1\n", "M3 M4\n", "M8 M9\n", "G91\nG53 G0 Z0\n"})
     EXPECT_TRUE(finds(read(text), "CHK-WORD")) << text;
-  for (const char* text : {"G10 L2 P1 X1\n", "G92 X0\n", "G28\n", "G38.2 Z-5 F50\n", "G30\n"})
+  for (const char* text : {"G10 L2 P1 X1\n", "G92 X0\n", "G28\n", "G38.3 Z-5 F50\n", "G30\n"})
     EXPECT_TRUE(finds(read(text), "CHK-CODE")) << text;
   EXPECT_TRUE(finds(read("G2 X9 Y9\n"), "CHK-ARC"));
   EXPECT_TRUE(finds(read("T256 M6\n"), "CHK-TOOL"));
@@ -185,6 +185,18 @@ TEST(GrblReader, WhatGrblRefusesIsAFault) {
   EXPECT_TRUE(finds(read("G20\n"), "CHK-UNITS"));
   EXPECT_TRUE(finds(read("M7\n"), "CHK-CODE"));
   EXPECT_EQ(faults(read("M7\n", {{"mist", "yes"}})), "");
+}
+
+TEST(GrblReader, G382EndsAtATouchWhoseAxisIsNotKnownBehindIt) {
+  const Program p = read("G38.2 Z-5 F50\n");
+  EXPECT_EQ(faults(p), "");
+  const auto probes = std::find_if(p.blocks.begin(), p.blocks.end(), [](const Block& b) { return b.probes; });
+  ASSERT_NE(probes, p.blocks.end());
+  EXPECT_EQ(probes->to.z, -5.0);
+  EXPECT_TRUE(finds(read("G38.2 F50\n"), "CHK-WORD"));
+  EXPECT_FALSE(read("G38.2 Z-5 F50\nG1 X9\n")
+                   .blocks[static_cast<std::size_t>(probes - p.blocks.begin()) + 1]
+                   .known_from[2]);
 }
 
 // protocol.h: 80 characters with the end; blanks and comments are not kept.

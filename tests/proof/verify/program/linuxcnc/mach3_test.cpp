@@ -76,7 +76,8 @@ TEST(Mach3Reader, AReamerComesOutAtFeedToWhereTheCycleEnds) {
 }
 
 TEST(Mach3Reader, WhatIsLinuxCncsAloneOrASettingIsAFault) {
-  for (const char* block : {"G59.1\n", "G61.1\n", "G33.1 Z-5 K1\n", "M60\n", "G43.1 Z50\n"})
+  for (const char* block :
+       {"G38.2 Z-5 F50\n", "G59.1\n", "G61.1\n", "G33.1 Z-5 K1\n", "M60\n", "G43.1 Z50\n"})
     EXPECT_TRUE(finds(read(block), "CHK-CODE")) << block;
   EXPECT_TRUE(finds(read("M55\n"), "CHK-CODE"));
   EXPECT_EQ(faults(read("M55\n", {{"shop_codes", "M55"}})), "");
@@ -90,6 +91,13 @@ TEST(Mach3Reader, NamesTheControlThatRefuses) {
   const std::string said = faults(read("G1 X9 F100 N5\n"));
   EXPECT_NE(said.find("Mach3 reads it"), std::string::npos) << said;
   EXPECT_EQ(said.find("LinuxCNC"), std::string::npos) << said;
+}
+
+TEST(Mach3Reader, G31EndsAtATouch) {
+  const Program p = read("G31 Z-2 F100\n");
+  EXPECT_EQ(faults(p), "");
+  EXPECT_TRUE(std::any_of(p.blocks.begin(), p.blocks.end(), [](const Block& b) { return b.probes; }));
+  EXPECT_TRUE(finds(read("G31 F100\n"), "CHK-WORD"));
 }
 
 }  // namespace

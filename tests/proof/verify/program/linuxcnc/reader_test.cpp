@@ -43,5 +43,24 @@ TEST(LinuxCncCycles, PecksThatDivideTheDepthAreNotOneMoreByRounding) {
   }
 }
 
+// Where it ended the program does not say.
+TEST(LinuxCncProbing, G382EndsAtATouchWhoseAxisIsNotKnownBehindIt) {
+  const auto read = [](const std::string& block) {
+    return read_program("G21 G17 G90 G94 G40 G80\nG54\nT1 M6\nG43 H1\nG0 X5 Y6\nG0 Z10\n" + block + "M2\n",
+                        "", "");
+  };
+  const Program p = read("G38.2 Z-2 F100\nG1 X9\n");
+  EXPECT_TRUE(p.faults.empty()) << p.faults.front().message;
+  const auto probes = std::find_if(p.blocks.begin(), p.blocks.end(), [](const Block& b) { return b.probes; });
+  ASSERT_NE(probes, p.blocks.end());
+  EXPECT_EQ(probes->to.z, -2.0);
+  EXPECT_EQ(probes->feed_mm_min, 100.0);
+  const Block& behind = *(probes + 1);
+  EXPECT_FALSE(behind.known_from[2]);
+  EXPECT_TRUE(behind.known_from[0]);
+  for (const char* block : {"G38.2 F100\n", "G38.3 Z-2 F100\n", "G31 Z-2 F100\n", "G38.2 G1 Z-2 F100\n"})
+    EXPECT_FALSE(read(block).faults.empty()) << block;
+}
+
 }  // namespace
 }  // namespace capstan::verify::linuxcnc
