@@ -113,7 +113,8 @@ struct PlanOutput {
   /// exceeded, features that are not planned and that others rest on.
   std::vector<PlanMessage> condemned;
   /// All forms by the name of their format, those above included: "iso14649", "ap238", "json", "linuxcnc",
-  /// "linuxcnc_tools", "report", "svg" and "png" (pictures of the paths), and what later versions add.
+  /// "linuxcnc_tools", "report", "svg" and "png" (pictures of the paths; none of a call with a deadline), and
+  /// what later versions add.
   std::map<std::string, std::string> forms = {};
   bool late = false;  ///< the deadline was past when the plan was there
 };

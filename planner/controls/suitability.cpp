@@ -152,20 +152,27 @@ class Suitability {
   void faces(const std::vector<std::string>& ids) {
     const Dialect* writes = find_dialect(plan_.machine.control.dialect);
     const auto asked = gcode::asked_faces(plan_, writes != nullptr ? writes->faces : nullptr);
+    std::map<int, double> radii;  // by tool
+    double planned_s = 0.0, estimated_s = 0.0;
     for (std::size_t i = 0; i < asked.size(); ++i) {
       if (!asked[i].why_not.empty())
         add("FIT-FACE-CYCLE", Severity::kNote, ids[i], -1,
             "the face is asked for as a cycle of the control, and stays moves: " + asked[i].why_not);
       if (!asked[i].cycle) continue;
-      const gcode::FaceCycle& c = *asked[i].cycle;
-      add("FIT-FACE-CYCLE", Severity::kNote, ids[i], -1,
-          "the face cycle counts with the tool table of the control, which is not seen; before the first cut "
-          "see "
-          "that it has: R of T" +
-              std::to_string(c.tool) + " " + shortest(0.5 * c.cutter_mm) + " mm; tool life counts the " +
-              trimmed(c.planned_s, 0) + " s of the planned path, the cycle's take about " +
-              trimmed(gcode::estimated_s(c), 0) + " s");
+      radii[asked[i].cycle->tool] = 0.5 * asked[i].cycle->cutter_mm;
+      planned_s += asked[i].cycle->planned_s;
+      estimated_s += gcode::estimated_s(*asked[i].cycle);
     }
+    if (radii.empty()) return;
+    std::string must;
+    for (const auto& [tool, radius] : radii)
+      must += "R of T" + std::to_string(tool) + " " + shortest(radius) + " mm; ";
+    add("FIT-FACE-CYCLE", Severity::kNote, {}, -1,
+        "the face cycles count with the tool table of the control, which is not seen; before the first cut "
+        "see "
+        "that it has: " +
+            must + "tool life counts the " + trimmed(planned_s, 0) +
+            " s of the planned paths, the cycles' take about " + trimmed(estimated_s, 0) + " s");
   }
 
   void kinds(const StepResult& step, const std::string& id) {

@@ -158,6 +158,7 @@ class Writer {
       if (made.blocks.empty()) continue;
       retract();
       stop();
+      probe_is_in_ = true;
     }
   }
 
@@ -207,7 +208,8 @@ class Writer {
   void enter(const StepResult& step, const Cutter& cutter, const std::string& id, std::size_t n,
              bool measured) {
     const model::SetupResult& setup = plan_.setups[step.setup];
-    const bool new_tool = cutter.pocket != tool_;
+    const bool other_tool = cutter.pocket != tool_, new_tool = other_tool || probe_is_in_;
+    probe_is_in_ = false;
     const bool first = tool_ == 0;
     const bool new_setup = !first && step.setup != setup_;
     const bool again = new_setup && !new_tool && words_.call_again;
@@ -217,7 +219,7 @@ class Writer {
     if ((new_tool || new_setup || !why.empty()) && !first) {
       retract();
       stop();
-      if (new_tool && !words_.tool_end.empty()) program_.line(words_.tool_end);
+      if (other_tool && !words_.tool_end.empty()) program_.line(words_.tool_end);
     }
     program_.marker("CAPSTAN STEP id=\"" + marker_text(id) + "\" n=" + std::to_string(n + 1) +
                     " tool=" + std::to_string(cutter.pocket) + " setup=" + std::to_string(step.setup + 1) +
@@ -233,7 +235,7 @@ class Writer {
     tolerance(step.contour_tolerance_mm, !roughs(step));
     program_.line(words_.work_offset ? words_.work_offset(setup.work_offset) : setup.work_offset);
     const std::string t = std::to_string(cutter.pocket);
-    if (new_tool && cutter.cutter_class == model::CutterClass::kBoringTool)
+    if (other_tool && cutter.cutter_class == model::CutterClass::kBoringTool)
       program_.comment("T" + t + ": the boring tool is set to diameter " +
                        program_.number(cutter.cutting_diameter_mm) + " mm");
     if (new_tool) {
@@ -489,6 +491,7 @@ class Writer {
   double speed_ = 0.0;
   std::string called_;  // speed that the change of the tool stated, until the spindle starts
   bool flood_ = false, mist_ = false, through_ = false;
+  bool probe_is_in_ = false;              // in place of tool_
   bool uses_through_ = false;             // a step of the plan does
   std::vector<std::string> subprograms_;  // lines of each
   std::string defined_;                   // text of the cycle that a call would run

@@ -46,15 +46,16 @@ class Work {
 };
 
 /// The forms of the plan; one that cannot be made is an error among the diagnostics. A tool table goes with
-/// its program.
+/// its program. `timed`: the call has a deadline.
 std::vector<service::Output> forms_of(const service::Planned& planned, const service::Writing& how,
-                                      Job& job) {
+                                      bool timed, Job& job) {
   const model::Plan& plan = planned.plan;
   const bool runs = !plan.steps.empty() && !planned.open;  // what is left open has no program yet
   std::vector<service::Output> out;
   std::set<const controls::Dialect*> without;
   for (const service::Format& f : service::formats()) {
     if (f.write == nullptr) continue;
+    if (f.holds == service::Holds::kPicture && timed) continue;  // a control that waits looks at none
     // Only the machine's own control runs a program of the plan.
     if (f.of_program() && (!runs || !f.is_read_by(plan.machine.control.dialect))) continue;
     if (without.count(f.control) != 0) continue;
@@ -95,7 +96,7 @@ void finish(const service::Request& request, const service::Planned& planned, Pl
   out.late = planned.late;
   out.steps = plan.steps.size();
   out.unplanned = plan.unplanned.size();
-  auto made = forms_of(planned, service::writing_of(request), job);
+  auto made = forms_of(planned, service::writing_of(request), request.deadline.has_value(), job);
   service::Verdict verdict;
   if (!planned.open) {
     if (auto judged = service::judge(request, planned, made, job)) {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "planner/ground/base/file.h"
@@ -36,8 +37,13 @@ class OwnFolder {
     if (!ec && ::mkdtemp(name.data()) != nullptr) path_ = name;
   }
   ~OwnFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
+    // Helpers of a browser that was ended live a moment longer, and write into its folder.
+    std::error_code failed;
+    for (int tries = 0; tries < 40 && !path_.empty(); ++tries) {
+      fs::remove_all(path_, failed);
+      if (!fs::exists(path_, failed)) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    }
   }
   OwnFolder(const OwnFolder&) = delete;
   OwnFolder& operator=(const OwnFolder&) = delete;

@@ -22,6 +22,8 @@ namespace capstan {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 const std::string kBracket = capstan::testing::source_dir() + "/examples/bracket.p21";
 
@@ -234,12 +236,31 @@ TEST(Facade, APersonsEditsHoldInThePlanAndComeBackAsAFile) {
   EXPECT_FALSE(plan_file(kBracket, options).planned);
 }
 
+TEST(Facade, PicturesDrawTheStepsThatAreAskedForAndCostNoDeadline) {
+  PlanOptions options;
+  options.draw = {"2", "SLOT*"};
+  const PlanOutput out = plan_file(kBracket, options);
+  for (const char* drawn : {"2", "6", "7"})
+    EXPECT_THAT(out.forms.at("svg"), HasSubstr("data-step=\"" + std::string(drawn) + "\"")) << drawn;
+  EXPECT_THAT(out.forms.at("svg"), Not(HasSubstr("data-step=\"3\"")));
+  options.draw = {"no such step"};
+  const PlanOutput none = plan_file(kBracket, options);
+  EXPECT_TRUE(none.planned);
+  EXPECT_FALSE(none.forms.contains("svg"));
+  EXPECT_TRUE(std::any_of(none.diagnostics.begin(), none.diagnostics.end(),
+                          [](const PlanMessage& m) { return m.code == "PIC-STEP"; }));
+  options.draw = {};
+  options.deadline = "60s";
+  EXPECT_FALSE(bind_bytes(out.json, "bracket.json", options).forms.contains("png"));
+}
+
 TEST(Facade, FormsStandUnderTheNamesOfTheirFormats) {
   const PlanOutput out = plan_file(capstan::testing::source_dir() + "/examples/plate_bound.p21", {});
   ASSERT_TRUE(out.planned);
   EXPECT_TRUE(out.forms.at("json") == out.json);
   EXPECT_TRUE(out.forms.at("linuxcnc") == out.linuxcnc);
   EXPECT_TRUE(out.forms.at("linuxcnc_tools") == out.tool_table);
+  EXPECT_THAT(out.forms.at("png"), StartsWith("\x89PNG"));
   const CheckOutput checked = check_bytes({{"plate.json", out.json}, {"plate.ngc", out.linuxcnc}}, {});
   EXPECT_TRUE(checked.checked);
   for (const auto& f : checked.findings) EXPECT_NE(f.severity, "error") << f.text;

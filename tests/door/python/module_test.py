@@ -177,6 +177,10 @@ class Planned(unittest.TestCase):
             self.plan.write(path)
             with open(path, "rb") as file:
                 self.assertEqual(file.read(), self.plan.forms["json"])
+            for ending, begins in ((".svg", b"<?xml "), (".png", b"\x89PNG"), (".html", b"<!DOCTYPE html>")):
+                self.plan.write(os.path.join(folder, "p" + ending))
+                with open(os.path.join(folder, "p" + ending), "rb") as file:
+                    self.assertTrue(file.read().startswith(begins), ending)
             with self.assertRaisesRegex(KeyError, "no form 'siemens'; the plan has"):
                 self.plan.write(path, "siemens")
             with self.assertRaisesRegex(ValueError, "names no form"):

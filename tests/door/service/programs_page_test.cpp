@@ -61,7 +61,9 @@ std::string program(const std::string& control, std::string cycles) {
     Request request;
     EXPECT_TRUE(set(request, "control", control));
     EXPECT_TRUE(kind != " held" || set(request, "workholding", "vise_125"));
-    const std::string part = kind == " slot" ? pocket_parts::closed_slot() : wide_holes(kind == " row");
+    const std::string part = kind == " slot"   ? pocket_parts::closed_slot()
+                             : kind == " held" ? pocket_parts::bracket()
+                                               : wide_holes(kind == " row");
     Job job;
     const auto out = plan(request, {.name = kPart, .bytes = part}, job);
     EXPECT_TRUE(out) << (out ? "" : to_text(out.error().what));

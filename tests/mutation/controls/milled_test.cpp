@@ -93,7 +93,8 @@ TEST(MilledProgram, ACycleOfSiemensWithAnotherFigureIsFound) {
   const model::Plan& plan = milled("siemens");
   const std::string text = program_of(plan);
   EXPECT_THAT(errors(plan, text), ::testing::IsEmpty());
-  // RTP, RFP, SDIS, DP, PA, PO, LENG, WID, MID, MIDA, FDP, FALD, FFP1
+  // RTP, RFP, SDIS, DP, PA, PO (the rectangle is 10 over the edge there), LENG, WID, MID, MIDA, FDP, FALD,
+  // FFP1
   finds_all(plan, text, "CYCLE71(",
             {{0, -15, -0.05},
              {0, 0.05, 50},
@@ -103,7 +104,7 @@ TEST(MilledProgram, ACycleOfSiemensWithAnotherFigureIsFound) {
              {3, -9, -0.02},
              {3, 0.02, 0.9},
              {4, 0.02, 90},
-             {5, 0.02, 90},
+             {5, 10.02, 90},
              {6, -90, -0.02},
              {7, -90, -0.02},
              {9, 0.05, 9},

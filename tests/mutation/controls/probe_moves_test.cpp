@@ -102,11 +102,38 @@ TEST(ProbeMoves, WhatIsNotProvenStaysAStopThatSaysWhy) {
   other = plan;
   other.cutters.back().functional_length_mm = 0.0;
   says(other, "is not measured");
-  other = plan;
-  other.steps[1].cutter_id = other.steps[0].cutter_id;
-  EXPECT_FALSE(has(text_of(other), "\nG38.2")) << "no tool is called behind it";
   EXPECT_FALSE(has(text_of(with(plan, "probe_feed_mm_min", "")), "G38.2"));
   EXPECT_FALSE(has(text_of(with(moved({kTop}, "grbl"), "tool_length", "")), "G38.2")) << "zero by touch-off";
+}
+
+TEST(ProbeMoves, AStepThatGoesOnWithTheToolBeforeCallsItAgain) {
+  for (const char* dialect : {"linuxcnc", "fanuc"}) {
+    std::vector<model::ControlOption> options = by_moves(dialect);
+    if (std::string(dialect) == "fanuc") {
+      options = kProbe;
+      options.push_back({"probe_macro", "G65 P9810 X{x} Y{y} Z{z} | G65 P9811 {axis}{nominal}"});
+    }
+    const auto plan_with = [&](bool touches) {
+      model::Plan plan =
+          touched::measured(touches ? std::vector{kTop} : std::vector<Touched>{}, dialect, options);
+      plan.cutters[0].pocket = 2;
+      plan.steps[0].cutter_id = plan.cutters[1].id;
+      plan.cutters.erase(plan.cutters.begin());
+      return plan;
+    };
+    const model::Plan plan = plan_with(true), none = plan_with(false);
+    const std::string text = text_of(plan), without = text_of(none);
+    const std::size_t first = text.find("\nT2 M6"), again = text.find("\nT2 M6", first + 1);
+    ASSERT_NE(again, std::string::npos) << text;
+    EXPECT_EQ(without.find("\nT2 M6", without.find("\nT2 M6") + 1), std::string::npos) << without;
+    // A drill that mills has faults of its own, with and without the touch: none is of the call.
+    for (const char* code : {"CHK-PROBE", "CHK-TEXT"})
+      EXPECT_FALSE(has(found(plan, text), code)) << found(plan, text);
+    std::string unsaid = text;
+    unsaid.erase(again + 1, 6);
+    EXPECT_TRUE(has(found(plan, unsaid), "CHK-PROBE-CALL")) << dialect;
+    EXPECT_TRUE(has(found(none, replaced(without, "\nG0 X15", "\nT2 M6\nG0 X15")), "CHK-TEXT")) << dialect;
+  }
 }
 
 TEST(ProbeMoves, OtherMovesAreFound) {
@@ -159,9 +186,7 @@ TEST(ProbeMoves, ThePlansWayFeedAndLengthAreHeldAgainstTheText) {
   EXPECT_TRUE(has(found(other, text), "CHK-PROBE-CALL"));
   EXPECT_TRUE(
       has(found(plan, text, replaced(controls::tool_table_of(plan), "T20 P20", ";")), "CHK-PROBE-CALL"));
-  other = plan;
-  other.cutters[0].pocket = 2;
-  EXPECT_TRUE(has(found(other, text), "CHK-PROBE-CALL")) << "no tool is called behind it";
+  EXPECT_TRUE(has(found(plan, replaced(text, "T2 M6\n", "")), "CHK-PROBE-CALL"));
 }
 
 TEST(ProbeMoves, WithoutThePlanNothingIsProvenOfThem) {

@@ -25,7 +25,7 @@ MacroCall macro_call(const model::Plan& plan, model::AnyRef probing, std::size_t
     out.why_not = "the number of the probe is not stated";
     return out;
   }
-  out.why_not = in_the_way(plan, *t, setup, 0.0);
+  out.why_not = in_the_way(plan, *t, setup, model::probe_macro_beyond_mm(plan.machine));
   if (!out.why_not.empty()) return out;
   const auto number = [&](double v) { return words.number(v, plan.machine.control.decimals); };
   const std::array<std::pair<std::string_view, std::string>, 14> places = {
@@ -59,7 +59,7 @@ TouchBlocks macro_calls(const model::Plan& plan, const std::vector<model::AnyRef
   TouchBlocks out;
   const std::string macro(model::probe_macro_blocks(plan.machine));
   if (macro.empty()) return out;
-  std::string why_none = not_here(plan, next, standing);
+  std::string why_none = not_here(next, standing);
   if (const auto id = model::unconfirmed_probe_macro(plan.machine); why_none.empty() && !id.empty())
     why_none = "nobody has confirmed " + std::string(id) + " (probe_macro_confirmed)";
   for (const model::AnyRef r : touches) {

@@ -83,7 +83,7 @@ TouchBlocks probe_moves(const model::Plan& plan, const std::vector<model::AnyRef
   const auto stated = [&](std::string_view name) { return model::control_number(plan.machine, name, 0.0); };
   const Feeds feeds{stated("probe_feed_mm_min"), stated("probe_way_mm_min"), stated("probe_overtravel_mm")};
   if (words.probe.empty() || !(feeds.touch > 0.0)) return out;
-  std::string why_none = not_here(plan, next, standing);
+  std::string why_none = not_here(next, standing);
   if (why_none.empty() && (!(feeds.way > 0.0) || !(feeds.overtravel_mm > 0.0)))
     why_none = "the machine's file states no probe_way_mm_min or probe_overtravel_mm";
   const Moves moves(plan, words, feeds);

@@ -12,8 +12,8 @@ namespace capstan::controls::gcode {
 /// goes over the start at the top of Z, straight down at `probe_way_mm_min`, at `probe_feed_mm_min` along the
 /// axis until it touches, `probe_overtravel_mm` beyond the expected wall at the latest, back to the start and
 /// up. Z is of the lowest place of the ball, to which the probe's length is measured. Written where
-/// `in_the_way` finds nothing, behind a step of the same set-up and before one that calls a tool, with a
-/// probe of the tool list whose length is measured. Nothing where the machine states no `probe_feed_mm_min`.
+/// `in_the_way` finds nothing, behind a step of the same set-up, with a probe of the tool list whose length
+/// is measured. Nothing where the machine states no `probe_feed_mm_min`.
 [[nodiscard]] TouchBlocks probe_moves(const model::Plan& plan, const std::vector<model::AnyRef>& touches,
                                       const model::StepResult* next, Standing standing, const Words& words);
 

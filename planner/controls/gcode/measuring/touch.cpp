@@ -113,11 +113,9 @@ std::string in_the_way(const model::Plan& plan, const Touch& t, std::size_t setu
   return {};
 }
 
-std::string not_here(const model::Plan& plan, const model::StepResult* next, Standing standing) {
+std::string not_here(const model::StepResult* next, Standing standing) {
   if (standing.tool == 0 || (next != nullptr && next->setup != standing.setup))
     return "it stands before the first step of its set-up";
-  if (next != nullptr && model::find_cutter(plan, next->cutter_id)->pocket == standing.tool)
-    return "the next step goes on with the tool before";
   return {};
 }
 

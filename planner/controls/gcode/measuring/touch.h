@@ -39,8 +39,8 @@ struct Standing {
 };
 
 /// Why no touch is made before step `next` (null: behind the last); empty: it may be. Behind a step of the
-/// same set-up work offset and height are known, and a step that calls its tool takes the probe away.
-[[nodiscard]] std::string not_here(const model::Plan& plan, const model::StepResult* next, Standing standing);
+/// same set-up work offset and height are known.
+[[nodiscard]] std::string not_here(const model::StepResult* next, Standing standing);
 
 /// What the machine does of some touches, and why the others stay the operator's.
 struct TouchBlocks {

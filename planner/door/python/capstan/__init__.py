@@ -128,7 +128,8 @@ class Plan:
     def _form_of(self, path):
         ending = os.path.splitext(path)[1].lower()
         known = {".json": "json", ".p21": "iso14649", ".stp": "iso14649", ".stpnc": "ap238", ".238": "ap238",
-                 ".tbl": "linuxcnc_tools", **{e: self.control for e in (".ngc", ".nc", ".mpf", ".h", ".gcode")}}
+                 ".tbl": "linuxcnc_tools", ".html": "report", ".svg": "svg", ".png": "png",
+                 **{e: self.control for e in (".ngc", ".nc", ".mpf", ".h", ".gcode")}}
         if ending not in known:
             raise ValueError(f"the ending of '{path}' names no form; give form=..., one of " +
                              ", ".join(sorted(self.forms)))

@@ -263,6 +263,14 @@ Result<std::string> svg(const Plan& plan, const std::vector<std::string>& steps)
 Result<std::string> png(const Plan& plan, const std::vector<std::string>& steps) {
   const auto drawing = drawing_of(plan, steps);
   if (!drawing) return tl::unexpected(drawing.error());
+  const double wide = kPixelsPerUnit * drawing->width, high = kPixelsPerUnit * drawing->height;
+  if (wide * high > static_cast<double>(kMostPixels))
+    return fail({.code = "PIC-SIZE",
+                 .message = "the picture would have " + trimmed(wide, 0) + " x " + trimmed(high, 0) +
+                            " pixels, for the plan has " + counted(plan.setups.size(), "set-up", "set-ups"),
+                 .file = plan.file_name,
+                 .expected = "at most " + std::to_string(kMostPixels / 1'000'000) + " million",
+                 .hint = "draw fewer steps (--draw), or write .svg"});
   return png_bytes(pixels_of(*drawing));
 }
 

@@ -22,8 +22,10 @@ namespace capstan::report::picture {
 [[nodiscard]] Result<Drawing> drawing_of(const model::Plan& plan, const std::vector<std::string>& steps);
 
 inline constexpr std::size_t kMostInLegend = 200, kMostPoints = 120'000, kLeastPoints = 200;
+inline constexpr std::size_t kMostPixels = 60'000'000;
 
-/// As svg_text (svg.h) writes it, or png_bytes (png.h) its pixels. Fails as `drawing_of`.
+/// As svg_text (svg.h) writes it, or png_bytes (png.h) its pixels.
+/// Fails  as `drawing_of`; PIC-SIZE: of more set-ups than kMostPixels hold, some twenty.
 [[nodiscard]] Result<std::string> svg(const model::Plan& plan, const std::vector<std::string>& steps);
 [[nodiscard]] Result<std::string> png(const model::Plan& plan, const std::vector<std::string>& steps);
 

@@ -87,7 +87,8 @@ int chords_of(const model::CutterPath& path, std::size_t i, double scale) {
   const double radius =
       scale * geometry::norm(geometry::xy(path.point(i - 1)) - Vec2{path.cx[i], path.cy[i]});
   if (radius <= kThinning) return 1;
-  const double step = 2.0 * std::acos(1.0 - kThinning / radius);
+  // 2 acos(1 - e / r), from below; above 0 for any radius.
+  const double step = 2.0 * std::sqrt(2.0 * kThinning / radius);
   return std::max(1, static_cast<int>(std::ceil(model::arc_sweep(path, i) / step)));
 }
 
@@ -337,9 +338,12 @@ std::vector<Group> marks_in(const Views& views) {
     out.push_back(std::move(zero));
   }
   Group names{.title = "views"};
-  names.shapes.emplace_back(Words{.at = views.at + Vec2{0.0, -5.0}, .text = "from above", .colour = kGrey});
+  // At the right: the zero, whose axis reaches above the view from the front, mostly is at the left.
+  const double right = views.at.x + views.size.x;
   names.shapes.emplace_back(
-      Words{.at = {views.at.x, views.front_y - 5.0}, .text = "from the front", .colour = kGrey});
+      Words{.at = {right, views.at.y - 5.0}, .text = "from above", .colour = kGrey, .ends_there = true});
+  names.shapes.emplace_back(Words{
+      .at = {right, views.front_y - 5.0}, .text = "from the front", .colour = kGrey, .ends_there = true});
   out.push_back(std::move(names));
   Group bar{.title = "scale"};
   const double mm = round_below(0.25 * kViewsWide / views.scale);

@@ -24,17 +24,28 @@ double control_number(const Machine& machine, std::string_view name, double othe
   return parse_double(control_option(machine, name)).value_or(other);
 }
 
+namespace {
+
+const ProbeMacroRow* shipped_macro(const Machine& machine) {
+  return find_probe_macro(machine.control.dialect, control_option(machine, "probe_macro"));
+}
+
+}  // namespace
+
 std::string_view probe_macro_blocks(const Machine& machine) {
-  const std::string_view stated = control_option(machine, "probe_macro");
-  const ProbeMacroRow* row = find_probe_macro(machine.control.dialect, stated);
-  return row == nullptr ? stated : row->blocks;
+  const ProbeMacroRow* row = shipped_macro(machine);
+  return row == nullptr ? control_option(machine, "probe_macro") : row->blocks;
+}
+
+double probe_macro_beyond_mm(const Machine& machine) {
+  const ProbeMacroRow* row = shipped_macro(machine);
+  return row == nullptr ? 0.0 : row->beyond_mm;
 }
 
 std::string_view unconfirmed_probe_macro(const Machine& machine) {
-  const ProbeMacroRow* row =
-      find_probe_macro(machine.control.dialect, control_option(machine, "probe_macro"));
-  return row == nullptr || control_option(machine, "probe_macro_confirmed") == "yes" ? std::string_view()
-                                                                                     : row->id;
+  const ProbeMacroRow* row = shipped_macro(machine);
+  const bool confirmed = control_option(machine, "probe_macro_confirmed") == "yes";
+  return row == nullptr || confirmed ? std::string_view() : row->id;
 }
 
 namespace {

@@ -15,6 +15,8 @@ namespace capstan::model {
 /// The blocks of the machine's macro for one touch (option `probe_macro`), with | between, those of a shipped
 /// one (ground/vocabulary/probe_macros.h) in place of its id; empty: none.
 [[nodiscard]] std::string_view probe_macro_blocks(const Machine& machine);
+/// How far beyond the expected wall a shipped one goes where there is none, mm; 0 of the shop's own.
+[[nodiscard]] double probe_macro_beyond_mm(const Machine& machine);
 /// The id of a shipped macro that the machine's file names and nobody has confirmed; empty: none.
 [[nodiscard]] std::string_view unconfirmed_probe_macro(const Machine& machine);
 

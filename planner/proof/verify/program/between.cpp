@@ -81,6 +81,10 @@ class Between {
     if (b.flood || b.mist || b.through)
       out_.error(29, "CHK-TEXT-STATE", c_.where(b), "the coolant is on in a change of tools");
     const model::StepResult* s = planned(b.marker);
+    for (const long line : c_.probe_calls) {
+      if (line > last_change_ && line < b.line) loaded_ = 0;  // the probe is in the spindle
+    }
+    last_change_ = b.line;
     if (b.tool == loaded_ && !sets_anew(s, planned(changed_)))
       out_.error(4, "CHK-TEXT-TOOL", c_.where(b),
                  "T" + std::to_string(b.tool) + " is changed for itself; the plan has no change here");
@@ -149,7 +153,7 @@ class Between {
   const bool touches_off_ = touches_off(c_.machine);
   int proved_ = 0;
   int step_ = -1, changed_ = -2, loaded_ = 0, stops_ = 0;
-  long last_stop_ = -1;
+  long last_stop_ = -1, last_change_ = -1;
   std::size_t setup_ = 0;
 };
 

@@ -30,6 +30,8 @@ std::vector<StepMoves> judge_text(const DialectReader& reader, const ReadText& r
                                   Findings& findings) {
   const Program& program = read.program;
   ProgramCase c = make_case(reader, program, plan, machine, cutters);
+  for (const MacroTouch& t : read.macros.touches) c.probe_calls.push_back(t.first);
+  for (const Probed& p : read.probed) c.probe_calls.push_back(p.blocks.front().line);
   c.has_table = !text.tool_table.empty() && reader.tool_table != nullptr;
   for (const ReaderFault& f : program.faults) {
     std::size_t order = 1;

@@ -26,6 +26,8 @@ struct ProgramCase {
   /// Index into plan->steps for each marker; -1 unknown.
   std::vector<long> step_of_marker;
   bool has_table = false;  ///< a tool table is at hand
+  /// Lines at which a probe comes into the spindle, by its call or by a macro (touches/).
+  std::vector<long> probe_calls = {};
 };
 [[nodiscard]] ProgramCase make_case(const DialectReader& reader, const Program& program,
                                     const model::Plan* plan, const model::Machine& machine,

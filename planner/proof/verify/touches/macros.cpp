@@ -206,11 +206,11 @@ void check_macros(const ProgramCase& c, const std::vector<MacroTouch>& touches, 
                          "its set-up; take it there");
       continue;
     }
-    if (calls_no_tool(plan, at))
+    if (calls_no_tool(c, at))
       findings.error(4, "CHK-PROBE-CALL", where,
-                     name + "stands before a step that calls no tool: whether T" +
-                         std::to_string(pocket_of(plan, *at.then)) +
-                         " is in the spindle again is not known; measure by hand");
+                     name +
+                         "stands before a step that calls no tool: it would cut with the probe; state its "
+                         "call, or measure by hand");
     const Block *before = nullptr, *after = nullptr;
     for (const Block& b : c.program.blocks) {
       if (b.line < t.first) before = &b;
@@ -227,7 +227,9 @@ void check_macros(const ProgramCase& c, const std::vector<MacroTouch>& touches, 
           31, "CHK-PROBE-CALL", where,
           name + (away ? "is not followed by a way to the top of Z: where it ends is not known"
                        : "begins before the tool is at the top of Z with spindle and coolant off"));
-    const auto way = way_of(plan, t.touch, t.setup);
+    auto way = way_of(plan, t.touch, t.setup);
+    const geometry::Vec3 to_wall = way->wall - way->start;
+    way->wall = way->wall + (model::probe_macro_beyond_mm(plan.machine) / norm(to_wall)) * to_wall;
     const std::string what = in_the_way(plan, *way, t.setup);
     if (!what.empty())
       findings.error(what == "the piece" ? 9 : 31, "CHK-PROBE-WAY", where,

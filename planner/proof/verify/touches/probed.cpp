@@ -108,7 +108,7 @@ class Probing {
     for (const model::AnyRef t : due) {
       if (const auto way = way_of(plan_, t, setup_)) wanted_.push_back({t, *way});
     }
-    if (calls_no_tool(plan_, at_))
+    if (calls_no_tool(c_, at_))
       say(4, b,
           "T" + std::to_string(b.tool) +
               " touches before a step that calls no tool: it would cut with the probe; measure by hand");
@@ -118,8 +118,7 @@ class Probing {
   void called() {
     const Block& b = p_.blocks.front();
     const Block& last = p_.before;
-    if (!at_top(last, c_.machine) || last.spindle_rpm != 0.0 || b.spindle_rpm != 0.0 || b.flood || b.mist ||
-        b.through)
+    if (!at_top(last, c_.machine) || b.spindle_rpm != 0.0 || b.flood || b.mist || b.through)
       say(31, b, "the probe is called before the tool is at the top of Z with spindle and coolant off");
     const model::Cutter* probe = c_.cutter(b.tool);
     if (probe == nullptr || !model::offset_fault(*probe).empty() ||

@@ -72,11 +72,6 @@ std::string in_the_way(const model::Plan& plan, const TouchWay& w, std::size_t s
   return {};
 }
 
-int pocket_of(const model::Plan& plan, const model::StepResult& step) {
-  const auto* cutter = model::find_cutter(plan, step.cutter_id);
-  return cutter != nullptr ? cutter->pocket : 0;
-}
-
 StandsBetween between_steps(const ProgramCase& c, long line) {
   const auto step_at = [&](std::size_t marker) -> const model::StepResult* {
     const long i = marker < c.step_of_marker.size() ? c.step_of_marker[marker] : -1;
@@ -91,6 +86,7 @@ StandsBetween between_steps(const ProgramCase& c, long line) {
   out.where = c.where(at);
   out.behind = next == 0 ? nullptr : step_at(next - 1);
   out.then = step_at(next);
+  out.next = next;
   out.at_end = next == c.program.markers.size();
   return out;
 }
@@ -101,9 +97,11 @@ bool stands_right(const StandsBetween& at, model::AnyRef before, std::size_t set
          at.behind->setup == setup;
 }
 
-bool calls_no_tool(const model::Plan& plan, const StandsBetween& at) {
-  return at.then != nullptr && at.behind != nullptr &&
-         pocket_of(plan, *at.then) == pocket_of(plan, *at.behind);
+bool calls_no_tool(const ProgramCase& c, const StandsBetween& at) {
+  if (at.at_end) return false;
+  return std::none_of(c.program.blocks.begin(), c.program.blocks.end(), [&](const Block& b) {
+    return b.marker == static_cast<int>(at.next) && b.kind == Block::Kind::kToolChange;
+  });
 }
 
 }  // namespace capstan::verify

@@ -28,20 +28,18 @@ struct TouchWay {
 /// it, the probe taken as discs about its ways; empty: nothing is.
 [[nodiscard]] std::string in_the_way(const model::Plan& plan, const TouchWay& way, std::size_t setup);
 
-/// The number of the step's tool; 0: none.
-[[nodiscard]] int pocket_of(const model::Plan& plan, const model::StepResult& step);
-
 /// The steps between which a line of the program stands.
 struct StandsBetween {
   const model::StepResult *behind = nullptr, *then = nullptr;  ///< of the plan; null: none that is known
   bool at_end = false;                                         ///< behind the last step of the program
+  std::size_t next = 0;                                        ///< marker of `then`
   Findings::Where where;
 };
 [[nodiscard]] StandsBetween between_steps(const ProgramCase& c, long line);
 /// Whether a touch that the plan has before that step (none: behind the last) may stand there: behind a step
 /// of its set-up.
 [[nodiscard]] bool stands_right(const StandsBetween& at, model::AnyRef before, std::size_t setup);
-/// Whether the step behind it goes on with the tool before.
-[[nodiscard]] bool calls_no_tool(const model::Plan& plan, const StandsBetween& at);
+/// Whether the step behind it goes on without a call of a tool: it would cut with the probe.
+[[nodiscard]] bool calls_no_tool(const ProgramCase& c, const StandsBetween& at);
 
 }  // namespace capstan::verify

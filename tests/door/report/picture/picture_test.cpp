@@ -110,6 +110,17 @@ TEST(Picture, OfAMillionPointsTakesAFewMegabytes) {
   EXPECT_GT(text.size(), 100'000U);
 }
 
+TEST(Picture, OfMoreSetupsThanPixelsHoldIsSvgAlone) {
+  model::Plan plan = pocket();
+  plan.setups.resize(200, plan.setups[0]);
+  EXPECT_TRUE(svg(plan, {}).has_value());
+  const auto none = png(plan, {});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, "PIC-SIZE");
+  EXPECT_THAT(none.error().message, HasSubstr("200 set-ups"));
+  EXPECT_TRUE(png(plan, {"1"}).has_value());  // of its set-up alone
+}
+
 TEST(Picture, OfManyStepsNamesTheFirstAndCountsTheOthers) {
   model::Plan plan = pocket();
   const model::StepResult one = plan.steps[0];

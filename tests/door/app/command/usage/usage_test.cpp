@@ -272,7 +272,9 @@ TEST_F(CommandTest, AShopFileOfTheUserIsFoundWhereTheFolderHasNone) {
 TEST_F(CommandTest, WhatComesWithThePlannerIsListedAndShown) {
   for (const auto& [kind, id, word] :
        {std::tuple("machines", "generic_vmc", "spindle"), std::tuple("fixtures", "vise_125", "25000"),
-        std::tuple("controls", "linuxcnc", ".ngc"), std::tuple("materials", "c45", "ISO 513 P")}) {
+        std::tuple("controls", "linuxcnc", ".ngc"),
+        std::tuple("controls", "haas", "renishaw_9811, which the shop confirms"),
+        std::tuple("materials", "c45", "ISO 513 P")}) {
     EXPECT_THAT(run(std::string(kind) + " list").out, HasSubstr(id)) << kind;
     const Ran page = run(std::string(kind) + " show " + id);
     EXPECT_EQ(page.code, 0) << kind << page.err;
