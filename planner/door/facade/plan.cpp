@@ -55,6 +55,7 @@ std::vector<service::Output> forms_of(const service::Planned& planned, const ser
   std::set<const controls::Dialect*> without;
   for (const service::Format& f : service::formats()) {
     if (f.write == nullptr) continue;
+    if (f.printed) continue;  // a library starts no browser; the report is there to print
     if (f.holds == service::Holds::kPicture && timed) continue;  // a control that waits looks at none
     // Only the machine's own control runs a program of the plan.
     if (f.of_program() && (!runs || !f.is_read_by(plan.machine.control.dialect))) continue;
