@@ -187,7 +187,7 @@ class Planned(unittest.TestCase):
                 self.plan.write(os.path.join(folder, "p.foo"))
             with self.assertRaises(OSError):
                 self.plan.write(os.path.join(folder, "none", "p.json"))
-            self.assertEqual(os.listdir(folder), ["p.json"])
+            self.assertEqual(sorted(os.listdir(folder)), ["p.html", "p.json", "p.png", "p.svg"])
             self.plan.write(os.path.join(folder, "p.ngc"))
             with open(os.path.join(folder, "p.ngc"), "rb") as file:
                 self.assertEqual(file.read(), self.plan.program)
