@@ -294,8 +294,9 @@ TEST(Bind, FeedsASurfacesFinishByWhatItCutsThere) {
   Inputs in = shop();
   in.material_name = "C45";
   const model::Plan plan = bound(part("surface.stl"), in);
-  ASSERT_EQ(plan.steps.size(), 3U);
-  for (const std::size_t i : {1U, 2U}) {
+  // A rough, what brings its rest down to what a finish bears, and a finish.
+  ASSERT_GE(plan.steps.size(), 3U);
+  for (std::size_t i = 1; i < plan.steps.size(); ++i) {
     // The stair that a level of the roughing leaves, and its allowance, below 1 mm.
     EXPECT_LT(plan.steps[i].axial_depth_mm, plan.steps.front().axial_depth_mm + 1.0)
         << "no cut of the part's height";
