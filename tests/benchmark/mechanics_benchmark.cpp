@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/bending/beam.h"
+#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "tests/support/section_loads.h"
 

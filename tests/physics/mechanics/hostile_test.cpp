@@ -6,6 +6,7 @@
 #include <random>
 
 #include "planner/physics/mechanics/bending/beam.h"
+#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/life/life.h"
 #include "planner/physics/mechanics/loads/section.h"

@@ -8,6 +8,7 @@
 #include "planner/making/optimise/cut/law/law.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/bending/beam.h"
+#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/loads/section.h"

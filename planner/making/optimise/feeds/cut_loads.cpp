@@ -166,28 +166,26 @@ double CutLoads::surface_um(double fz) const {
   return 1000.0 * kRoughnessOverGeometry * mechanics::kArcRaOverRz * rz;
 }
 
-std::optional<double> CutLoads::wall_mm(const mechanics::Section& section, double fz) const {
-  double worst = 0.0;
+bool CutLoads::make_walls_ready(ReadyCut& cut) const {
   constexpr double kReaches = 1e-9;
-  mechanics::Section to_wall = section;
+  mechanics::Section to_wall = cut.section;
   to_wall.csa_mm2 = to_wall.band_mm = 0.0;
   // A corner or ball that is not in with its full radius touches the wall with what is in.
   const double top =
-      mechanics::effective_diameter_mm(section.ap_mm, tooth_.cutting_diameter_mm, tooth_.corner_radius_mm);
+      mechanics::effective_diameter_mm(to_wall.ap_mm, tooth_.cutting_diameter_mm, tooth_.corner_radius_mm);
   const double at_wall = std::acos(std::min(1.0, top / tooth_.cutting_diameter_mm)) + kReaches;
   if (tooth_.corner_radius_mm > 0.0) {
-    if (section.arc.entry_rad <= at_wall) to_wall.arc.entry_rad = 0.0;
-    if (section.arc.exit_rad >= pi - at_wall) to_wall.arc.exit_rad = pi;
+    if (to_wall.arc.entry_rad <= at_wall) to_wall.arc.entry_rad = 0.0;
+    if (to_wall.arc.exit_rad >= pi - at_wall) to_wall.arc.exit_rad = pi;
   }
-  const auto side = [&](mechanics::WallSide w) {
-    const auto e = mechanics::wall_error(to_wall, tooth_, law_, fz, w, beam_);
-    if (!e) return false;
-    worst = std::max(worst, std::abs(e->largest_mm()));
+  const auto ready = [&](mechanics::WallSide side, std::optional<mechanics::WallAtFeeds>& out) {
+    auto wall = mechanics::WallAtFeeds::of(to_wall, tooth_, law_, side, beam_);
+    if (!wall) return false;
+    out = *std::move(wall);
     return true;
   };
-  if (to_wall.arc.entry_rad <= kReaches && !side(mechanics::WallSide::kLeft)) return std::nullopt;
-  if (to_wall.arc.exit_rad >= pi - kReaches && !side(mechanics::WallSide::kRight)) return std::nullopt;
-  return worst;
+  if (to_wall.arc.entry_rad <= kReaches && !ready(mechanics::WallSide::kLeft, cut.left)) return false;
+  return to_wall.arc.exit_rad < pi - kReaches || ready(mechanics::WallSide::kRight, cut.right);
 }
 
 std::optional<ReadyCut> CutLoads::ready(const Cut& cut) const {
@@ -198,12 +196,14 @@ std::optional<ReadyCut> CutLoads::ready(const Cut& cut) const {
                                    .band_mm = cut.band_mm};
   auto loads = mechanics::SectionAtFeeds::of(section, tooth_, law_);
   if (!loads) return std::nullopt;
-  ReadyCut out{.cut = cut, .section = section, .loads = *std::move(loads), .strip = std::nullopt};
+  ReadyCut out{
+      .cut = cut, .section = section, .loads = *std::move(loads), .strip = {}, .left = {}, .right = {}};
   if (cut.band_mm > 0.0 && !cut.chip_measured) {
     auto strip = mechanics::ThickestChip::of({.ap_mm = section.ap_mm, .arc = section.arc}, tooth_, law_);
     if (!strip) return std::nullopt;
     out.strip = *std::move(strip);
   }
+  if (!beam_.segments.empty() && !make_walls_ready(out)) return std::nullopt;
   return out;
 }
 
@@ -245,10 +245,12 @@ std::optional<State> CutLoads::at(const ReadyCut& made, double feed) const {
   s.load.of(Limit::kSpindlePower) = power;
   s.load.of(Limit::kChipThickness) = chip / slot_share(cut);
   s.load.of(Limit::kSurfaceRoughness) = surface_um(fz);
-  if (!beam_.segments.empty()) {
-    const auto wall = wall_mm(made.section, fz);
+  for (const auto* side : {&made.left, &made.right}) {
+    if (!*side) continue;
+    const auto wall = (*side)->at(fz);
     if (!wall) return std::nullopt;
-    s.load.of(Limit::kWallError) = *wall * margin_;
+    double& worst = s.load.of(Limit::kWallError);
+    worst = std::max(worst, std::abs(wall->largest_mm()) * margin_);
   }
   for (const double v : s.load) {
     if (!std::isfinite(v)) return std::nullopt;

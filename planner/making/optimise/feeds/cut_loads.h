@@ -8,6 +8,7 @@
 #include "planner/ground/vocabulary/limit.h"
 #include "planner/making/optimise/feeds.h"
 #include "planner/physics/mechanics/bending/beam.h"
+#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/loads/section.h"
 
 /// Loads of one cut at a feed, and the limits of its step. It keeps no result and knows no path.
@@ -75,6 +76,8 @@ struct ReadyCut {
   mechanics::SectionAtFeeds loads;
   /// Of a band whose chip is not measured: of the whole strip that it lies in.
   std::optional<mechanics::ThickestChip> strip;
+  /// Of the sides on which it makes a wall, where a wall's error is limited.
+  std::optional<mechanics::WallAtFeeds> left, right;
 };
 
 class CutLoads {
@@ -109,7 +112,8 @@ class CutLoads {
   [[nodiscard]] double surface_um(double fz_mm) const;
   /// Share of the largest chip that is allowed in a deep slot.
   [[nodiscard]] double slot_share(const Cut& cut) const;
-  [[nodiscard]] std::optional<double> wall_mm(const mechanics::Section& section, double fz_mm) const;
+  /// False outside the formulas' range.
+  [[nodiscard]] bool make_walls_ready(ReadyCut& cut) const;
 
   const CutQuestion& q_;
   double n_ = 0.0, margin_ = 1.0, compliance_ = 0.0;
