@@ -80,6 +80,16 @@ TEST(PredictedSpeed, SomewhatAboveTheCardIsAWarningWithBothNumbers) {
   EXPECT_TRUE(of(k, "CHK-EDGE-LIFE").empty());
 }
 
+// A spindle that turns no slower than 2500 1/min cannot be told to turn at 2142.
+TEST(PredictedSpeed, BelowWhatTheSpindleTurnsAsksForAnotherTool) {
+  auto k = along_the_side(kSpeed / 1.4, 10.0);
+  k.plan.machine.spindle.rpm_min = 2500.0;
+  const auto found = of(k, "CHK-SPEED-MATERIAL");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].message, HasSubstr("the spindle turns no slower than 2500 1/min"));
+  EXPECT_EQ(found[0].message.find("lower the spindle"), std::string::npos);
+}
+
 // At 94 m/min against 20, and were the card too slow by half against 30: 15 min x (30 / 94.2)^8 = 0.0016 min,
 // and the step cuts for more than a minute.
 TEST(PredictedSpeed, ThatBurnsTheEdgeWithinItsStepIsAnError) {

@@ -265,7 +265,10 @@ class Speed {
     if (assumed)
       text += "; that the tool is hss is only assumed, but carbide allows no more than " +
               speed_text(carbide->vc_m_min);
-    text += "; lower the spindle to " + plain(rpm) + " 1/min, or use a tool that allows more";
+    const double slowest = plan_.machine.spindle.rpm_min;
+    text += rpm < slowest ? "; use a tool that allows more: the spindle turns no slower than " +
+                                plain(slowest) + " 1/min, where " + plain(rpm) + " are asked for"
+                          : "; lower the spindle to " + plain(rpm) + " 1/min, or use a tool that allows more";
     if (too_short(by))
       out_.error(30, "CHK-EDGE-LIFE", at(), text, vc_);
     else
