@@ -329,17 +329,24 @@ bool contains(const Region& a, Vec2 p) {
 }
 
 double distance_to_boundary(const Region& a, Vec2 p) {
-  double best = 1e300;
+  double least = 1e300;  // squared
+  Vec2 best{1e300, 0.0};
   for (const Loop& loop : a.loops) {
-    for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-      const Vec2 s = loop[i];
-      const Vec2 d = loop[(i + 1) % n] - s;
+    if (loop.empty()) continue;
+    Vec2 s = loop.back();
+    for (const Vec2 e : loop) {
+      const Vec2 d = e - s;
       const double length2 = dot(d, d);
       const double t = length2 > 0.0 ? std::clamp(dot(p - s, d) / length2, 0.0, 1.0) : 0.0;
-      best = std::min(best, norm(p - (s + t * d)));
+      const Vec2 way = p - (s + t * d);
+      if (const double d2 = dot(way, way); d2 < least) {
+        least = d2;
+        best = way;
+      }
+      s = e;
     }
   }
-  return best;
+  return norm(best);
 }
 
 double mitred_distance(const Loop& loop, Vec2 p) {
@@ -432,6 +439,9 @@ void append_arc(Loop& out, Vec2 centre, Vec2 start, double sweep_rad, double tol
   const double radius = norm(r);
   const double a0 = std::atan2(r.y, r.x);
   const int steps = arc_steps(radius, sweep_rad, tolerance_mm);
+  // One arc after the other: room for this one alone would move them all each time.
+  const std::size_t room = out.size() + static_cast<std::size_t>(steps);
+  if (room > out.capacity()) out.reserve(std::max(room, 2 * out.capacity()));
   for (const Vec2 d : directions(a0, sweep_rad, steps))
     out.push_back({centre.x + radius * d.x, centre.y + radius * d.y});
 }

@@ -133,7 +133,7 @@ Shapes shapes_of_all(const model::Plan& plan, StatedShapes stated, double grown_
   }
   take_whole();
   out.near_all = Neighbours(out.all);
-  out.near_whole = Neighbours(out.whole);
+  out.near_whole = parts.empty() ? out.near_all : Neighbours(out.whole);
   out.twins = twins_of(out.whole, out.near_whole, job);
   return out;
 }

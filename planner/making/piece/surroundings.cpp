@@ -66,16 +66,36 @@ std::size_t points_of(const geometry::Region& r) {
   return n;
 }
 
-/// The smallest distance between two areas; 0 when they meet, nothing when they are too fine to measure.
+double gap(const Box2& box, Vec2 p) { return gap(box, {p, p}); }
+
+/// The smallest distance between two areas; 0 when they meet, nothing when they are too fine to measure. Asks
+/// the point that lies nearest to the other's box first: few others can then be nearer than it.
 std::optional<double> between(const geometry::Region& a, const geometry::Region& b) {
   if (points_of(a) * points_of(b) > kMostMeasured) return std::nullopt;
   double out = 1e300;
   for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    const Box2 box = geometry::bounds(*to);
+    const auto meets = [&, to = to](Vec2 p) {
+      tick(16);  // it asks all edges of the other, thousands at most
+      if (geometry::contains(*to, p)) return true;
+      out = std::min(out, geometry::distance_to_boundary(*to, p));
+      return false;
+    };
+    const Vec2* nearest = nullptr;
+    double least_gap = 1e300;
     for (const Loop& loop : from->loops) {
-      for (const Vec2 p : loop) {
-        tick(16);  // it asks all edges of the other, thousands at most
-        if (geometry::contains(*to, p)) return 0.0;
-        out = std::min(out, geometry::distance_to_boundary(*to, p));
+      for (const Vec2& p : loop) {
+        if (const double d = gap(box, p); d < least_gap) {
+          least_gap = d;
+          nearest = &p;
+        }
+      }
+    }
+    if (nearest == nullptr) continue;
+    if (meets(*nearest)) return 0.0;
+    for (const Loop& loop : from->loops) {
+      for (const Vec2& p : loop) {
+        if (gap(box, p) < out && &p != nearest && meets(p)) return 0.0;
       }
     }
   }

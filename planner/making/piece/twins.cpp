@@ -70,11 +70,11 @@ bool within(const FeatureShape& a, const FeatureShape& b) {
 }
 
 /// Those of `all` whose areas may reach the place of `s`, seen along its axis; rising. Twins, and what a hole
-/// lies within, are among them: both areas hold the place.
+/// lies within, are among them: both areas hold the place. `ball`: around(s), where it is known.
 std::vector<std::size_t> about(const FeatureShape& s, const std::vector<FeatureShape>& all,
-                               const Neighbours& index) {
+                               const Neighbours& index, const Around* ball = nullptr) {
   constexpr double kReachMm = 10.0 * kSamePlaceMm;
-  if (index.size() == all.size()) return index.near(around(s), s.frame.z, kReachMm);
+  if (index.size() == all.size()) return index.near(ball != nullptr ? *ball : around(s), s.frame.z, kReachMm);
   std::vector<std::size_t> out(all.size());
   std::iota(out.begin(), out.end(), std::size_t{0});
   return out;
@@ -116,7 +116,8 @@ std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<FeatureShape>& all,
   std::set<std::pair<Drawn, Drawn>> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     bool told = false;
-    for (const std::size_t k : about(all[i], all, index)) {
+    const Around* const ball = index.size() == all.size() ? &index.ball(i) : nullptr;
+    for (const std::size_t k : about(all[i], all, index, ball)) {
       if (k >= i) break;
       if (!twins(all[k], all[i])) continue;
       const Drawn first{all[k].feature, all[k].member}, second{all[i].feature, all[i].member};
