@@ -25,6 +25,7 @@
 #include "planner/physics/mechanics/loads/margin.h"
 #include "planner/proof/verify/verify.h"
 #include "rules/rules.h"
+#include "tooling/library/cutters/holders.h"
 #include "tooling/shop/fixtures/fixtures.h"
 
 namespace capstan::casebase {
@@ -77,6 +78,7 @@ struct Inputs {
   /// open tools are chosen, and no edits of the plan.
   std::vector<model::Edit> kept_off = {};
   given::ToolMaterialWish tool_materials;  ///< of tools whose file or list does not state it
+  tooling::ShopHolders holders = {};       ///< of tools whose file or list does not state theirs
   /// Results of earlier plannings; changes how long planning takes and nothing else. Null: those of this one
   /// only.
   std::shared_ptr<memo::Memo> memo;

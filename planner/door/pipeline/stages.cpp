@@ -130,6 +130,7 @@ Drafted select_open_tools(model::Plan plan, Drafts drafts, const Required& requi
                              required.demands,
                              asked.recorded.cutters,
                              asked.inputs.tool_materials,
+                             asked.inputs.holders,
                              asked.inputs.cases.get(),
                              restrictions.empty() ? nullptr : &restrictions};
   given::select_open_tools(plan, drafts.steps, drafts.used, drafts.needed, choice, job);

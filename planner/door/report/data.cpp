@@ -17,6 +17,7 @@
 #include "planner/ground/vocabulary/cutter_class.h"
 #include "planner/model/nouns/executable.h"
 #include "planner/model/nouns/feature.h"
+#include "planner/model/plan/cutter/generic_holder.h"
 #include "planner/model/plan/order/step_ids.h"
 #include "planner/model/plan/resources/setup_position.h"
 #include "planner/physics/motion/time.h"
@@ -120,6 +121,7 @@ Json tool_of(const model::Plan& plan, const model::Cutter& c) {
           {"out", c.stick_out_mm},
           {"length", c.functional_length_mm},
           {"shank", c.shank_diameter_mm},
+          {"holder_id", model::generic_holder(c.holder_id) ? "" : c.holder_id},
           {"holder", holder},
           {"holder_diameter", c.holder_diameter_mm},
           {"outline", outline_of(c)},

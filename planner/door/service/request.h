@@ -16,6 +16,7 @@
 #include "planner/making/optimise/solver/solver.h"
 #include "planner/model/plan/edit/edit.h"
 #include "planner/model/plan/plan.h"
+#include "tooling/library/cutters/holders.h"
 
 namespace capstan::service {
 
@@ -64,6 +65,7 @@ struct Request {
   std::optional<std::string> shop;                    ///< a shop file (shop_file/shop_file.h)
   std::vector<std::string> materials = {};            ///< files of the shop's own, beside the shipped table
   std::vector<std::string> fixtures = {};             ///< files of the shop's own, before the shipped ones
+  tooling::ShopHolders holders = {};                  ///< of the shop, for tools without their own
   std::vector<model::Provenance> texts = {};          ///< the shop's own (model/plan/resources/shop_texts.h)
   std::set<std::string> given = {};                   ///< names of the options that were set
   std::map<std::string, std::string> from_shop = {};  ///< which of them came from which shop file

@@ -369,6 +369,13 @@ Result<pipeline::Inputs> open_shop(const Request& o, const model::Plan& plan, Jo
                            o.tools                           ? option(o, "tools " + *o.tools)
                            : inch_before && !o.tools_of_part ? before->source
                                                              : by_default(o.tools_of_part)});
+  if (!o.holders.all.empty()) {
+    in.holders = o.holders;
+    tooling::give_holders(in.library, in.holders, job);
+    std::string ids;
+    for (const std::string& id : in.holders.by_default) ids += (ids.empty() ? "" : ", ") + id;
+    in.provenance.push_back({"holders", ids.empty() ? "those that tools name" : ids, in.holders.source});
+  }
 
   poll();
   auto materials = tooling::shipped_materials();

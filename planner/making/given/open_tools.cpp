@@ -365,6 +365,7 @@ void select_open_tools(model::Plan& plan, std::vector<StepDraft>& steps, std::ve
     auto cutter = given_cutter(plan, step, choice, job);
     if (cutter) {
       step.cutter = *std::move(cutter);
+      (void)tooling::give_holder(step.cutter, choice.holders);
       if (take_recorded(plan, choice, step, step.cutter)) recorded.insert(&step);
       given.push_back(&step);
       tooling::use(used, step.cutter.id);

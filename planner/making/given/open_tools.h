@@ -11,6 +11,7 @@
 #include "planner/model/plan/needed_tool.h"
 #include "planner/model/plan/plan.h"
 #include "rules/rules.h"
+#include "tooling/library/cutters/holders.h"
 
 // Cutters for the operations of a file: the given ones as they are, the open ones chosen.
 
@@ -29,6 +30,7 @@ struct Choice {
   const piece::Demands& demands;
   const std::vector<model::Cutter>& recorded;  ///< what the plan said of its cutters when it was read
   const ToolMaterialWish& materials;           ///< of tools whose file does not state it
+  const tooling::ShopHolders& holders;         ///< of tools whose file does not state theirs
   const casebase::CaseBase* cases = nullptr;   ///< null: no precedents
   const std::vector<model::Edit>* edits = nullptr;  ///< of the operator; null: none
 };

@@ -158,6 +158,7 @@ int in_shop(Session& s) {
   for (const auto& [name, file] : in.from_shop) add(name);
   if (!in.materials.empty()) add("materials");
   if (!in.fixtures.empty()) add("fixtures");
+  if (!in.holders.all.empty()) add("holders");
   if (!in.texts.empty()) add("texts");
   if (entries.empty()) return kDone;
   s.job.note("SHOP", "settings of " + *in.shop + ": " + entries + "; --shop none leaves them out");

@@ -108,9 +108,10 @@ function lifeLeft(tool) {
 function toolsTable(tools = DATA.tools) {
   const offsets = new Map(tools.map(t => [t, offsetsOf(t)]));
   const called = DATA.program.lines.length ? ['H', 'D'].map(name => [name, true, t => offsets.get(t)[name]]) : [];
+  const held = tools.some(t => t.holder_id) ? [['holder', false, t => t.holder_id || 'assumed']] : [];
   return table([['', false, toolPicture], ['T', true, t => t.number], ...called, ['tool', false, t => t.id], ['class', false, t => t.class + ', ' + t.material],
     ['\u2300 mm', true, t => number(t.diameter, 3)], ['R mm', true, t => positive(t.corner, 3)], ['teeth', true, t => positive(t.teeth, 0)],
-    ['flutes mm', true, t => positive(t.flutes, 2)], ['stick-out mm', true, t => positive(t.out, 2)], ['length mm', true, t => positive(t.length, 3)],
+    ['flutes mm', true, t => positive(t.flutes, 2)], ['stick-out mm', true, t => positive(t.out, 2)], ['length mm', true, t => positive(t.length, 3)], ...held,
     ['least Z', true, t => (t.least_z === null ? '-' : number(t.least_z, 3))], ['edge used', true, t => number(t.used_min, 2) + ' min'], ['edge life left after', true, lifeLeft]], tools);
 }
 

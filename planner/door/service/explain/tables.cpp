@@ -9,6 +9,7 @@
 #include "planner/ground/base/number.h"
 #include "planner/ground/base/text.h"
 #include "planner/ground/vocabulary/cutter_class.h"
+#include "planner/model/plan/cutter/generic_holder.h"
 #include "planner/model/plan/resources/setup_position.h"
 
 namespace capstan::service {
@@ -75,6 +76,11 @@ std::string tools_text(const Plan& plan) {
   if (plan.cutters.empty()) return {};
   Rows rows = {{"T", "tool", "kind", "made of", "D mm", "R mm", "teeth", "flutes mm", "stick-out mm",
                 "length mm", "least Z", "edge used, of its life"}};
+  const auto held = [](const model::Cutter& c) {
+    return !c.holder_id.empty() && !model::generic_holder(c.holder_id);
+  };
+  const bool named = std::any_of(plan.cutters.begin(), plan.cutters.end(), held);
+  if (named) rows.front().emplace_back("holder");
   for (const model::Cutter& c : plan.cutters) {
     const report::ToolUse use = report::use_of(plan, c);
     const double used = use.used_before_min + use.used_min;
@@ -85,6 +91,7 @@ std::string tools_text(const Plan& plan) {
          positive(c.maximum_depth_of_cut_mm, 2), positive(c.stick_out_mm, 2),
          positive(c.functional_length_mm, 3), use.least_z_mm ? trimmed(*use.least_z_mm, 3) : "-",
          trimmed(used, 2) + (use.life_min > 0.0 ? " of " + trimmed(use.life_min, 1) : "") + " min"});
+    if (named) rows.back().push_back(held(c) ? c.holder_id : "assumed");
   }
   return "\nTools; a length offset H has the number of its tool\n" + table(rows);
 }

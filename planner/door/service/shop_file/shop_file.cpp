@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using tooling::Node;
 
 constexpr std::string_view kVersionKey = "capstan_shop", kMaterials = "materials", kFixtures = "fixtures",
-                           kTexts = "texts";
+                           kTexts = "texts", kHolders = "holders";
 
 Diagnostic fault(const std::string& file, std::uint64_t line, std::string what) {
   return {.code = "SHOP-FILE",
@@ -41,7 +41,7 @@ std::vector<std::string> known_entries() {
   for (const Option& o : options()) {
     if (o.of_shop) out.emplace_back(o.name);
   }
-  for (const std::string_view more : {kMaterials, kFixtures, kTexts}) out.emplace_back(more);
+  for (const std::string_view more : {kMaterials, kFixtures, kHolders, kTexts}) out.emplace_back(more);
   return out;
 }
 
@@ -127,6 +127,12 @@ Status take_entry(Request& r, const std::string& file, const std::string& key, c
   if (key == kMaterials) return take_files(r.materials, file, key, value);
   if (key == kFixtures) return take_files(r.fixtures, file, key, value);
   if (key == kTexts) return take_texts(r, file, value);
+  if (key == kHolders) {
+    std::vector<Diagnostic> faults;
+    r.holders = tooling::read_holders(value, file, faults);
+    if (auto wrong = tooling::tell(std::move(faults), job)) return fail(*std::move(wrong));
+    return {};
+  }
   const Option* o = find_option(key);
   if (o == nullptr || !o->of_shop) {
     Diagnostic d = unknown_name("entry", key, known_entries(), "capstan shop init");
@@ -306,6 +312,11 @@ Result<std::string> shop_template(const std::vector<std::string>& given, const s
   entry(kMaterials, "files of materials of the shop's own, which parts may name", "[bronze.yaml]");
   entry(kFixtures, "files of the shop's own fixtures (capstan_fixtures: 1), which workholding may name",
         "[vises.yaml]");
+  entry(kHolders,
+        "what tools stand in, mm from the face up to the gage line; a tool without a holder of its own gets\n"
+        "# the first default that takes its shank, or the one that its list names",
+        "{default: ER32, list: [{id: ER32, shank: 20, holder: [{height: 60, lower_diameter: 50, "
+        "upper_diameter: 50}]}]}");
   entry(kTexts,
         "the title of reports and set-up sheets, and lines of comment at head and end of each program",
         "{title: \"ACME, cell 3\", header: [\"ACME, CELL 3\"], footer: [\"CLEAN THE VISE\"]}");
@@ -330,7 +341,7 @@ namespace {
 /// An entry's values with commas between; of a map with their names.
 std::string in_words(const Node& value) {
   std::string out = value.text;
-  for (const Node& n : value.items) out += (out.empty() ? "" : ", ") + n.text;
+  for (const Node& n : value.items) out += (out.empty() ? "" : ", ") + in_words(n);
   for (const auto& [key, own] : value.entries) out += (out.empty() ? "" : "; ") + key + " " + in_words(own);
   return out;
 }

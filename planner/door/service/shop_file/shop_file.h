@@ -16,6 +16,7 @@
 //     tools: tool.tbl
 //     materials: [our_bronze.yaml]
 //     fixtures: [our_vises.yaml]       # capstan_fixtures: 1; --workholding finds them by their ids
+//     holders: {default: ER32, list: [...]}  # tooling/library/cutters/holders.h
 //     texts: {title: "ACME, cell 3", header: ["ACME, CELL 3"], footer: ["CLEAN THE VISE"]}
 //
 // Paths count from the file's folder.
