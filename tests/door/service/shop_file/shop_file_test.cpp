@@ -52,6 +52,26 @@ TEST(ShopFile, IsNamedInThePlansProvenance) {
   EXPECT_EQ(tools, "built-in default");
 }
 
+TEST(ShopFile, GivesItsHoldersToToolsWithoutTheirOwn) {
+  Job job;
+  const auto r = with_shop_text(asking("shop.yaml"),
+                                "capstan_shop: 1\nholders: {default: ER32, list: [{id: ER32, shank: 12, "
+                                "holder: [{height: 60, lower_diameter: 50, upper_diameter: 50}]}]}\n",
+                                job);
+  ASSERT_TRUE(r) << to_text(r.error());
+  const auto in = gather(*r, model::Plan{}, job);
+  ASSERT_TRUE(in) << to_text(in.error());
+  for (const model::Cutter& c : in->library) {
+    EXPECT_EQ(c.holder_id == "ER32", c.shank_diameter_mm <= 12.0) << c.id;
+    EXPECT_TRUE(c.holder_id != "ER32" || c.holder_diameter_mm == 50.0) << c.id;
+  }
+  std::string source;
+  for (const auto& p : in->provenance) {
+    if (p.what == "holders") source = p.source;
+  }
+  EXPECT_EQ(source, "shop.yaml: holders");
+}
+
 TEST(ShopFile, LeavesItsControlOutForAnotherMachine) {
   Job job;
   Request caller = asking("shop.yaml");
