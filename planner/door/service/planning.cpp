@@ -104,7 +104,8 @@ Code code_of(const Diagnostic& fault, Code otherwise) {
 
 namespace {
 
-/// The larger machine for a raw piece that is too large for the usual one as it is drawn, if it fits that.
+/// The larger machine for a raw piece that is too large for the usual one as it is drawn. One that is too
+/// large for that, too, is told by the check.
 std::optional<Request::Suited> machine_for(const PartRead& part) {
   if (part.shape == nullptr) return std::nullopt;
   constexpr double kBesideMm = 25.0;  // a cutter leaves the piece on both sides; default, unsourced
@@ -117,7 +118,7 @@ std::optional<Request::Suited> machine_for(const PartRead& part) {
   const auto usual = tooling::load_machine(std::string(tooling::kDefaultMachine), aside);
   if (!usual || holds(*usual)) return std::nullopt;
   const auto large = tooling::load_machine(std::string(tooling::kLargeMachine), aside);
-  if (!large || !holds(*large)) return std::nullopt;
+  if (!large) return std::nullopt;
   return Request::Suited{large->id, "the raw piece is too large for '" + usual->id + "'"};
 }
 

@@ -13,6 +13,12 @@
 namespace capstan::from_cad {
 namespace {
 
+/// "a slot", "an open pocket".
+std::string one_of(model::TypeId type) {
+  const std::string word = word_of(type);
+  return (std::string_view("aeiou").find(word.front()) != std::string_view::npos ? "an " : "a ") + word;
+}
+
 using recognise::Feature;
 using recognise::Recognition;
 
@@ -146,7 +152,7 @@ Removal once(const Part& part, const std::vector<Feature>& features) {
       }
       if (why.empty()) why = no_way;
     }
-    out.left.push_back({f.faces, "a " + word_of(f.type) + ": " + why});
+    out.left.push_back({f.faces, one_of(f.type) + ": " + why});
   }
   // Fewest set-ups: first the directions without which a feature is not reached, then what these reach.
   std::vector<Vec3> used;
@@ -240,8 +246,8 @@ Removal removal_of(const Part& part, const Recognition& found, std::vector<Featu
     out = once(part, features);
     // With the planes among the rooms another rim may have lost its edge.
     for (const std::size_t i : out.on_no_edge)
-      out.left.push_back({features[i].faces,
-                          "a " + word_of(features[i].type) + ": no feature has walls that end at all of it"});
+      out.left.push_back(
+          {features[i].faces, one_of(features[i].type) + ": no feature has walls that end at all of it"});
   }
   for (const recognise::Rest& r : found.unrecognised) out.left.push_back({r.faces, r.reason});
   return out;

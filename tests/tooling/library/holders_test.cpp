@@ -106,6 +106,9 @@ TEST(Holders, WithAFaultAreToldWithTheirLine) {
             "DATA-VALUE:2");
   EXPECT_EQ(first("list:\n  - {id: a, holder: []}\n"), "DATA-VALUE:2");
   EXPECT_NE(first("list:\n  - {id: a, holder: [{height: 5, lower_diameter: 50}]}\n"), "none");
+  EXPECT_EQ(first("list: 3\n"), "DATA-TYPE:1");
+  EXPECT_EQ(first("default: {ER32: 1}\nlist:\n  - {id: a, " + holder), "DATA-TYPE:1");
+  EXPECT_EQ(first("default: [[a]]\nlist:\n  - {id: a, " + holder), "DATA-TYPE:1");
 }
 
 TEST(Holders, OfALibraryAreToldOnce) {

@@ -91,6 +91,9 @@ ShopHolders read_holders(const Node& node, const std::string& file, std::vector<
   Fields f(node, file, "holders", "", faults);
   const Node* list = f.child("list", true);
   const Node* wanted = f.child("default", false);
+  if (list != nullptr && list->kind != Node::Kind::kList)
+    f.fault("DATA-TYPE", "list is not a list", "list", list->line,
+            "holders in [ ], or one after a dash each");
   for (const Node& n : list != nullptr ? list->items : std::vector<Node>{}) {
     Fields one = f.below("list", n);
     ShopHolder h = read_holder(one);
@@ -100,6 +103,9 @@ ShopHolders read_holders(const Node& node, const std::string& file, std::vector<
   }
   f.finish();
   const auto take = [&](const Node& n) {
+    if (n.kind != Node::Kind::kScalar)
+      return f.fault("DATA-TYPE", "default is no name of a holder", "default", n.line,
+                     "an id of the list, or a list of them");
     if (find_holder(out.all, n.text) == nullptr) {
       std::vector<std::string> known;
       for (const ShopHolder& h : out.all) known.push_back(h.id);
@@ -110,8 +116,8 @@ ShopHolders read_holders(const Node& node, const std::string& file, std::vector<
     }
     out.by_default.push_back(n.text);
   };
-  if (wanted != nullptr && wanted->kind == Node::Kind::kScalar) take(*wanted);
-  if (wanted != nullptr) {
+  if (wanted != nullptr && wanted->kind != Node::Kind::kList) take(*wanted);
+  if (wanted != nullptr && wanted->kind == Node::Kind::kList) {
     for (const Node& n : wanted->items) take(n);
   }
   return out;
