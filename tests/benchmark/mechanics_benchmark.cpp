@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/bending/beam.h"
-#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/loads/section.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
+#include "tests/support/mechanics/wall_error.h"
 
 namespace capstan::mechanics {
 namespace {

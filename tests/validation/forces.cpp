@@ -8,9 +8,9 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "tests/support/kienzle_fit.h"
+#include "tests/support/mechanics/section_loads.h"
 #include "tests/validation/studies.h"
 #include "tooling/shop/material/material.h"
-#include "tests/support/section_loads.h"
 
 namespace capstan::validation {
 namespace {

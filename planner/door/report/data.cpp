@@ -121,7 +121,7 @@ Json tool_of(const model::Plan& plan, const model::Cutter& c) {
           {"out", c.stick_out_mm},
           {"length", c.functional_length_mm},
           {"shank", c.shank_diameter_mm},
-          {"holder_id", model::generic_holder(c.holder_id) ? "" : c.holder_id},
+          {"holder_id", model::stated_holder(c)},
           {"holder", holder},
           {"holder_diameter", c.holder_diameter_mm},
           {"outline", outline_of(c)},

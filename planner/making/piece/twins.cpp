@@ -69,12 +69,12 @@ bool within(const FeatureShape& a, const FeatureShape& b) {
   return !mouth;
 }
 
-/// Those of `all` whose areas may reach the place of `s`, seen along its axis; rising. Twins, and what a hole
-/// lies within, are among them: both areas hold the place. `ball`: around(s), where it is known.
-std::vector<std::size_t> about(const FeatureShape& s, const std::vector<FeatureShape>& all,
-                               const Neighbours& index, const Around* ball = nullptr) {
+/// Those of `all` whose areas may reach the place of a shape, seen along its axis; rising. Twins, and what a
+/// hole lies within, are among them: both areas hold the place.
+std::vector<std::size_t> about(const Around& here, geometry::Vec3 axis, const std::vector<FeatureShape>& all,
+                               const Neighbours& index) {
   constexpr double kReachMm = 10.0 * kSamePlaceMm;
-  if (index.size() == all.size()) return index.near(ball != nullptr ? *ball : around(s), s.frame.z, kReachMm);
+  if (index.size() == all.size()) return index.near(here, axis, kReachMm);
   std::vector<std::size_t> out(all.size());
   std::iota(out.begin(), out.end(), std::size_t{0});
   return out;
@@ -96,7 +96,7 @@ bool same_removal(const Shapes& shapes, const FeatureShape& a, const FeatureShap
 }
 
 std::string lies_within_another(const Shapes& shapes, const FeatureShape& s) {
-  for (const std::size_t i : about(s, shapes.whole, shapes.near_whole)) {
+  for (const std::size_t i : about(around(s), s.frame.z, shapes.whole, shapes.near_whole)) {
     const FeatureShape& o = shapes.whole[i];
     if (!within(s, o) || twins(s, o)) continue;
     const bool of_one = near(s.diameter.nominal_mm, o.diameter.nominal_mm) && near(s.depth_mm, o.depth_mm);
@@ -116,8 +116,8 @@ std::set<std::pair<Drawn, Drawn>> twins_of(const std::vector<FeatureShape>& all,
   std::set<std::pair<Drawn, Drawn>> out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     bool told = false;
-    const Around* const ball = index.size() == all.size() ? &index.ball(i) : nullptr;
-    for (const std::size_t k : about(all[i], all, index, ball)) {
+    const Around here = index.size() == all.size() ? index.ball(i) : around(all[i]);
+    for (const std::size_t k : about(here, all[i].frame.z, all, index)) {
       if (k >= i) break;
       if (!twins(all[k], all[i])) continue;
       const Drawn first{all[k].feature, all[k].member}, second{all[i].feature, all[i].member};

@@ -11,7 +11,7 @@
 #include "planner/physics/mechanics/bending/deflection.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/loads/side_section.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
 
 namespace capstan::optimise {
 namespace {

@@ -6,12 +6,12 @@
 #include <random>
 
 #include "planner/physics/mechanics/bending/beam.h"
-#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/life/life.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/stability.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
+#include "tests/support/mechanics/wall_error.h"
 
 namespace capstan::mechanics {
 namespace {

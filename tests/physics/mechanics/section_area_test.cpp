@@ -10,7 +10,7 @@
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/loads/side_section.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
 
 namespace capstan::mechanics {
 namespace {

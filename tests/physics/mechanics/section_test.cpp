@@ -8,7 +8,7 @@
 #include <random>
 
 #include "planner/physics/mechanics/constants.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
 
 namespace capstan::mechanics {
 namespace {

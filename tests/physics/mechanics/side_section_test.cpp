@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "planner/physics/mechanics/force/immersion.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
 
 namespace capstan::mechanics {
 namespace {

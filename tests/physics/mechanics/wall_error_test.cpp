@@ -8,7 +8,8 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/constants.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
+#include "tests/support/mechanics/wall_error.h"
 
 namespace capstan::mechanics {
 namespace {

@@ -16,7 +16,7 @@
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/force/kienzle.h"
 #include "planner/physics/mechanics/loads/side_section.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
 #include "tests/validation/studies.h"
 #include "tooling/shop/material/material.h"
 

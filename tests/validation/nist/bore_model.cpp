@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "planner/physics/mechanics/bending/beam.h"
-#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/stability.h"
 #include "planner/physics/motion/time.h"
+#include "tests/support/mechanics/wall_error.h"
 
 namespace capstan::validation::nist {
 namespace {

@@ -16,6 +16,7 @@ namespace {
 
 using model::Cutter;
 using model::generic_holder;
+using model::stated_holder;
 
 const ShopHolder* find_holder(const std::vector<ShopHolder>& all, std::string_view id) {
   const auto at = std::find_if(all.begin(), all.end(), [&](const ShopHolder& h) { return h.id == id; });
@@ -128,7 +129,7 @@ const ShopHolder* give_holder(Cutter& c, const ShopHolders& holders) {
   if (outlined) return nullptr;
   const ShopHolder* h = find_holder(holders.all, c.holder_id);
   const bool stated = c.holder.empty() && c.holder_diameter_mm > 0.0 && !assumed(c, "holder_diameter_mm");
-  if (h == nullptr && (stated || !(c.holder_id.empty() || generic_holder(c.holder_id)))) return nullptr;
+  if (h == nullptr && (stated || !stated_holder(c).empty())) return nullptr;
   for (std::size_t i = 0; h == nullptr && i < holders.by_default.size(); ++i) {
     const ShopHolder* one = find_holder(holders.all, holders.by_default[i]);
     if (one != nullptr && takes(*one, c.shank_diameter_mm)) h = one;
@@ -157,7 +158,7 @@ void give_holders(std::vector<Cutter>& library, const ShopHolders& holders, Job&
   std::map<std::string, std::size_t> given;
   std::size_t too_thick = 0;
   for (Cutter& c : library) {
-    const bool without = c.holder_id.empty() || generic_holder(c.holder_id);
+    const bool without = stated_holder(c).empty();
     if (const ShopHolder* h = give_holder(c, holders)) {
       ++given[h->id];
     } else if (without && assumed(c, "holder_diameter_mm")) {

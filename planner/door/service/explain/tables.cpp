@@ -76,9 +76,7 @@ std::string tools_text(const Plan& plan) {
   if (plan.cutters.empty()) return {};
   Rows rows = {{"T", "tool", "kind", "made of", "D mm", "R mm", "teeth", "flutes mm", "stick-out mm",
                 "length mm", "least Z", "edge used, of its life"}};
-  const auto held = [](const model::Cutter& c) {
-    return !c.holder_id.empty() && !model::generic_holder(c.holder_id);
-  };
+  const auto held = [](const model::Cutter& c) { return !model::stated_holder(c).empty(); };
   const bool named = std::any_of(plan.cutters.begin(), plan.cutters.end(), held);
   if (named) rows.front().emplace_back("holder");
   for (const model::Cutter& c : plan.cutters) {

@@ -10,8 +10,10 @@
 // A shadow is the union of the triangles that look up. All turn the same way in plan, so that a side of one
 // and the same side of its neighbour, run through the other way, cancel: what is left bounds loops that go
 // round each place as often as the triangles cover it. Regions unite only these. Thousands of triangles at
-// once took them nearly all of the time of a large part. Source  derived: winding numbers add up over closed
-// loops, and sides that are run through both ways add nothing.
+// once took them nearly all of the time of a large part.
+//
+// Source  derived: winding numbers add up over closed loops, and sides that are run through both ways add
+// nothing.
 
 namespace capstan::from_cad {
 namespace {
@@ -54,29 +56,25 @@ struct TriangleSide {
 };
 
 bool before(Vec2 a, Vec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
-bool same(Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; }
+
+/// A side whichever way it is run through.
+struct EitherWay {
+  Vec2 low, high;
+  std::ptrdiff_t up = 0;  ///< how often from low to high, less how often back
+};
 
 /// Without those that are run through both ways.
-std::vector<TriangleSide> not_cancelled(std::vector<TriangleSide> sides) {
-  const auto low = [](const TriangleSide& s) { return before(s.to, s.from) ? s.to : s.from; };
-  const auto high = [](const TriangleSide& s) { return before(s.to, s.from) ? s.from : s.to; };
-  std::sort(sides.begin(), sides.end(), [&](const TriangleSide& a, const TriangleSide& b) {
-    const Vec2 al = low(a), bl = low(b), ah = high(a), bh = high(b);
-    return std::tie(al.x, al.y, ah.x, ah.y, a.from.x, a.from.y) <
-           std::tie(bl.x, bl.y, bh.x, bh.y, b.from.x, b.from.y);
+std::vector<TriangleSide> not_cancelled(std::vector<EitherWay> sides) {
+  std::sort(sides.begin(), sides.end(), [](const EitherWay& a, const EitherWay& b) {
+    return std::tie(a.low.x, a.low.y, a.high.x, a.high.y) < std::tie(b.low.x, b.low.y, b.high.x, b.high.y);
   });
   std::vector<TriangleSide> out;
   for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i;
-    std::ptrdiff_t up = 0;  // more of them from the low end than to it
-    for (;
-         end < sides.size() && same(low(sides[end]), low(sides[i])) && same(high(sides[end]), high(sides[i]));
-         ++end)
-      up += same(sides[end].from, low(sides[end])) ? 1 : -1;
-    const TriangleSide one =
-        up > 0 ? TriangleSide{low(sides[i]), high(sides[i])} : TriangleSide{high(sides[i]), low(sides[i])};
-    out.insert(out.end(), static_cast<std::size_t>(std::abs(up)), one);
-    i = end;
+    const auto [low, high, none] = sides[i];
+    std::ptrdiff_t up = 0;
+    for (; i < sides.size() && sides[i].low == low && sides[i].high == high; ++i) up += sides[i].up;
+    out.insert(out.end(), static_cast<std::size_t>(std::abs(up)),
+               up > 0 ? TriangleSide{low, high} : TriangleSide{high, low});
   }
   return out;
 }
@@ -93,7 +91,7 @@ std::vector<Loop> chained(std::vector<TriangleSide> sides) {
         std::lower_bound(sides.begin(), sides.end(), p,
                          [](const TriangleSide& s, Vec2 at) { return before(s.from, at); }) -
         sides.begin());
-    while (i < sides.size() && same(sides[i].from, p) && taken[i]) ++i;
+    while (taken[i]) ++i;
     return i;
   };
   std::vector<Loop> out;
@@ -103,7 +101,7 @@ std::vector<Loop> chained(std::vector<TriangleSide> sides) {
     for (std::size_t i = first;;) {
       taken[i] = true;
       loop.push_back(sides[i].from);
-      if (same(sides[i].to, sides[first].from)) break;
+      if (sides[i].to == sides[first].from) break;
       i = next_from(sides[i].to);
     }
     out.push_back(std::move(loop));
@@ -177,7 +175,7 @@ double turn(Vec2 centre, Vec2 a, Vec2 b) {
 
 Region shadow_above(const geometry::Mesh& mesh, const std::vector<bool>& leave_out,
                     const geometry::Placement& frame, double height_mm) {
-  std::vector<TriangleSide> sides;
+  std::vector<EitherWay> sides;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!leave_out.empty() && leave_out[i]) continue;
     std::array<Vec3, 3> t;
@@ -187,8 +185,9 @@ Region shadow_above(const geometry::Mesh& mesh, const std::vector<bool>& leave_o
     const Loop loop = clipped(t, height_mm);
     if (loop.size() < 3 || !(geometry::signed_area(loop) > 0.5 * kNoAreaMm2)) continue;
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const TriangleSide side{loop[k], loop[(k + 1) % loop.size()]};
-      if (!same(side.from, side.to)) sides.push_back(side);
+      const Vec2 from = loop[k], to = loop[(k + 1) % loop.size()];
+      if (from == to) continue;
+      sides.push_back(before(from, to) ? EitherWay{from, to, 1} : EitherWay{to, from, -1});
     }
   }
   const std::vector<Loop> loops = chained(not_cancelled(std::move(sides)));

@@ -9,6 +9,7 @@
 
 #include "planner/ground/vocabulary/limit.h"
 #include "planner/making/optimise/cut.h"
+#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/loads/section.h"
 #include "planner/physics/mechanics/spindle.h"
@@ -80,8 +81,11 @@ class MillingLoads {
   mechanics::Tooth tooth_;
   mechanics::ForceLaw law_;
   double margin_ = 1.0;
-  double ap_mm_ = -1.0, ae_mm_ = -1.0;                             ///< of the sections that are ready
+  std::optional<mechanics::ToolBeam> beam_;  ///< nothing: the cutter has no diameter
+  double compliance_mm_n_ = 0.0;
+  double ap_mm_ = -1.0, ae_mm_ = -1.0;                             ///< of what is ready
   std::array<std::optional<mechanics::SectionAtFeeds>, 2> ready_;  ///< up, down
+  std::array<std::optional<mechanics::WallAtFeeds>, 2> walls_;     ///< the same, where an error is limited
 };
 
 /// The margin of the question's forces: of a milling cut, and of drills, reamers and taps.

@@ -8,7 +8,6 @@
 #include "planner/making/optimise/cut/law/law.h"
 #include "planner/making/optimise/cut/limits.h"
 #include "planner/physics/mechanics/bending/beam.h"
-#include "planner/physics/mechanics/bending/wall_error.h"
 #include "planner/physics/mechanics/constants.h"
 #include "planner/physics/mechanics/force/force_law.h"
 #include "planner/physics/mechanics/loads/section.h"
@@ -26,24 +25,6 @@ double surface_rz(const CutQuestion& q, double fz_mm) {
   const double wall = mechanics::wall_rz_mm(fz_mm, q.cutter.cutting_diameter_mm);
   const double corner = q.cutter.corner_radius_mm;
   return corner > 0.0 ? std::max(wall, mechanics::floor_rz_mm(fz_mm, corner)) : wall;
-}
-
-/// Error of the wall from bending of the tool over this arc, mm; nothing if it cannot be computed.
-std::optional<double> wall_error(const CutQuestion& q, const mechanics::Section& section,
-                                 const mechanics::Tooth& tooth, const mechanics::ForceLaw& law, double fz_mm,
-                                 mechanics::WallSide side) {
-  const auto beam = mechanics::beam_of(q.cutter);
-  if (!beam) return std::nullopt;
-  const auto error = mechanics::wall_error(section, tooth, law, fz_mm, side, *beam);
-  if (!error) return std::nullopt;
-  return error->largest_mm();
-}
-
-/// How far the tip gives way by force, mm/N.
-std::optional<double> compliance_of(const CutQuestion& q) {
-  const auto beam = mechanics::beam_of(q.cutter);
-  if (!beam) return std::nullopt;
-  return mechanics::bending_mm_n(*beam, force_height_mm(q.cutter), 0.0);
 }
 
 }  // namespace
@@ -85,7 +66,12 @@ MillingLoads::MillingLoads(const CutQuestion& q)
     : q_(q),
       tooth_(mechanics::tooth_of(q.cutter)),
       law_(mechanics::force_law(q.material, q.cutter)),
-      margin_(margin_of(q).factor()) {}
+      margin_(margin_of(q).factor()) {
+  auto beam = mechanics::beam_of(q.cutter);
+  if (!beam) return;
+  beam_ = *std::move(beam);
+  compliance_mm_n_ = mechanics::bending_mm_n(*beam_, force_height_mm(q.cutter), 0.0);
+}
 
 std::optional<model::StepLoads> MillingLoads::at(double ap_mm, double ae_mm, double n_rpm, double fz_mm) {
   tick();
@@ -93,15 +79,18 @@ std::optional<model::StepLoads> MillingLoads::at(double ap_mm, double ae_mm, dou
   const mechanics::Tooth& tooth = tooth_;
   const mechanics::ForceLaw& law = law_;
   const double margin = margin_;
-  const auto compliance = compliance_of(q);
-  if (!compliance || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
-  if (ap_mm != ap_mm_ || ae_mm != ae_mm_) ready_ = {};
+  if (!beam_ || !(ae_mm > 0.0) || !(ap_mm > 0.0)) return std::nullopt;
+  if (ap_mm != ap_mm_ || ae_mm != ae_mm_) {
+    ready_ = {};
+    walls_ = {};
+  }
   ap_mm_ = ap_mm;
   ae_mm_ = ae_mm;
   model::StepLoads out;
   for (const auto direction : {mechanics::CutDirection::kUp, mechanics::CutDirection::kDown}) {
     const bool is_up = direction == mechanics::CutDirection::kUp;
-    auto& ready = ready_[is_up ? 0 : 1];
+    const std::size_t way = is_up ? 0 : 1;
+    auto& ready = ready_[way];
     if (!ready) {
       auto made =
           mechanics::SectionAtFeeds::of(mechanics::side_section(ap_mm, ae_mm, tooth, direction), tooth, law);
@@ -121,17 +110,24 @@ std::optional<model::StepLoads> MillingLoads::at(double ap_mm, double ae_mm, dou
     out.power_w = std::max(out.power_w, power);
     out.chip_thickness_mm = std::max(out.chip_thickness_mm, l->h_max_mm);
     if (q.wall_error_limit_mm > 0.0) {
-      // The wall stands at the full radius, where the flank makes it.
-      const mechanics::Section flank{
-          .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
-      const auto error = wall_error(q, flank, tooth, law, fz_mm,
-                                    is_up ? mechanics::WallSide::kLeft : mechanics::WallSide::kRight);
-      if (!error) return std::nullopt;
-      if (std::abs(*error * margin) > std::abs(out.wall_error_mm)) out.wall_error_mm = *error * margin;
+      auto& wall = walls_[way];
+      if (!wall) {
+        // The wall stands at the full radius, where the flank makes it.
+        const mechanics::Section flank{
+            .ap_mm = ap_mm, .arc = mechanics::immersion_arc(ae_mm, tooth.cutting_diameter_mm, direction)};
+        auto made = mechanics::WallAtFeeds::of(
+            flank, tooth, law, is_up ? mechanics::WallSide::kLeft : mechanics::WallSide::kRight, *beam_);
+        if (!made) return std::nullopt;
+        wall = *std::move(made);
+      }
+      const auto at_feed = wall->at(fz_mm);
+      if (!at_feed) return std::nullopt;
+      const double error_mm = at_feed->largest_mm() * margin;
+      if (std::abs(error_mm) > std::abs(out.wall_error_mm)) out.wall_error_mm = error_mm;
     }
   }
   out.force_margin = margin;
-  out.deflection_mm = out.peak_force_n * *compliance;
+  out.deflection_mm = out.peak_force_n * compliance_mm_n_;
   out.mrr_mm3_min = ap_mm * ae_mm * fz_mm * tooth.teeth * n_rpm;
   out.surface_rz_mm = surface_rz(q, fz_mm);
   return out;

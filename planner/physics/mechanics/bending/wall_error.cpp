@@ -157,12 +157,4 @@ Result<WallError> WallAtFeeds::at(double fz_mm) const {
   return out;
 }
 
-Result<WallError> wall_error(const Section& section, const Tooth& tooth, const ForceLaw& law, double fz_mm,
-                             WallSide side, const ToolBeam& beam) {
-  if (auto ok = check_positive({{"fz_mm", fz_mm}}); !ok) return fail(ok.error());
-  const auto wall = WallAtFeeds::of(section, tooth, law, side, beam);
-  if (!wall) return fail(wall.error());
-  return wall->at(fz_mm);
-}
-
 }  // namespace capstan::mechanics

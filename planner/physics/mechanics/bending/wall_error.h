@@ -30,20 +30,17 @@ enum class WallSide { kLeft, kRight };
 ///
 /// The section must reach that side (arc from 0, or to pi); the forces are those of section.h's model at the
 /// nominal chip, without runout. Flanks only: heights of a corner radius or a ball count as their own radius.
-/// Fails     MECH-DOMAIN as SectionAtFeeds, or when the arc does not reach the wall.
 /// Accuracy  six Gauss points on each tooth's part in the arc: within 1 % of the integral. Of the model: the
 /// force's
 ///           uncertainty (force_law.h) times the beam's.
 /// Source    Kline, DeVor & Shareef 1982 ("The prediction of surface accuracy in end milling", J. Eng. Ind.
 /// 104)
 ///           for the principle; integrals derived.
-[[nodiscard]] Result<WallError> wall_error(const Section& section, const Tooth& tooth, const ForceLaw& law,
-                                           double fz_mm, WallSide side, const ToolBeam& beam);
-
-/// The same at many feeds: what does not depend on the feed is integrated once.
+///
+/// What does not depend on the feed is integrated once: an error at another feed costs a power.
 class WallAtFeeds {
  public:
-  /// Fails     MECH-DOMAIN as wall_error, but for the feed.
+  /// Fails     MECH-DOMAIN as SectionAtFeeds, or when the arc does not reach the wall.
   [[nodiscard]] static Result<WallAtFeeds> of(const Section& section, const Tooth& tooth, const ForceLaw& law,
                                               WallSide side, const ToolBeam& beam);
   /// Fails     MECH-DOMAIN unless the feed per tooth is positive.

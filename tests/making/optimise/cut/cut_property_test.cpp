@@ -19,7 +19,7 @@
 #include "planner/physics/mechanics/loads/side_section.h"
 #include "planner/physics/mechanics/spindle.h"
 #include "tests/making/optimise/cut/questions.h"
-#include "tests/support/section_loads.h"
+#include "tests/support/mechanics/section_loads.h"
 
 namespace capstan::optimise {
 namespace {
